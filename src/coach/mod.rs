@@ -1,0 +1,1 @@
+//! Recommendations: the policy's shot, checked by simulation, then search.

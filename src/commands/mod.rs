@@ -1,0 +1,46 @@
+//! The command line, one file a subcommand.
+
+mod evaluate;
+mod failure;
+mod recommend;
+mod simulate;
+mod train;
+
+use clap::{Parser, Subcommand};
+
+pub use failure::Failure;
+
+/// A terminal coach for carom billiards.
+#[derive(Debug, Parser)]
+#[command(version, about, long_about = None)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Table of the terminal program: "match", "thesis" or the path of a TOML file.
+    #[arg(long, default_value = "match")]
+    table: String,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Simulate(simulate::Args),
+    Recommend(recommend::Args),
+    Train(train::Args),
+    Evaluate(evaluate::Args),
+}
+
+impl Cli {
+    /// Does what the command line asks for.
+    ///
+    /// # Errors
+    /// A [`Failure`] with its sentence and exit code.
+    pub fn run(self) -> Result<(), Failure> {
+        match self.command {
+            None => Ok(()),
+            Some(Command::Simulate(args)) => simulate::run(&args),
+            Some(Command::Recommend(args)) => recommend::run(&args),
+            Some(Command::Train(args)) => train::run(&args),
+            Some(Command::Evaluate(args)) => evaluate::run(&args),
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! What counts: rules, difficulty and the thesis' rewards.

@@ -1,0 +1,1 @@
+//! Agents: environment, replay buffer, networks, DDPG, trainer.

@@ -1,0 +1,15 @@
+//! `carom` is a terminal coach for carom billiards: it shows the table, recommends how to strike and plays the shot.
+//!
+//! The rooms, from the ground up; each may use those above it, never those below: [`table`] what is played on,
+//! [`storage`] files, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents,
+//! [`coach`] recommendations, [`terminal`] screens, [`commands`] the command line.
+
+pub mod coach;
+pub mod commands;
+pub mod game;
+pub mod learning;
+pub mod physics;
+pub mod simulation;
+pub mod storage;
+pub mod table;
+pub mod terminal;

@@ -1,0 +1,20 @@
+//! The program: parses the command line, runs it, and turns failures into a sentence and an exit code.
+
+use std::process::ExitCode;
+
+use carom::commands::Cli;
+use clap::Parser;
+
+// A quarter of a small network's update is malloc and free; mimalloc alone makes training 1.3 to 3 times faster.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+fn main() -> ExitCode {
+    match Cli::parse().run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("carom: {failure}");
+            ExitCode::from(failure.code())
+        }
+    }
+}

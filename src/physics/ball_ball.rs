@@ -1,0 +1,47 @@
+//! Collision of two balls (thesis 2.2.2).
+
+use glam::{DVec2, DVec3};
+
+use super::BallState;
+
+/// Velocities and spins after a collision; `restitution` 0 to 1, `friction` the coefficient or `None` for a contact that
+/// never slips. Returns the normal impulse per mass `P/m`, m/s, which is zero or less for balls that do not approach.
+///
+/// Equations (17) to (21), with equal and opposite impulses and Coulomb's law up to the no-slip limit 1/7.
+pub fn collide_balls(
+    radius: f64,
+    restitution: f64,
+    friction: Option<f64>,
+    first: &mut BallState,
+    second: &mut BallState,
+) -> f64 {
+    let n = (first.position - second.position).normalize();
+    let approach = (second.velocity - first.velocity).dot(n);
+    let normal = 0.5 * (1.0 + restitution) * approach;
+    if normal <= 0.0 {
+        return normal;
+    }
+    let t = n.perp();
+    let spin = first.spin + second.spin;
+    // The contact's slip (21) along t and z; n×w has the components (-w_z, w·t) there.
+    let slip_t = (first.velocity - second.velocity).dot(t) - radius * spin.z;
+    let slip_z = radius * (spin.x * t.x + spin.y * t.y);
+    let slip = slip_t.hypot(slip_z);
+    let factor = match friction {
+        Some(mu) if 7.0 * mu * normal < slip => mu * normal / slip,
+        _ => 1.0 / 7.0,
+    };
+    let change = normal * n - factor * slip_t * t;
+    first.velocity += change;
+    second.velocity -= change;
+    let twist = contact_twist(radius, factor * slip_t, factor * slip_z, t);
+    first.spin += twist;
+    second.spin += twist;
+    normal
+}
+
+/// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.
+pub(super) fn contact_twist(radius: f64, along: f64, up: f64, t: DVec2) -> DVec3 {
+    let lever = 2.5 / radius;
+    (lever * DVec2::new(-up * t.x, -up * t.y)).extend(lever * along)
+}

@@ -1,0 +1,124 @@
+//! What can happen during a shot, and the observer that is told of it.
+
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+use serde::{Serialize, Serializer, ser::SerializeStruct};
+
+/// One of the four cushions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Rail {
+    /// The short cushion at `-L/2`.
+    Left,
+    /// The short cushion at `+L/2`.
+    Right,
+    /// The long cushion at `-l/2`.
+    Bottom,
+    /// The long cushion at `+l/2`.
+    Top,
+}
+
+impl Rail {
+    /// All four, in a fixed order.
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
+
+    /// Unit vector from the cushion into the table.
+    pub const fn normal(self) -> DVec2 {
+        match self {
+            Self::Left => DVec2::X,
+            Self::Right => DVec2::NEG_X,
+            Self::Bottom => DVec2::Y,
+            Self::Top => DVec2::NEG_Y,
+        }
+    }
+}
+
+/// What happens at one moment of a shot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// Two balls collide; the lower index comes first.
+    BallBall(usize, usize),
+    /// A ball hits a cushion.
+    BallRail(usize, Rail),
+    /// A ball stops slipping and rolls.
+    SlidingRolling(usize),
+    /// A ball comes to rest.
+    RollingStationary(usize),
+    /// A ball begins to rest against a cushion or another ball.
+    ContactBegins(usize),
+    /// A ball is free again.
+    ContactEnds(usize),
+}
+
+impl EventKind {
+    /// The name used in JSON and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::BallBall(..) => "ball-ball",
+            Self::BallRail(..) => "ball-rail",
+            Self::SlidingRolling(_) => "sliding-rolling",
+            Self::RollingStationary(_) => "rolling-stationary",
+            Self::ContactBegins(_) => "contact-begins",
+            Self::ContactEnds(_) => "contact-ends",
+        }
+    }
+
+    /// The balls that take part, the second only in a collision of two.
+    pub const fn balls(self) -> (usize, Option<usize>) {
+        match self {
+            Self::BallBall(first, second) => (first, Some(second)),
+            Self::BallRail(ball, _)
+            | Self::SlidingRolling(ball)
+            | Self::RollingStationary(ball)
+            | Self::ContactBegins(ball)
+            | Self::ContactEnds(ball) => (ball, None),
+        }
+    }
+
+    /// The cushion that takes part.
+    pub const fn rail(self) -> Option<Rail> {
+        match self {
+            Self::BallRail(_, rail) => Some(rail),
+            _ => None,
+        }
+    }
+}
+
+/// An event and its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Seconds since the stroke.
+    pub time: f64,
+    /// What happens.
+    pub kind: EventKind,
+}
+
+impl Serialize for Event {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rail = self.kind.rail();
+        let mut out = serializer.serialize_struct("Event", 3 + usize::from(rail.is_some()))?;
+        out.serialize_field("t", &self.time)?;
+        out.serialize_field("kind", self.kind.name())?;
+        match self.kind.balls() {
+            (first, Some(second)) => out.serialize_field("balls", &[first, second])?,
+            (ball, None) => out.serialize_field("balls", &[ball])?,
+        }
+        if let Some(rail) = rail {
+            out.serialize_field("rail", &rail)?;
+        }
+        out.end()
+    }
+}
+
+/// What a scene wants to know of a shot; the engine computes nothing else.
+pub trait Observer {
+    /// Whether [`Observer::segment`] wants to be called.
+    const SEGMENTS: bool = false;
+
+    /// An event has happened. `Break` ends the simulation: the outcome is decided.
+    fn event(&mut self, event: Event) -> ControlFlow<()>;
+
+    /// A ball has moved along `segment` until time `end`, s. Called only where [`Observer::SEGMENTS`] is set.
+    fn segment(&mut self, _ball: usize, _segment: &super::Segment, _end: f64) {}
+}

@@ -1,0 +1,23 @@
+//! The folders of this user, as the platform wants them.
+
+use std::path::PathBuf;
+
+use directories::ProjectDirs;
+
+/// Where the program keeps what it writes.
+#[derive(Clone, Debug)]
+pub struct Places {
+    /// Training runs, one folder each.
+    pub runs: PathBuf,
+    /// The user's tables as TOML files.
+    pub tables: PathBuf,
+}
+
+impl Places {
+    /// The folders under the platform's data directory; where the user has no home, under the working directory.
+    pub fn of_this_user() -> Self {
+        let data = ProjectDirs::from("", "", "carom")
+            .map_or_else(|| PathBuf::from("carom-data"), |dirs| dirs.data_dir().to_owned());
+        Self { runs: data.join("runs"), tables: data.join("tables") }
+    }
+}

@@ -1,0 +1,190 @@
+//! Where the three balls lie, and which layouts are possible.
+
+use glam::DVec2;
+use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
+
+use super::Table;
+
+/// Number of balls in carom billiards.
+pub const BALLS: usize = 3;
+
+/// How far balls may overlap each other or a cushion in a layout that is accepted, m. A touching ball written with the
+/// digits of a JSON file is off by rounding; 1e-9 m is far below what can be seen or measured.
+pub const TOUCHING_TOLERANCE: f64 = 1e-9;
+
+/// Positions of the three balls' centres in metres, origin at the table's centre. Ball 0 is the cue ball.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Layout {
+    /// Centres of the cue ball and the two object balls, m.
+    pub balls: [DVec2; BALLS],
+}
+
+/// Why a layout cannot be played.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum LayoutError {
+    /// A coordinate is NaN or infinite.
+    #[error("ball {ball} is at ({x}, {y}); both coordinates must be finite numbers of metres")]
+    NotFinite {
+        /// Index of the ball.
+        ball: usize,
+        /// Its x, m.
+        x: f64,
+        /// Its y, m.
+        y: f64,
+    },
+    /// A ball is not on the table.
+    #[error(
+        "ball {ball} at ({x:.4}, {y:.4}) m is outside the table; accepted are |x| <= {max_x:.4} and |y| <= {max_y:.4}"
+    )]
+    Outside {
+        /// Index of the ball.
+        ball: usize,
+        /// Its x, m.
+        x: f64,
+        /// Its y, m.
+        y: f64,
+        /// Largest |x|, m.
+        max_x: f64,
+        /// Largest |y|, m.
+        max_y: f64,
+    },
+    /// Two balls overlap.
+    #[error("balls {first} and {second} are {distance:.4} m apart; at least {least:.4} m is needed")]
+    Overlap {
+        /// Index of one ball.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// Distance of their centres, m.
+        distance: f64,
+        /// Two ball radii, m.
+        least: f64,
+    },
+    /// The text is not three positions.
+    #[error(
+        "\"{0}\" is not a layout; write three positions like \"-0.71,0 0.71,0 -0.71,0.1825\" in metres, or in diamonds \
+         from the lower left corner like \"2d,2d 6d,2d 2d,2.5d\""
+    )]
+    Text(String),
+}
+
+impl Layout {
+    /// A layout from three centres in metres. It is not checked: see [`Layout::validate`].
+    pub const fn new(balls: [DVec2; BALLS]) -> Self {
+        Self { balls }
+    }
+
+    /// The opening position (thesis Figure 8): white on the near spot, yellow `d` beside it, red on the far spot. Ball
+    /// 0 is white, ball 1 yellow, ball 2 red.
+    pub fn opening(table: &Table) -> Self {
+        let spot = 0.25 * table.length;
+        Self::new([DVec2::new(-spot, 0.0), DVec2::new(-spot, table.opening_offset), DVec2::new(spot, 0.0)])
+    }
+
+    /// A layout drawn uniformly from all that are possible on `table`.
+    pub fn random(table: &Table, rng: &mut (impl Rng + ?Sized)) -> Self {
+        let reach = table.reach();
+        loop {
+            let layout = Self::new(std::array::from_fn(|_| {
+                DVec2::new(rng.random_range(-reach.x..=reach.x), rng.random_range(-reach.y..=reach.y))
+            }));
+            if layout.validate(table).is_ok() {
+                return layout;
+            }
+        }
+    }
+
+    /// Checks that all balls lie on the table and none overlap, by more than [`TOUCHING_TOLERANCE`].
+    ///
+    /// # Errors
+    /// The first problem found.
+    pub fn validate(&self, table: &Table) -> Result<(), LayoutError> {
+        for (ball, centre) in self.balls.iter().enumerate() {
+            let (x, y) = (centre.x, centre.y);
+            if !centre.is_finite() {
+                return Err(LayoutError::NotFinite { ball, x, y });
+            }
+            let (max_x, max_y) = (table.half_length(), table.half_width());
+            if x.abs() > max_x + TOUCHING_TOLERANCE || y.abs() > max_y + TOUCHING_TOLERANCE {
+                return Err(LayoutError::Outside { ball, x, y, max_x, max_y });
+            }
+        }
+        for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+            let distance = self.balls[first].distance(self.balls[second]);
+            let least = 2.0 * table.radius;
+            if distance < least - TOUCHING_TOLERANCE {
+                return Err(LayoutError::Overlap { first, second, distance, least });
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads `"x,y x,y x,y"` in metres, or in diamonds where a number ends in `d`: those count from the lower left
+    /// corner of the playing area, 8 along the length and 4 along the width.
+    ///
+    /// # Errors
+    /// [`LayoutError::Text`]; the positions are not checked against the table.
+    pub fn parse(text: &str, table: &Table) -> Result<Self, LayoutError> {
+        let refuse = || LayoutError::Text(text.to_owned());
+        let coordinate = |part: &str, half_extent: f64| match part.strip_suffix('d') {
+            Some(diamonds) => diamonds.parse::<f64>().map(|n| n * table.diamond() - half_extent),
+            None => part.parse::<f64>(),
+        };
+        let mut balls = [DVec2::ZERO; BALLS];
+        let mut words = text.split_whitespace();
+        for ball in &mut balls {
+            let (x, y) = words.next().and_then(|word| word.split_once(',')).ok_or_else(refuse)?;
+            ball.x = coordinate(x, 0.5 * table.length).map_err(|_| refuse())?;
+            ball.y = coordinate(y, 0.5 * table.width).map_err(|_| refuse())?;
+        }
+        if words.next().is_some() { Err(refuse()) } else { Ok(Self::new(balls)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn the_opening_position_is_possible_on_every_preset() {
+        for name in crate::table::PRESETS {
+            let table = Table::preset(name).unwrap();
+            Layout::opening(&table).validate(&table).unwrap();
+        }
+    }
+
+    #[test]
+    fn random_layouts_are_possible() {
+        let table = Table::default();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+        for _ in 0..1000 {
+            Layout::random(&table, &mut rng).validate(&table).unwrap();
+        }
+    }
+
+    #[test]
+    fn metres_and_diamonds_mean_the_same_place() {
+        let table = Table::default();
+        let metres = Layout::parse("-0.71,0 0.71,0 -0.71,0.355", &table).unwrap();
+        let diamonds = Layout::parse("2d,2d 6d,2d 2d,3d", &table).unwrap();
+        for (m, d) in metres.balls.iter().zip(diamonds.balls) {
+            assert!(m.distance(d) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn broken_text_and_impossible_places_name_the_value() {
+        let table = Table::default();
+        for text in ["", "0,0", "0,0 1,0 0;1", "0,0 1,0 0,0.5 0,0.6", "a,0 1,0 0,0.5"] {
+            assert_eq!(Layout::parse(text, &table), Err(LayoutError::Text(text.to_owned())));
+        }
+        let check = |text: &str| Layout::parse(text, &table).unwrap().validate(&table).unwrap_err().to_string();
+        assert!(check("NaN,0 1,0 0,0.5").contains("NaN"));
+        assert!(check("9,0 1,0 0,0.5").contains("9.0000"));
+        assert!(check("0,0 0.05,0 0,0.5").contains("0.0500"));
+    }
+}

@@ -1,0 +1,7 @@
+//! What is played on: the table's parameters and the layout of its three balls.
+
+mod layout;
+mod parameters;
+
+pub use layout::{BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
+pub use parameters::{PRESETS, Table, TableError};

@@ -1,0 +1,213 @@
+//! The table as data: geometry, balls, cloth, cushions and cue, read from TOML.
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+/// Names of the bundled tables, the default first.
+pub const PRESETS: [&str; 2] = ["match", "thesis"];
+
+const MATCH: &str = include_str!("match.toml");
+const THESIS: &str = include_str!("thesis.toml");
+
+/// A table with its balls, cloth, cushions and cue, in SI units.
+///
+/// The TOML keys are the letters of the thesis (its Table 1); `mu_b` may be left out, which means that a ball-ball
+/// contact never slips (thesis equation 17).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    /// The name that `--table` and the JSON field `preset` take.
+    pub name: String,
+    /// Length `L` of the playing area along x, between the cushion noses, m.
+    #[serde(rename = "L")]
+    pub length: f64,
+    /// Width `l` of the playing area along y, m.
+    #[serde(rename = "l")]
+    pub width: f64,
+    /// Ball radius `R`, m.
+    #[serde(rename = "R")]
+    pub radius: f64,
+    /// Ball mass `m`, kg.
+    #[serde(rename = "m")]
+    pub ball_mass: f64,
+    /// Cue mass `M`, kg.
+    #[serde(rename = "M")]
+    pub cue_mass: f64,
+    /// Coefficient of sliding friction between ball and cloth.
+    #[serde(rename = "mu_s")]
+    pub sliding_friction: f64,
+    /// Coefficient of rolling friction, as it stands in thesis equation (6) with its factor 5/7.
+    #[serde(rename = "mu_r")]
+    pub rolling_friction: f64,
+    /// Coefficient of spinning friction (thesis equation 8).
+    #[serde(rename = "mu_sp")]
+    pub spinning_friction: f64,
+    /// Coefficient of restitution between two balls, 0 to 1.
+    #[serde(rename = "e_ball")]
+    pub ball_restitution: f64,
+    /// Coefficient of friction between two balls; `None` means that the contact never slips (thesis equation 17).
+    #[serde(rename = "mu_b", default, skip_serializing_if = "Option::is_none")]
+    pub ball_friction: Option<f64>,
+    /// Coefficient of restitution between ball and cushion, 0 to 1.
+    #[serde(rename = "e_rail")]
+    pub rail_restitution: f64,
+    /// Coefficient of friction between ball and cushion.
+    #[serde(rename = "mu_rail")]
+    pub rail_friction: f64,
+    /// Gravitational acceleration, m/s².
+    #[serde(rename = "g")]
+    pub gravity: f64,
+    /// Largest `a² + b²` (in units of R²) at which the tip does not slip off the ball.
+    pub miscue_limit: f64,
+    /// Distance `d` of the yellow ball beside the white one in the opening position, m.
+    #[serde(rename = "d")]
+    pub opening_offset: f64,
+}
+
+/// Why a table cannot be used.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum TableError {
+    /// Neither a preset nor a file.
+    #[error("there is no table \"{0}\"; use \"match\", \"thesis\" or the path of a TOML file")]
+    Unknown(String),
+    /// The TOML text does not describe a table.
+    #[error("the table file is not valid: {0}")]
+    Syntax(String),
+    /// A value is outside what the equations allow.
+    #[error("the table \"{table}\" has {key} = {value}; accepted is {accepted}")]
+    Value {
+        /// The table's name.
+        table: String,
+        /// The TOML key.
+        key: &'static str,
+        /// The refused value.
+        value: f64,
+        /// What would be accepted.
+        accepted: &'static str,
+    },
+}
+
+impl Table {
+    /// One of the bundled tables ([`PRESETS`]).
+    ///
+    /// # Errors
+    /// [`TableError::Unknown`] for any other name.
+    pub fn preset(name: &str) -> Result<Self, TableError> {
+        match name {
+            "match" => Self::from_toml(MATCH),
+            "thesis" => Self::from_toml(THESIS),
+            other => Err(TableError::Unknown(other.to_owned())),
+        }
+    }
+
+    /// Reads a table from TOML text and checks every value.
+    ///
+    /// # Errors
+    /// [`TableError::Syntax`] or [`TableError::Value`].
+    pub fn from_toml(text: &str) -> Result<Self, TableError> {
+        let table: Self = toml::from_str(text).map_err(|error| TableError::Syntax(error.message().to_owned()))?;
+        table.validated()
+    }
+
+    fn validated(self) -> Result<Self, TableError> {
+        type Check = (&'static str, f64, fn(f64) -> bool, &'static str);
+        let positive: fn(f64) -> bool = |x| x > 0.0 && x.is_finite();
+        let friction: fn(f64) -> bool = |x| (0.0..=1e3).contains(&x);
+        let restitution: fn(f64) -> bool = |x| (0.0..=1.0).contains(&x);
+        let checks: [Check; 14] = [
+            ("R", self.radius, positive, "a positive number of metres"),
+            ("m", self.ball_mass, positive, "a positive number of kilograms"),
+            ("M", self.cue_mass, positive, "a positive number of kilograms"),
+            ("g", self.gravity, positive, "a positive number of m/s²"),
+            ("L", self.length, positive, "a positive number of metres"),
+            ("l", self.width, positive, "a positive number of metres"),
+            ("mu_s", self.sliding_friction, friction, "0 to 1000"),
+            ("mu_r", self.rolling_friction, friction, "0 to 1000"),
+            ("mu_sp", self.spinning_friction, friction, "0 to 1000"),
+            ("mu_rail", self.rail_friction, friction, "0 to 1000"),
+            ("mu_b", self.ball_friction.unwrap_or(0.0), friction, "0 to 1000, or no mu_b at all for no slip"),
+            ("e_ball", self.ball_restitution, restitution, "0 to 1"),
+            ("e_rail", self.rail_restitution, restitution, "0 to 1"),
+            ("miscue_limit", self.miscue_limit, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1"),
+        ];
+        let refuse = |key, value, accepted| Err(TableError::Value { table: self.name.clone(), key, value, accepted });
+        for (key, value, accept, accepted) in checks {
+            if !accept(value) {
+                return refuse(key, value, accepted);
+            }
+        }
+        // Three balls must find room side by side, or no layout exists.
+        if self.length.min(self.width) < 6.0 * self.radius {
+            return refuse("l", self.length.min(self.width), "at least six ball radii");
+        }
+        if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
+            return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
+        }
+        Ok(self)
+    }
+
+    /// Largest |x| of a ball's centre: `L/2 - R`, m.
+    pub fn half_length(&self) -> f64 {
+        0.5 * self.length - self.radius
+    }
+
+    /// Largest |y| of a ball's centre: `l/2 - R`, m.
+    pub fn half_width(&self) -> f64 {
+        0.5 * self.width - self.radius
+    }
+
+    /// Corner of the rectangle that ball centres may reach, m.
+    pub fn reach(&self) -> DVec2 {
+        DVec2::new(self.half_length(), self.half_width())
+    }
+
+    /// Distance between two neighbouring sights ("diamonds"), one eighth of the length, m.
+    pub fn diamond(&self) -> f64 {
+        self.length / 8.0
+    }
+}
+
+impl Default for Table {
+    /// The `match` table: the one a player stands at.
+    fn default() -> Self {
+        Self::preset("match").expect("the bundled match table is valid: a test reads it")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_reads_and_carries_its_name() {
+        for name in PRESETS {
+            assert_eq!(Table::preset(name).unwrap().name, name);
+        }
+    }
+
+    #[test]
+    fn an_unknown_table_names_what_would_be_accepted() {
+        let message = Table::preset("snooker").unwrap_err().to_string();
+        assert!(message.contains("snooker") && message.contains("match") && message.contains("thesis"));
+    }
+
+    #[test]
+    fn a_restitution_above_one_is_refused_by_name_and_value() {
+        let text = MATCH.replace("e_rail = 0.85", "e_rail = 1.5");
+        let message = Table::from_toml(&text).unwrap_err().to_string();
+        assert!(message.contains("e_rail = 1.5") && message.contains("0 to 1"), "{message}");
+    }
+
+    #[test]
+    fn not_a_number_is_refused() {
+        let text = MATCH.replace("mu_s = 0.2", "mu_s = nan");
+        assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_s", .. })));
+    }
+
+    #[test]
+    fn the_toml_form_survives_a_round_trip() {
+        let table = Table::preset("thesis").unwrap();
+        let text = toml::to_string(&table).unwrap();
+        assert_eq!(Table::from_toml(&text).unwrap(), table);
+    }
+}
