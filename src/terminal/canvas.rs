@@ -1,0 +1,157 @@
+//! A grid of sub-pixels that becomes block characters: two colours a cell, as sextants or half blocks.
+
+use ratatui::{buffer::Buffer, layout::Rect, style::Color, symbols::pixel::SEXTANTS};
+
+use super::look::Glyphs;
+
+/// Half blocks by the bits of their upper (1) and lower (2) half.
+const HALVES: [char; 4] = [' ', '▀', '▄', '█'];
+
+/// A sub-pixel's colour; where a cell holds more than two colours those with more weight stay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ink {
+    /// Its colour.
+    pub color: Color,
+    /// How much a sub-pixel of it counts; the ground counts 2.
+    pub weight: u8,
+}
+
+/// Sub-pixels over a rectangle of cells, all of the ground's colour at first.
+#[derive(Clone, Debug)]
+pub struct Canvas {
+    area: Rect,
+    /// Sub-pixels a cell, across and down.
+    grid: (u16, u16),
+    ground: Ink,
+    pixels: Vec<Ink>,
+}
+
+impl Canvas {
+    /// A canvas of `ground` over `area`; letters have no sub-pixels and are drawn elsewhere.
+    pub fn new(area: Rect, glyphs: Glyphs, ground: Color) -> Self {
+        let grid = sub_pixels(glyphs);
+        let ground = Ink { color: ground, weight: 2 };
+        let count = usize::from(area.width * grid.0) * usize::from(area.height * grid.1);
+        Self { area, grid, ground, pixels: vec![ground; count] }
+    }
+
+    /// Width and height in sub-pixels.
+    pub fn size(&self) -> (i32, i32) {
+        (i32::from(self.area.width * self.grid.0), i32::from(self.area.height * self.grid.1))
+    }
+
+    /// Colours the sub-pixel at `x`, `y`, if it is on the canvas.
+    pub fn set(&mut self, x: i32, y: i32, ink: Ink) {
+        let (width, height) = self.size();
+        if (0..width).contains(&x) && (0..height).contains(&y) {
+            self.pixels[(y * width + x) as usize] = ink;
+        }
+    }
+
+    /// Writes the cells into `buffer`.
+    pub fn paint(&self, buffer: &mut Buffer) {
+        let stride = usize::from(self.area.width * self.grid.0);
+        for row in 0..self.area.height {
+            for column in 0..self.area.width {
+                let first = usize::from(row * self.grid.1) * stride + usize::from(column * self.grid.0);
+                let Some(cell) = buffer.cell_mut((self.area.x + column, self.area.y + row)) else { continue };
+                let mut inks = [self.ground; 6];
+                let mut count = 0;
+                for line in 0..usize::from(self.grid.1) {
+                    for across in 0..usize::from(self.grid.0) {
+                        inks[count] = self.pixels[first + line * stride + across];
+                        count += 1;
+                    }
+                }
+                let (symbol, front, back) = two_colours(&inks[..count], self.ground.color);
+                cell.set_char(symbol).set_fg(front).set_bg(back);
+            }
+        }
+    }
+}
+
+/// Sub-pixels a cell, across and down.
+pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
+    match glyphs {
+        Glyphs::Sextant => (2, 3),
+        Glyphs::Half => (1, 2),
+        Glyphs::Letters => (1, 1),
+    }
+}
+
+/// The block character, its colour and the colour behind it. The two heaviest colours stay; sub-pixels of a third go
+/// to the colour in front unless they are ground. The ground lies behind wherever it is one of the two.
+fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
+    let mut found: [(Color, u16); 6] = [(ground, 0); 6];
+    let mut kinds = 0;
+    for ink in inks {
+        let index = found[..kinds].iter().position(|(color, _)| *color == ink.color).unwrap_or_else(|| {
+            found[kinds] = (ink.color, 0);
+            kinds += 1;
+            kinds - 1
+        });
+        found[index].1 += u16::from(ink.weight);
+    }
+    let found = &mut found[..kinds];
+    // A stable sort: the one met first wins a tie, always the same.
+    found.sort_by_key(|&(_, weight)| std::cmp::Reverse(weight));
+    if let [(only, _)] = found {
+        return (' ', ground, *only);
+    }
+    let (mut front, mut back) = (found[0].0, found[1].0);
+    if front == ground {
+        std::mem::swap(&mut front, &mut back);
+    }
+    let mut bits = 0;
+    for (n, ink) in inks.iter().enumerate() {
+        if ink.color != back && (ink.color == front || ink.color != ground) {
+            bits |= 1 << n;
+        }
+    }
+    let symbol = if inks.len() == 6 { SEXTANTS[bits] } else { HALVES[bits & 3] };
+    (symbol, front, back)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GROUND: Ink = Ink { color: Color::Blue, weight: 2 };
+    const BALL: Ink = Ink { color: Color::Red, weight: 4 };
+    const DOT: Ink = Ink { color: Color::White, weight: 1 };
+
+    #[test]
+    fn a_plain_cell_is_a_blank_in_its_colour() {
+        assert_eq!(two_colours(&[GROUND; 6], GROUND.color), (' ', Color::Blue, Color::Blue));
+        assert_eq!(two_colours(&[BALL; 6], GROUND.color), (' ', Color::Blue, Color::Red));
+    }
+
+    #[test]
+    fn sub_pixels_become_the_character_with_the_same_shape() {
+        let left = [BALL, GROUND, BALL, GROUND, BALL, GROUND];
+        assert_eq!(two_colours(&left, GROUND.color), ('▌', Color::Red, Color::Blue));
+        assert_eq!(two_colours(&[GROUND, BALL], GROUND.color), ('▄', Color::Red, Color::Blue));
+    }
+
+    #[test]
+    fn a_dot_yields_to_a_ball_in_the_same_cell() {
+        let cell = [BALL, BALL, DOT, GROUND, GROUND, GROUND];
+        let (symbol, front, back) = two_colours(&cell, GROUND.color);
+        assert_eq!((front, back), (Color::Red, Color::Blue));
+        assert_eq!(symbol, SEXTANTS[0b111]);
+    }
+
+    #[test]
+    fn what_lies_outside_is_not_drawn() {
+        let area = Rect::new(0, 0, 2, 2);
+        let mut canvas = Canvas::new(area, Glyphs::Sextant, Color::Blue);
+        for (x, y) in [(-1, 0), (4, 0), (0, 6), (i32::MAX, i32::MIN)] {
+            canvas.set(x, y, BALL);
+        }
+        canvas.set(0, 0, BALL);
+        let mut buffer = Buffer::empty(area);
+        canvas.paint(&mut buffer);
+        assert_eq!(buffer[(0, 0)].symbol(), "🬀");
+        assert_eq!(buffer[(1, 1)].symbol(), " ");
+    }
+}

@@ -1,0 +1,126 @@
+//! Where the table lies on the screen: one object turns metres into cells and back.
+
+use glam::DVec2;
+use ratatui::layout::Rect;
+
+use crate::table::Table;
+
+/// Columns of a rail beside the cloth, each side; above and below it is one row, which is as thick.
+pub const RAIL_COLUMNS: u16 = 2;
+/// Rows of a rail above and below the cloth.
+pub const RAIL_ROWS: u16 = 1;
+/// Columns that are as wide as one row is high.
+const CELL_ASPECT: f64 = 2.0;
+
+/// The cloth's place on the screen and the scale of the table on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mapping {
+    /// The cells of the cloth, without the rails.
+    pub bed: Rect,
+    /// Length and width of the playing area, m.
+    extent: DVec2,
+    /// Ball radius, m.
+    pub radius: f64,
+}
+
+impl Mapping {
+    /// The largest table to scale inside `area`, rails included, at its top and in the middle of its width. Where the
+    /// area has no room for a rail and a row of cloth, the bed is empty.
+    pub fn fit(table: &Table, area: Rect) -> Self {
+        let columns = area.width.saturating_sub(2 * RAIL_COLUMNS);
+        let rows = area.height.saturating_sub(2 * RAIL_ROWS);
+        let columns_per_row = CELL_ASPECT * table.length / table.width;
+        let rows = rows.min((f64::from(columns) / columns_per_row).round() as u16);
+        let columns = columns.min((f64::from(rows) * columns_per_row).round() as u16);
+        let x = area.x + (area.width - columns.min(area.width)) / 2;
+        let bed = Rect::new(x, area.y + RAIL_ROWS.min(area.height), columns, rows);
+        Self { bed, extent: DVec2::new(table.length, table.width), radius: table.radius }
+    }
+
+    /// The cells of cloth and rails together.
+    pub fn outer(&self) -> Rect {
+        let Rect { x, y, width, height } = self.bed;
+        Rect::new(
+            x.saturating_sub(RAIL_COLUMNS),
+            y.saturating_sub(RAIL_ROWS),
+            width + 2 * RAIL_COLUMNS,
+            height + 2 * RAIL_ROWS,
+        )
+    }
+
+    /// Cells per metre, across and down.
+    pub fn scale(&self) -> DVec2 {
+        DVec2::new(f64::from(self.bed.width), f64::from(self.bed.height)) / self.extent
+    }
+
+    /// A place on the table in cells from the bed's upper left corner; the fraction says where in the cell.
+    pub fn to_cells(&self, place: DVec2) -> DVec2 {
+        DVec2::new(place.x + 0.5 * self.extent.x, 0.5 * self.extent.y - place.y) * self.scale()
+    }
+
+    /// The screen cell at a place on the table, or the nearest one on the bed.
+    pub fn to_cell(&self, place: DVec2) -> (u16, u16) {
+        let at = self.to_cells(place);
+        let column = (at.x as u16).min(self.bed.width.saturating_sub(1));
+        let row = (at.y as u16).min(self.bed.height.saturating_sub(1));
+        (self.bed.x + column, self.bed.y + row)
+    }
+
+    /// The place on the table at the middle of a screen cell, m; `None` outside the bed.
+    pub fn to_metres(&self, column: u16, row: u16) -> Option<DVec2> {
+        self.bed.contains((column, row).into()).then(|| {
+            let cell = DVec2::new(f64::from(column - self.bed.x) + 0.5, f64::from(row - self.bed.y) + 0.5);
+            let from_corner = cell / self.scale();
+            DVec2::new(from_corner.x - 0.5 * self.extent.x, 0.5 * self.extent.y - from_corner.y)
+        })
+    }
+
+    /// Columns across a ball at true scale.
+    pub fn ball_columns(&self) -> f64 {
+        2.0 * self.radius * self.scale().x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_carom_table_is_four_columns_to_a_row() {
+        let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, 120, 29));
+        assert_eq!((mapping.bed.width, mapping.bed.height), (108, 27));
+        let mapping = Mapping::fit(&Table::default(), Rect::new(0, 1, 64, 40));
+        assert_eq!(mapping.outer(), Rect::new(0, 1, 64, 17));
+    }
+
+    #[test]
+    fn the_corners_of_the_table_are_the_corners_of_the_bed() {
+        let table = Table::default();
+        let mapping = Mapping::fit(&table, Rect::new(3, 2, 64, 17));
+        let corner = 0.5 * DVec2::new(table.length, table.width);
+        assert_eq!(mapping.to_cells(DVec2::new(-corner.x, corner.y)), DVec2::ZERO);
+        assert_eq!(mapping.to_cell(DVec2::new(corner.x, -corner.y)), (64, 17));
+    }
+
+    #[test]
+    fn an_area_without_room_gives_an_empty_bed() {
+        for (width, height) in [(0, 0), (3, 10), (80, 2), (1, 1)] {
+            assert!(Mapping::fit(&Table::default(), Rect::new(0, 0, width, height)).bed.is_empty());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_cell_goes_to_metres_and_back(
+            width in 10_u16..300, height in 5_u16..100, across in 0.0..1.0_f64, down in 0.0..1.0_f64,
+        ) {
+            let mapping = Mapping::fit(&Table::default(), Rect::new(5, 7, width, height));
+            prop_assume!(!mapping.bed.is_empty());
+            let column = mapping.bed.x + (across * f64::from(mapping.bed.width)) as u16;
+            let row = mapping.bed.y + (down * f64::from(mapping.bed.height)) as u16;
+            let place = mapping.to_metres(column, row).unwrap();
+            prop_assert_eq!(mapping.to_cell(place), (column, row));
+        }
+    }
+}

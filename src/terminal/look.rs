@@ -1,0 +1,131 @@
+//! What the terminal can show: how many colours and which characters, found out from the environment.
+
+/// How many colours the terminal has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// 24-bit colours.
+    True,
+    /// The 256 colours of xterm.
+    Indexed,
+    /// The 16 colours that the user has chosen.
+    Ansi,
+    /// None: `NO_COLOR` is set, or the terminal knows none.
+    Mono,
+}
+
+/// Which characters the table is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Glyphs {
+    /// Sextants: two by three sub-pixels a cell.
+    Sextant,
+    /// Half blocks: one by two sub-pixels a cell, for fonts without sextants.
+    Half,
+    /// Letters and ASCII signs only.
+    Letters,
+}
+
+/// Everything that drawing has to know about the terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Look {
+    /// Its colours.
+    pub depth: Depth,
+    /// Its characters.
+    pub glyphs: Glyphs,
+    /// Whether text may contain characters beyond ASCII.
+    pub unicode: bool,
+}
+
+impl Look {
+    /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`sextant`, `half` or
+    /// `letters`), with which a user whose font lacks sextants chooses once and for all.
+    pub fn detect(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let set = |name: &str| variable(name).filter(|value| !value.is_empty());
+        let term = set("TERM").unwrap_or_default();
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&set).unwrap_or_default().to_lowercase();
+        let unicode = locale.contains("utf-8") || locale.contains("utf8");
+        let depth = if set("NO_COLOR").is_some() || term.starts_with("vt") {
+            Depth::Mono
+        } else {
+            depth(&term, set("COLORTERM").as_deref().unwrap_or_default())
+        };
+        let chosen = set("CAROM_GLYPHS").unwrap_or_default();
+        let glyphs = match chosen.as_str() {
+            _ if !unicode || depth == Depth::Mono => Glyphs::Letters,
+            "letters" => Glyphs::Letters,
+            "half" => Glyphs::Half,
+            "sextant" => Glyphs::Sextant,
+            // The Linux console has 512 glyphs, and sextants are not among them.
+            _ if term == "linux" => Glyphs::Half,
+            _ => Glyphs::Sextant,
+        };
+        Self { depth, glyphs, unicode }
+    }
+
+    /// The next simpler set of characters that this terminal can show, and back to the finest after the simplest.
+    #[must_use]
+    pub fn with_next_glyphs(self) -> Self {
+        let glyphs = match self.glyphs {
+            _ if !self.unicode || self.depth == Depth::Mono => Glyphs::Letters,
+            Glyphs::Sextant => Glyphs::Half,
+            Glyphs::Half => Glyphs::Letters,
+            Glyphs::Letters => Glyphs::Sextant,
+        };
+        Self { glyphs, ..self }
+    }
+
+    /// `fancy` where the terminal shows characters beyond ASCII, `plain` elsewhere.
+    pub const fn pick<T: Copy>(&self, fancy: T, plain: T) -> T {
+        if self.unicode { fancy } else { plain }
+    }
+}
+
+fn depth(term: &str, colorterm: &str) -> Depth {
+    // ssh does not forward COLORTERM, but these are known to have 24-bit colours by their name alone.
+    const TRUE_COLOUR: [&str; 6] = ["kitty", "alacritty", "wezterm", "ghostty", "foot", "direct"];
+    if matches!(colorterm, "truecolor" | "24bit") || TRUE_COLOUR.iter().any(|name| term.contains(name)) {
+        Depth::True
+    } else if term.contains("256") {
+        Depth::Indexed
+    } else {
+        Depth::Ansi
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn look(variables: &[(&str, &str)]) -> Look {
+        Look::detect(|name| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned()))
+    }
+
+    #[test]
+    fn a_modern_terminal_gets_sextants_in_true_colour() {
+        let found = look(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LANG", "de_DE.UTF-8")]);
+        assert_eq!(found, Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true });
+    }
+
+    #[test]
+    fn no_color_and_other_locales_get_letters() {
+        assert_eq!(look(&[("TERM", "xterm"), ("NO_COLOR", "1"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Letters);
+        assert_eq!(look(&[("TERM", "xterm"), ("LC_ALL", "C"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Letters);
+        assert_eq!(look(&[("TERM", "xterm"), ("NO_COLOR", ""), ("LANG", "C.UTF-8")]).depth, Depth::Ansi);
+    }
+
+    #[test]
+    fn the_terminal_name_decides_where_colorterm_is_missing() {
+        assert_eq!(look(&[("TERM", "tmux-256color")]).depth, Depth::Indexed);
+        assert_eq!(look(&[("TERM", "xterm-kitty")]).depth, Depth::True);
+        assert_eq!(look(&[("TERM", "linux"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Half);
+        assert_eq!(look(&[("TERM", "vt100")]).depth, Depth::Mono);
+    }
+
+    #[test]
+    fn glyphs_go_round_but_never_beyond_what_the_terminal_has() {
+        let start = look(&[("TERM", "xterm"), ("LANG", "C.UTF-8")]);
+        let round = start.with_next_glyphs().with_next_glyphs().with_next_glyphs();
+        assert_eq!(start, round);
+        let plain = look(&[("TERM", "xterm")]);
+        assert_eq!(plain.with_next_glyphs(), plain);
+    }
+}

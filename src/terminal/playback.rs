@@ -1,0 +1,148 @@
+//! The clock of a shot that is being watched: playing, pausing, stepping from event to event.
+
+use crate::simulation::Event;
+
+/// Speeds of playback, the real one in the middle.
+const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
+const REAL: usize = 3;
+/// Seconds between two changes of the numbers on the screen while the balls move: nobody reads thirty a second, and
+/// each costs bytes on a slow link.
+const READOUT_INTERVAL: f64 = 0.1;
+
+/// Where playback stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Playback {
+    /// Seconds since the stroke.
+    pub time: f64,
+    /// The time that the numbers on the screen belong to.
+    pub readout: f64,
+    /// Whether time goes on by itself.
+    pub playing: bool,
+    since_readout: f64,
+    speed: usize,
+}
+
+impl Default for Playback {
+    fn default() -> Self {
+        Self { time: 0.0, readout: 0.0, playing: false, since_readout: 0.0, speed: REAL }
+    }
+}
+
+impl Playback {
+    /// Seconds of the shot in a second of the screen.
+    pub fn speed(&self) -> f64 {
+        SPEEDS[self.speed]
+    }
+
+    /// The next higher speed.
+    pub fn faster(&mut self) {
+        self.speed = (self.speed + 1).min(SPEEDS.len() - 1);
+    }
+
+    /// The next lower speed.
+    pub fn slower(&mut self) {
+        self.speed = self.speed.saturating_sub(1);
+    }
+
+    /// Plays, or pauses; at the end it plays from the start.
+    pub fn toggle(&mut self, duration: f64) {
+        if !self.playing && self.time >= duration {
+            self.jump(0.0);
+        }
+        self.playing = !self.playing;
+        self.readout = self.time;
+    }
+
+    /// Lets `seconds` of the screen pass; playback pauses at the end of the shot.
+    pub fn tick(&mut self, seconds: f64, duration: f64) {
+        if !self.playing {
+            return;
+        }
+        self.time += seconds * self.speed();
+        self.since_readout += seconds;
+        if self.time >= duration {
+            self.jump(duration);
+        } else if self.since_readout >= READOUT_INTERVAL {
+            self.since_readout = 0.0;
+            self.readout = self.time;
+        }
+    }
+
+    /// Pauses at `time`.
+    pub fn jump(&mut self, time: f64) {
+        self.time = time;
+        self.readout = time;
+        self.since_readout = 0.0;
+        self.playing = false;
+    }
+
+    /// Pauses at the first event after now, or at the end.
+    pub fn to_next(&mut self, events: &[Event], duration: f64) {
+        let next = events.iter().find(|event| event.time > self.time);
+        self.jump(next.map_or(duration, |event| event.time));
+    }
+
+    /// Pauses at the last event before now, or at the stroke.
+    pub fn to_previous(&mut self, events: &[Event]) {
+        let before = events.iter().rfind(|event| event.time < self.time);
+        self.jump(before.map_or(0.0, |event| event.time));
+    }
+}
+
+/// How many of the events have happened at `time`.
+pub fn passed(events: &[Event], time: f64) -> usize {
+    events.partition_point(|event| event.time <= time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::EventKind;
+
+    fn events() -> Vec<Event> {
+        [0.5, 0.5, 1.25].map(|time| Event { time, kind: EventKind::SlidingRolling(0) }).to_vec()
+    }
+
+    #[test]
+    fn stepping_visits_every_moment_once_and_both_ends() {
+        let mut playback = Playback::default();
+        let mut seen = Vec::new();
+        for _ in 0..4 {
+            playback.to_next(&events(), 2.0);
+            seen.push(playback.time);
+        }
+        assert_eq!(seen, [0.5, 1.25, 2.0, 2.0]);
+        for _ in 0..4 {
+            playback.to_previous(&events());
+            seen.push(playback.time);
+        }
+        assert_eq!(seen[4..], [1.25, 0.5, 0.0, 0.0]);
+        assert_eq!(passed(&events(), 0.5), 2);
+    }
+
+    #[test]
+    fn playing_ends_at_the_end_and_starts_again_from_the_stroke() {
+        let mut playback = Playback::default();
+        playback.toggle(2.0);
+        playback.faster();
+        playback.tick(0.6, 2.0);
+        assert!(playback.playing && (playback.time - 1.2).abs() < 1e-12);
+        playback.tick(0.6, 2.0);
+        assert!(!playback.playing && playback.time == 2.0);
+        playback.toggle(2.0);
+        assert!(playback.playing && playback.time == 0.0);
+    }
+
+    #[test]
+    fn numbers_change_ten_times_a_second() {
+        let mut playback = Playback::default();
+        playback.toggle(60.0);
+        let mut changes = 0;
+        for _ in 0..60 {
+            let before = playback.readout;
+            playback.tick(1.0 / 30.0, 60.0);
+            changes += usize::from(playback.readout != before);
+        }
+        assert!((15..=20).contains(&changes), "{changes}");
+    }
+}

@@ -1,0 +1,84 @@
+//! Asking the coach on a thread of its own, so that the screen never waits.
+
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc, OnceLock,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, Sender, channel},
+    },
+    thread,
+    time::Duration,
+};
+
+use super::{
+    shot::Shot,
+    standin::{Coach, Request},
+};
+use crate::table::{Layout, Table};
+
+/// Longest time that the coach may think, s. Its goal is well under 100 ms; only layouts that are very hard use it up.
+const BUDGET: Duration = Duration::from_secs(2);
+
+/// A question to the coach.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// Tells this question's answer from those to earlier questions.
+    pub id: u64,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// Seed of the coach's random numbers.
+    pub seed: u64,
+    /// Set when nobody waits for the answer any more.
+    pub cancel: Arc<AtomicBool>,
+}
+
+/// The coach's answer.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The question's number.
+    pub id: u64,
+    /// The shot, or a sentence that says why there is none.
+    pub shot: Result<Arc<Shot>, String>,
+}
+
+/// The coach, made when it is first asked: reading its networks must not delay the first picture.
+#[derive(Debug, Default)]
+pub struct Office {
+    coach: OnceLock<Result<Coach, String>>,
+}
+
+impl Office {
+    /// Answers a question on this thread. A panic becomes a sentence.
+    pub fn answer(&self, job: &Job) -> Answer {
+        let shot = catch_unwind(AssertUnwindSafe(|| self.shot(job))).unwrap_or_else(|_| {
+            Err("the coach failed on this layout; move a ball a little and ask again".to_owned())
+        });
+        Answer { id: job.id, shot: shot.map(Arc::new) }
+    }
+
+    fn shot(&self, job: &Job) -> Result<Shot, String> {
+        let coach = self.coach.get_or_init(|| Coach::new(job.table.clone()).map_err(|error| error.to_string()));
+        let coach = coach.as_ref().map_err(Clone::clone)?;
+        let request =
+            Request { budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel), ..Request::default() };
+        let recommendation = coach.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
+        Shot::new(&job.table, &job.layout, &recommendation)
+    }
+}
+
+/// Starts the thread that answers questions through `reply`; it ends with the sender that is returned.
+pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Job>> {
+    let (sender, questions): (Sender<Job>, Receiver<Job>) = channel();
+    thread::Builder::new().name("coach".into()).spawn(move || {
+        let office = Office::default();
+        for job in questions {
+            if !job.cancel.load(Ordering::Relaxed) {
+                reply(office.answer(&job));
+            }
+        }
+    })?;
+    Ok(sender)
+}

@@ -1,0 +1,58 @@
+//! The help: every key with what it does, read from the table of keys, and a few words on what is drawn.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    app::App,
+    chord::keys_text,
+    keymap::{BINDINGS, Section, When},
+    widgets::draw_hints,
+};
+
+/// Lines that the help can be scrolled by; a larger number would leave an empty page.
+pub const MOST_SCROLL: u16 = 20;
+/// Columns of the keys.
+const KEYS: usize = 22;
+
+const NOTES: &[&str] = &[
+    "Places are measured from the middle of the table, x to the right, y up. The dots are the",
+    "predicted paths; rings are the first contact and where the balls stop. On a small screen",
+    "the balls are drawn larger than they are; they roll and touch at their true size.",
+    "Tip: the cue ball from behind the cue; in its grey part the tip would slip off.",
+    "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
+];
+
+/// Draws the help from its line `top` on.
+pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
+    let lines = lines(app);
+    let page = Rect::new(area.x + 2, area.y + 1, area.width.saturating_sub(4), area.height.saturating_sub(3));
+    let last = lines.len().saturating_sub(usize::from(page.height));
+    let first = usize::from(top).min(last);
+    for (line, row) in lines[first..].iter().zip(page.y..page.bottom()) {
+        buffer.set_line(page.x, row, line, page.width);
+    }
+    draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, buffer);
+}
+
+fn lines(app: &App) -> Vec<Line<'static>> {
+    let (theme, look) = (app.theme(), app.look());
+    let mut lines = Vec::new();
+    for section in Section::ALL {
+        lines.push(Line::styled(section.title(), theme.good()));
+        for binding in BINDINGS.iter().filter(|binding| binding.section == section && binding.when != When::Help) {
+            let keys = keys_text(binding.keys.iter().map(|(chord, _)| *chord), look);
+            lines.push(Line::from(vec![
+                Span::styled(format!("  {keys:<KEYS$}"), theme.accent()),
+                Span::styled(binding.description, theme.text()),
+            ]));
+        }
+        lines.push(Line::default());
+    }
+    lines.push(Line::styled("What is drawn", theme.good()));
+    lines.extend(NOTES.iter().map(|note| Line::styled(format!("  {note}"), theme.text())));
+    lines
+}

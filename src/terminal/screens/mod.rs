@@ -1,0 +1,27 @@
+//! The screens, one file each, and which of them is shown.
+
+mod coach;
+mod help;
+mod panes;
+mod too_small;
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::app::App;
+
+pub use help::MOST_SCROLL;
+
+/// Columns and rows below which there is no room for the table and its panels.
+pub const SMALLEST: (u16, u16) = (80, 24);
+
+/// Draws the screen that `app` is at.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    buffer.set_style(area, app.theme().text());
+    if area.width < SMALLEST.0 || area.height < SMALLEST.1 {
+        too_small::draw(app, area, buffer);
+    } else if let Some(top) = app.help() {
+        help::draw(app, top, area, buffer);
+    } else {
+        coach::draw(app, area, buffer);
+    }
+}

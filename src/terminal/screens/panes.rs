@@ -1,0 +1,142 @@
+//! Which part of the screen is for what: the arrangement that leaves the table the most room wins.
+
+use ratatui::layout::Rect;
+
+use crate::{table::Table, terminal::geometry::Mapping};
+
+/// Rows of the panels below the table where all of them stand there: a title and seven lines.
+const BELOW: u16 = 8;
+/// Rows of the panels below the table where there is a column beside it: a title and three balls.
+const BELOW_BESIDE: u16 = 4;
+/// Columns beside the table: at least, and at most.
+const BESIDE: (u16, u16) = (16, 36);
+/// Columns of the panels of balls, shot and tip where they stand side by side.
+const BALLS_WIDTH: u16 = 40;
+const SHOT_WIDTH: u16 = 36;
+const TIP_WIDTH: u16 = 16;
+
+/// The areas of the coach's screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Panes {
+    /// The first row.
+    pub header: Rect,
+    /// Rails and cloth are drawn as large as fits in here.
+    pub table: Rect,
+    /// Where the balls lie and how they move.
+    pub balls: Rect,
+    /// The cue inputs and the impulse.
+    pub shot: Rect,
+    /// The cue ball's face.
+    pub tip: Rect,
+    /// What happens in the shot.
+    pub events: Rect,
+    /// The row above the hints; longer sentences may grow upwards into the panels.
+    pub status: Rect,
+    /// The keys.
+    pub hints: Rect,
+}
+
+impl Panes {
+    /// Divides `area` for `table`.
+    pub fn new(table: &Table, area: Rect) -> Self {
+        let below = Self::all_below(table, area);
+        let beside = Self::some_beside(table, area);
+        let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
+        if rows(&below) >= rows(&beside) { below } else { beside }
+    }
+
+    fn frame(area: Rect) -> (Rect, Rect, Rect, Rect) {
+        let row = |y| Rect::new(area.x, y, area.width, 1);
+        let middle = Rect::new(area.x, area.y + 1, area.width, area.height.saturating_sub(3));
+        (row(area.y), middle, row(middle.bottom()), row(middle.bottom() + 1))
+    }
+
+    fn all_below(table: &Table, area: Rect) -> Self {
+        let (header, middle, status, hints) = Self::frame(area);
+        let room = Rect { height: middle.height.saturating_sub(BELOW), ..middle };
+        let outer = Mapping::fit(table, room).outer();
+        let top = outer.bottom().min(middle.bottom());
+        let panel = |x: u16, width: u16| {
+            let left = (area.x + x).min(area.right());
+            Rect::new(left, top, width.min(area.right() - left), middle.bottom() - top)
+        };
+        let (shot, tip) = (BALLS_WIDTH + 1, BALLS_WIDTH + SHOT_WIDTH + 2);
+        let events = tip + TIP_WIDTH + 1;
+        Self {
+            header,
+            table: room,
+            balls: panel(0, BALLS_WIDTH),
+            shot: panel(shot, SHOT_WIDTH),
+            tip: panel(tip, TIP_WIDTH),
+            events: panel(events, area.width.saturating_sub(events)),
+            status,
+            hints,
+        }
+    }
+
+    fn some_beside(table: &Table, area: Rect) -> Self {
+        let (header, middle, status, hints) = Self::frame(area);
+        let room = Rect {
+            width: middle.width.saturating_sub(BESIDE.0),
+            height: middle.height.saturating_sub(BELOW_BESIDE),
+            ..middle
+        };
+        let outer = Mapping::fit(table, room).outer();
+        // What the table does not need goes to the column beside it, up to a width that is still good to read.
+        let width = middle.width.saturating_sub(outer.width).clamp(BESIDE.0, BESIDE.1) - 1;
+        let left = area.right().saturating_sub(width);
+        let room = Rect { width: left - 1 - area.x, ..room };
+        let outer = Mapping::fit(table, room).outer();
+        let bottom = outer.bottom().min(middle.bottom());
+        let tip_rows = BELOW.min((bottom - middle.y) / 2);
+        let column = |y: u16, height: u16| Rect::new(left, y, width, height);
+        let half = area.width / 2;
+        let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, middle.bottom() - bottom);
+        Self {
+            header,
+            table: room,
+            balls: below(0, half),
+            shot: column(middle.y, bottom - middle.y - tip_rows),
+            tip: column(bottom - tip_rows, tip_rows),
+            events: below(half + 1, area.width - half - 1),
+            status,
+            hints,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bed(width: u16, height: u16) -> (u16, u16) {
+        let table = Table::default();
+        let bed = Mapping::fit(&table, Panes::new(&table, Rect::new(0, 0, width, height)).table).bed;
+        (bed.width, bed.height)
+    }
+
+    #[test]
+    fn the_table_is_as_large_as_the_panels_allow() {
+        assert_eq!(bed(80, 24), (60, 15));
+        assert_eq!(bed(120, 40), (108, 27));
+    }
+
+    #[test]
+    fn no_two_areas_overlap_at_any_size() {
+        let table = Table::default();
+        for width in 80..=240 {
+            for height in 24..=80 {
+                let panes = Panes::new(&table, Rect::new(0, 0, width, height));
+                let table = Mapping::fit(&table, panes.table).outer();
+                let Panes { header, balls, shot, tip, events, status, hints, .. } = panes;
+                let all = [header, table, balls, shot, tip, events, status, hints];
+                for (n, one) in all.iter().enumerate() {
+                    assert!(one.right() <= width && one.bottom() <= height && !one.is_empty(), "{width}×{height} {n}");
+                    for other in &all[n + 1..] {
+                        assert!(one.intersection(*other).is_empty(), "{width}×{height}: {one} and {other}");
+                    }
+                }
+            }
+        }
+    }
+}

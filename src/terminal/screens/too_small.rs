@@ -1,0 +1,28 @@
+//! The page for a terminal that has no room for the table: which size it has and which it needs.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::Line,
+    widgets::{Paragraph, Widget, Wrap},
+};
+
+use super::SMALLEST;
+use crate::terminal::app::App;
+
+/// Draws the page; it still says as much as fits where there is hardly any room.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    let (width, height) = SMALLEST;
+    let (times, theme) = (app.look().pick("×", "x"), app.theme());
+    let lines = vec![
+        Line::styled("The table needs more room.", theme.text()),
+        Line::styled(format!("This terminal: {}{times}{}", area.width, area.height), theme.warning()),
+        Line::styled(format!("Needed:        {width}{times}{height}"), theme.good()),
+        Line::styled("Make it larger, or press q to quit.", theme.faint()),
+    ];
+    let rows = (lines.len() as u16).min(area.height);
+    let top = area.y + (area.height - rows) / 2;
+    let left = area.x + area.width.saturating_sub(36) / 2;
+    let place = Rect::new(left, top, area.right() - left, area.bottom() - top);
+    Paragraph::new(lines).style(theme.text()).wrap(Wrap { trim: true }).render(place, buffer);
+}

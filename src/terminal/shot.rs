@@ -1,0 +1,158 @@
+//! A recommended shot as the screen needs it: its recording, the dots of its paths, and how it meets the first ball.
+
+use glam::DVec2;
+
+use super::{
+    standin::{Recommendation, Recording},
+    words::BALL_NAMES,
+};
+use crate::{
+    physics::{CueInputs, Impulse, strike},
+    simulation::EventKind,
+    table::{BALLS, Layout, Table},
+};
+
+/// Distance of two dots of a path, m.
+const DOT_SPACING: f64 = 0.055;
+/// Seconds between two looks at a path; at 10 m/s a ball moves 20 mm meanwhile, less than half a dot's distance.
+const PATH_STEP: f64 = 0.002;
+
+/// A dot of a ball's path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dot {
+    /// When the ball is here, s.
+    pub time: f64,
+    /// Where, m.
+    pub place: DVec2,
+}
+
+/// How the cue ball meets the first object ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The object ball.
+    pub ball: usize,
+    /// Where the cue ball's centre is then, m.
+    pub place: DVec2,
+    /// How much of the object ball is covered as the cue ball comes on: 1 is head-on, 0 a graze.
+    pub fullness: f64,
+    /// Whether it is the object ball's left half that is hit, as the cue ball comes on.
+    pub left: bool,
+}
+
+/// A shot ready to be shown and played.
+#[derive(Debug)]
+pub struct Shot {
+    /// What the player has to do.
+    pub cue: CueInputs,
+    /// What the stroke gives the cue ball.
+    pub impulse: Impulse,
+    /// Whether the shot makes the point.
+    pub solved: bool,
+    /// Where the shot comes from.
+    pub source: String,
+    /// What happens, exact at any time.
+    pub recording: Recording,
+    /// The dots of the three balls' paths.
+    pub paths: [Vec<Dot>; BALLS],
+    /// The first contact of the cue ball with an object ball.
+    pub contact: Option<Contact>,
+}
+
+impl Shot {
+    /// Records the recommended shot from `layout`.
+    ///
+    /// # Errors
+    /// The simulator's sentence where it refuses the shot.
+    pub fn new(table: &Table, layout: &Layout, recommendation: &Recommendation) -> Result<Self, String> {
+        let cue = recommendation.cue;
+        let recording = Recording::new(table, layout, &cue).map_err(|error| error.to_string())?;
+        Ok(Self {
+            cue,
+            impulse: strike(table, &cue),
+            solved: recommendation.solved,
+            source: recommendation.source.to_string(),
+            paths: std::array::from_fn(|ball| dots(&recording, ball)),
+            contact: first_contact(&recording, 2.0 * table.radius),
+            recording,
+        })
+    }
+
+    /// How the cue ball meets the first object ball, in words.
+    pub fn contact_words(&self) -> Option<String> {
+        let contact = self.contact?;
+        let side = if contact.left { "left" } else { "right" };
+        let percent = (100.0 * contact.fullness).round();
+        Some(format!("hits {} {percent}% full, {side} side", BALL_NAMES[contact.ball]))
+    }
+}
+
+fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
+    let mut dots = Vec::new();
+    let mut last = recording.state(ball, 0.0).position;
+    let mut since_dot = 0.0;
+    let steps = (recording.duration() / PATH_STEP) as u32;
+    for step in 1..=steps {
+        let time = PATH_STEP * f64::from(step);
+        let place = recording.state(ball, time).position;
+        since_dot += place.distance(last);
+        last = place;
+        if since_dot >= DOT_SPACING {
+            since_dot = 0.0;
+            dots.push(Dot { time, place });
+        }
+    }
+    dots
+}
+
+fn first_contact(recording: &Recording, two_radii: f64) -> Option<Contact> {
+    let (time, ball) = recording.events().iter().find_map(|event| match event.kind {
+        EventKind::BallBall(0, ball) => Some((event.time, ball)),
+        _ => None,
+    })?;
+    let place = recording.state(0, time).position;
+    let towards = recording.state(ball, time).position - place;
+    // Just before the impact: at its time the recording already holds the velocities after it.
+    let before = (0.999 * time).max(time - 1e-4);
+    let line = (place - recording.state(0, before).position).try_normalize()?;
+    let offset = line.perp_dot(towards) / two_radii;
+    Some(Contact { ball, place, fullness: (1.0 - offset.abs()).max(0.0), left: offset < 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn shot(layout: &str, cue: &str) -> Shot {
+        let table = Table::default();
+        let layout = Layout::parse(layout, &table).unwrap();
+        let recommendation = Recommendation {
+            cue: CueInputs::parse(cue).unwrap(),
+            solved: false,
+            source: "policy",
+            simulations: 1,
+            elapsed: Duration::ZERO,
+            policy_success: None,
+        };
+        Shot::new(&table, &layout, &recommendation).unwrap()
+    }
+
+    #[test]
+    fn fullness_and_side_are_those_the_player_sees() {
+        // The object ball lies half a radius to the right of the cue ball's way along x: its left side is hit.
+        let half = shot("-0.7,0 0,-0.03075 0.9,0.5", "0,0,0,0,3");
+        let contact = half.contact.unwrap();
+        assert_eq!(contact.ball, 1);
+        assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
+        assert_eq!(half.contact_words().unwrap(), "hits yellow 50% full, left side");
+    }
+
+    #[test]
+    fn dots_are_evenly_spaced_along_the_way() {
+        let dots = &shot("-1,0 0,0.6 1,0.6", "0,0,0,0,1.5").paths[0];
+        assert!(dots.len() > 10);
+        for pair in dots.windows(2) {
+            assert!((pair[1].place.distance(pair[0].place) - DOT_SPACING).abs() < 0.01);
+        }
+    }
+}

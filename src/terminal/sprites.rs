@@ -1,0 +1,102 @@
+//! The balls as small pictures in sub-pixels: always the same shape, wherever the ball lies.
+
+use glam::DVec2;
+
+use super::{
+    canvas::{Canvas, Ink, sub_pixels},
+    geometry::Mapping,
+    look::Glyphs,
+};
+
+/// Below this many columns a ball is enlarged, or it would be a mere speck.
+const SMALL_BALL: f64 = 2.0;
+/// How much a small ball is enlarged; the physics keeps the true size.
+const ENLARGED: f64 = 1.3;
+/// A larger ball gains a little too, since its corners are cut.
+const ROUNDED: f64 = 1.1;
+
+/// A ball's picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sprite {
+    width: i32,
+    height: i32,
+}
+
+impl Sprite {
+    /// The picture of a ball at the scale of `mapping`.
+    pub fn new(mapping: &Mapping, glyphs: Glyphs) -> Self {
+        let columns = mapping.ball_columns();
+        let drawn = columns * if columns < SMALL_BALL { ENLARGED } else { ROUNDED };
+        // A row is as high as two columns are wide.
+        let (across, down) = sub_pixels(glyphs);
+        let size = |per_column: f64, least: i32| ((drawn * per_column).round() as i32).max(least);
+        match glyphs {
+            Glyphs::Sextant => Self { width: size(f64::from(across), 4), height: size(f64::from(down) / 2.0, 3) },
+            Glyphs::Half | Glyphs::Letters => Self { width: size(1.0, 2), height: size(1.0, 2) },
+        }
+    }
+
+    /// Whether the sub-pixel belongs to the ball, counted from the picture's upper left corner.
+    fn covers(self, x: i32, y: i32) -> bool {
+        let offset = |at: i32, size: i32| f64::from(2 * at + 1 - size) / f64::from(size);
+        (0..self.width).contains(&x)
+            && (0..self.height).contains(&y)
+            && offset(x, self.width).powi(2) + offset(y, self.height).powi(2) <= 1.0
+    }
+
+    /// The upper left corner of a ball at `place`: its centre snaps to the sub-pixels, so that the shape never changes.
+    fn corner(self, canvas: &Canvas, mapping: &Mapping, place: DVec2) -> (i32, i32) {
+        let (width, height) = canvas.size();
+        let bed = DVec2::new(f64::from(mapping.bed.width), f64::from(mapping.bed.height));
+        let at = mapping.to_cells(place) * DVec2::new(f64::from(width), f64::from(height)) / bed;
+        let x = (at.x - 0.5 * f64::from(self.width)).round() as i32;
+        let y = (at.y - 0.5 * f64::from(self.height)).round() as i32;
+        // A ball at a cushion is drawn on the cloth even where it is enlarged.
+        (x.clamp(0, (width - self.width).max(0)), y.clamp(0, (height - self.height).max(0)))
+    }
+
+    /// Draws the ball.
+    pub fn stamp(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
+        self.each(canvas, mapping, place, ink, |_, _| true);
+    }
+
+    /// Draws the ball's outline: a ball that is not there yet.
+    pub fn stamp_ring(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
+        let inside = |x, y| [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| self.covers(x + dx, y + dy));
+        self.each(canvas, mapping, place, ink, |x, y| !inside(x, y));
+    }
+
+    fn each(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink, keep: impl Fn(i32, i32) -> bool) {
+        let (left, top) = self.corner(canvas, mapping, place);
+        for y in 0..self.height {
+            for x in 0..self.width {
+                if self.covers(x, y) && keep(x, y) {
+                    canvas.set(left + x, top + y, ink);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::Table;
+    use ratatui::layout::Rect;
+
+    fn shape(sprite: Sprite) -> Vec<String> {
+        (0..sprite.height)
+            .map(|y| (0..sprite.width).map(|x| if sprite.covers(x, y) { '#' } else { '.' }).collect())
+            .collect()
+    }
+
+    #[test]
+    fn balls_are_round_at_both_sizes() {
+        let sprite = |columns| {
+            let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, columns, 60));
+            shape(Sprite::new(&mapping, Glyphs::Sextant))
+        };
+        assert_eq!(sprite(64), [".##.", "####", ".##."]);
+        assert_eq!(sprite(112), [".###.", "#####", "#####", ".###."]);
+    }
+}

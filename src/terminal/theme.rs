@@ -1,0 +1,160 @@
+//! The colours of everything on the screen, brought down to what the terminal has.
+
+use ratatui::style::{Color, Modifier, Style};
+
+use super::look::Depth;
+
+/// Colours by their purpose. In monochrome all of them are [`Color::Reset`]: crossterm under `NO_COLOR` turns bold and
+/// reverse off with every colour command, so that only letters and modifiers may tell things apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Theme {
+    /// The terminal's depth, for which the colours are made.
+    pub depth: Depth,
+    /// Behind the panels.
+    pub background: Color,
+    /// Ordinary text.
+    pub text: Color,
+    /// Labels, units and rules.
+    pub faint: Color,
+    /// Keys, the selected ball, the present event.
+    pub accent: Color,
+    /// A point.
+    pub good: Color,
+    /// Something refused, or a shot that misses.
+    pub warning: Color,
+    /// The cloth.
+    pub cloth: Color,
+    /// The cushions' rubber, under the same cloth in shadow.
+    pub cushion: Color,
+    /// The rails.
+    pub wood: Color,
+    /// The sights in the rails.
+    pub sight: Color,
+    /// White, yellow and red ball.
+    pub balls: [Color; 3],
+    /// The dots of their paths.
+    pub paths: [Color; 3],
+    /// The cue ball's face, where the tip does not meet it.
+    pub face: Color,
+    /// The part of the face where the tip would slip off.
+    pub miscue: Color,
+    /// The miscue circle and the cross hair.
+    pub mark: Color,
+    /// The tip's contact.
+    pub tip: Color,
+}
+
+impl Theme {
+    /// The dark theme for `depth`.
+    pub fn new(depth: Depth) -> Self {
+        let ink = |rgb, ansi| resolve(depth, rgb, ansi);
+        Self {
+            depth,
+            background: ink(0x0010_1418, Color::Reset),
+            text: ink(0x00d6_dbe0, Color::Reset),
+            faint: ink(0x007c_8893, Color::DarkGray),
+            accent: ink(0x00ff_c66d, Color::LightYellow),
+            good: ink(0x0079_d28b, Color::LightGreen),
+            warning: ink(0x00ff_8a70, Color::LightRed),
+            cloth: ink(0x001b_6d83, Color::Blue),
+            cushion: ink(0x0011_4a5c, Color::Cyan),
+            wood: ink(0x006b_4128, Color::Black),
+            sight: ink(0x00f3_e3bf, Color::White),
+            balls: [ink(0x00f7_f3e8, Color::White), ink(0x00f6_c324, Color::LightYellow), ink(0x00d9_3636, Color::Red)],
+            paths: [
+                ink(0x00b9_d3d8, Color::Gray),
+                ink(0x00d8_c05a, Color::Yellow),
+                ink(0x00ee_8f83, Color::LightRed),
+            ],
+            face: ink(0x00f7_f3e8, Color::White),
+            miscue: ink(0x00c3_c4be, Color::Gray),
+            mark: ink(0x0091_9a9c, Color::DarkGray),
+            tip: ink(0x001f_63c8, Color::Blue),
+        }
+    }
+
+    /// Whether nothing but letters and modifiers tells things apart.
+    pub fn is_mono(&self) -> bool {
+        self.depth == Depth::Mono
+    }
+
+    /// Style of ordinary text.
+    pub fn text(&self) -> Style {
+        Style::new().fg(self.text).bg(self.background)
+    }
+
+    /// Style of labels, units and rules.
+    pub fn faint(&self) -> Style {
+        self.text().fg(self.faint)
+    }
+
+    /// Style of keys and of what is selected.
+    pub fn accent(&self) -> Style {
+        self.text().fg(self.accent).add_modifier(Modifier::BOLD)
+    }
+
+    /// Style of good news.
+    pub fn good(&self) -> Style {
+        self.text().fg(self.good).add_modifier(Modifier::BOLD)
+    }
+
+    /// Style of refusals.
+    pub fn warning(&self) -> Style {
+        self.text().fg(self.warning).add_modifier(Modifier::BOLD)
+    }
+
+    /// Style of text that names `ball`.
+    pub fn ball(&self, ball: usize) -> Style {
+        self.text().fg(self.balls[ball])
+    }
+}
+
+fn resolve(depth: Depth, rgb: u32, ansi: Color) -> Color {
+    let [_, r, g, b] = rgb.to_be_bytes();
+    match depth {
+        Depth::True => Color::Rgb(r, g, b),
+        Depth::Indexed => Color::Indexed(nearest_index([r, g, b])),
+        Depth::Ansi => ansi,
+        Depth::Mono => Color::Reset,
+    }
+}
+
+/// The nearest of xterm's colour cube (16 to 231) and grey ramp (232 to 255); the first 16 are the user's own.
+fn nearest_index(rgb: [u8; 3]) -> u8 {
+    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+    let distance =
+        |other: [u8; 3]| -> u32 { rgb.iter().zip(other).map(|(&one, two)| u32::from(one.abs_diff(two)).pow(2)).sum() };
+    let cube = (0..216_u8).map(|n| (16 + n, [n / 36, n / 6 % 6, n % 6].map(|level| LEVELS[usize::from(level)])));
+    let greys = (0..24_u8).map(|n| (232 + n, [8 + 10 * n; 3]));
+    cube.chain(greys).min_by_key(|&(_, colour)| distance(colour)).map_or(15, |(index, _)| index)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_of_the_cube_and_the_ramp_map_to_themselves() {
+        assert_eq!(nearest_index([255, 0, 0]), 196);
+        assert_eq!(nearest_index([95, 135, 175]), 67);
+        assert_eq!(nearest_index([18, 18, 18]), 233);
+    }
+
+    #[test]
+    fn the_three_balls_and_the_cloth_differ_at_every_depth_with_colours() {
+        for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
+            let theme = Theme::new(depth);
+            let all = [theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth];
+            for (n, colour) in all.iter().enumerate() {
+                assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
+            }
+        }
+    }
+
+    #[test]
+    fn monochrome_never_names_a_colour() {
+        let theme = Theme::new(Depth::Mono);
+        assert_eq!(theme.ball(2).fg, Some(Color::Reset));
+        assert_eq!(theme.cloth, Color::Reset);
+    }
+}

@@ -1,0 +1,106 @@
+//! The last rows: what has just happened, and the keys that may be used now.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+    widgets::{Clear, Paragraph, Widget, Wrap},
+};
+
+use crate::{
+    table::BALLS,
+    terminal::{
+        app::{App, Mode},
+        chord::keys_text,
+        keymap::{BINDINGS, Binding, Section},
+        playback::passed,
+        status::Tone,
+        words::{BALL_NAMES, event_words, fixed, millimetres},
+    },
+};
+
+/// Draws the status in the last row of `area`; a sentence that is longer takes the rows above it as well.
+pub fn draw_status(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme();
+    let (text, style) = match app.message() {
+        Some(message) => {
+            let style = match message.tone {
+                Tone::Plain => theme.text(),
+                Tone::Good => theme.good(),
+                Tone::Warning => theme.warning(),
+            };
+            (message.text.clone(), style)
+        }
+        None => (standing(app), theme.text()),
+    };
+    let status = Paragraph::new(Line::styled(text, style)).style(theme.text()).wrap(Wrap { trim: true });
+    let width = area.width.saturating_sub(2);
+    let mut rows = 1;
+    while rows < area.height && !fits(&status, width, rows) {
+        rows += 1;
+    }
+    let row = Rect::new(area.x, area.bottom().saturating_sub(rows), area.width, rows.min(area.height));
+    Clear.render(row, buffer);
+    buffer.set_style(row, theme.text());
+    status.render(Rect { x: row.x + 1, width, ..row }, buffer);
+}
+
+/// What the status line says while there is no news.
+fn standing(app: &App) -> String {
+    if let Some(picture) = app.spinner() {
+        let pictures = app.look().pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
+        return format!("{} the coach is thinking; Esc stops it", pictures[picture % pictures.len()]);
+    }
+    match (app.mode(), app.watched()) {
+        (Mode::Watching, Some(shot)) => {
+            let (events, time) = (shot.recording.events(), app.playback().readout);
+            match events.get(passed(events, time)) {
+                Some(next) => format!("next: {} in {} s", event_words(next.kind), fixed(next.time - time, 1)),
+                None => "all balls lie still".to_owned(),
+            }
+        }
+        _ => {
+            let (ball, balls) = (app.selected(), app.layout().balls);
+            let others = (0..BALLS).filter(|&other| other != ball);
+            let near = others.min_by(|&one, &two| {
+                balls[ball].distance(balls[one]).total_cmp(&balls[ball].distance(balls[two]))
+            });
+            let near = near.map_or(String::new(), |other| {
+                let gap = (balls[ball].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
+                format!(", {} mm from {}", millimetres(gap), BALL_NAMES[other])
+            });
+            let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
+            format!("{} at x {x} mm, y {y} mm{near}; step {} mm", BALL_NAMES[ball], app.step_mm())
+        }
+    }
+}
+
+/// Draws the keys that may be used now, as many as fit.
+pub fn draw_hints(app: &App, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme();
+    let mut hints: Vec<(Section, Line)> = BINDINGS
+        .iter()
+        .filter(|binding| app.refusal(binding.when).is_none())
+        .filter_map(|binding| Some((binding.section, hint(app, binding)?)))
+        .collect();
+    let room = usize::from(area.width.saturating_sub(1));
+    // The keys of the program itself stay to the last; the others go from the end.
+    while hints.iter().map(|(_, line)| line.width()).sum::<usize>() > room {
+        let last = hints.iter().rposition(|(section, _)| *section != Section::Program);
+        hints.remove(last.unwrap_or(hints.len() - 1));
+    }
+    let mut x = area.x + 1;
+    buffer.set_style(area, theme.text());
+    for (_, line) in hints {
+        x = buffer.set_line(x, area.y, &line, area.right().saturating_sub(x)).0;
+    }
+}
+
+fn hint(app: &App, binding: &Binding) -> Option<Line<'static>> {
+    let (words, keys) = binding.hint?;
+    let keys = keys_text(binding.keys.iter().take(keys).map(|(chord, _)| *chord), app.look());
+    Some(Line::from(vec![
+        Span::styled(keys, app.theme().accent()),
+        Span::styled(format!(" {words}   "), app.theme().faint()),
+    ]))
+}

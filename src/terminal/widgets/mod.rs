@@ -1,0 +1,50 @@
+//! The parts of the screens.
+
+mod balls;
+mod events;
+mod footer;
+mod header;
+mod rails;
+mod shot;
+mod table;
+mod tip;
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use super::{look::Look, theme::Theme};
+
+pub use balls::draw_balls;
+pub use events::draw_events;
+pub use footer::{draw_hints, draw_status};
+pub use header::draw_header;
+pub use shot::draw_shot;
+pub use table::draw_table;
+pub use tip::draw_tip;
+
+/// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
+pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: &Look, buffer: &mut Buffer) -> Rect {
+    if area.is_empty() {
+        return area;
+    }
+    let rule = look.pick("─", "-").repeat(usize::from(area.width));
+    buffer.set_stringn(area.x, area.y, rule, usize::from(area.width), theme.faint());
+    if !title.spans.is_empty() {
+        let mut spans = vec![Span::styled(" ", theme.text())];
+        spans.extend(title.spans.iter().cloned());
+        spans.push(Span::styled(" ", theme.text()));
+        buffer.set_line(area.x + 1, area.y, &Line::from(spans), area.width.saturating_sub(1));
+    }
+    Rect { y: area.y + 1, height: area.height - 1, ..area }
+}
+
+/// Writes `text` so that it ends before column `end`, but never left of `start`.
+pub fn write_right(buffer: &mut Buffer, start: u16, end: u16, row: u16, text: &str, style: Style) {
+    let width = Span::raw(text).width() as u16;
+    let x = end.saturating_sub(width).max(start);
+    buffer.set_stringn(x, row, text, usize::from(end.saturating_sub(x)), style);
+}

@@ -1,0 +1,148 @@
+//! The rails around the cloth: wood outside, the cushion's rubber inside, sights, and where the selected ball lies.
+
+use glam::DVec2;
+use ratatui::{
+    buffer::Buffer,
+    style::{Color, Modifier, Style},
+    symbols::pixel::SEXTANTS,
+};
+
+use crate::terminal::{
+    geometry::{Mapping, RAIL_COLUMNS},
+    look::{Glyphs, Look},
+    theme::Theme,
+};
+
+/// Draws the rails, the sights at every `diamond`, m, and pointers to `marked`, a place on the table.
+pub fn draw_rails(
+    mapping: &Mapping,
+    diamond: f64,
+    marked: Option<DVec2>,
+    theme: &Theme,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    let rails = Rails { mapping, theme, look };
+    if look.glyphs == Glyphs::Letters {
+        rails.lines(buffer);
+    } else {
+        rails.blocks(buffer);
+    }
+    rails.sights(diamond, buffer);
+    if let Some(place) = marked {
+        rails.pointers(place, buffer);
+    }
+}
+
+struct Rails<'a> {
+    mapping: &'a Mapping,
+    theme: &'a Theme,
+    look: &'a Look,
+}
+
+impl Rails<'_> {
+    fn put(&self, buffer: &mut Buffer, x: u16, y: u16, symbol: char, front: Color, back: Color) {
+        if let Some(cell) = buffer.cell_mut((x, y)) {
+            cell.set_char(symbol).set_style(Style::new().fg(front).bg(back));
+        }
+    }
+
+    fn blocks(&self, buffer: &mut Buffer) {
+        let (bed, outer) = (self.mapping.bed, self.mapping.outer());
+        let (wood, cushion) = (self.theme.wood, self.theme.cushion);
+        for x in outer.x + 1..outer.right() - 1 {
+            self.put(buffer, x, outer.y, '▀', wood, cushion);
+            self.put(buffer, x, bed.bottom(), '▄', wood, cushion);
+        }
+        for y in outer.y..outer.bottom() {
+            for x in [outer.x, outer.right() - 1] {
+                self.put(buffer, x, y, ' ', wood, wood);
+            }
+        }
+        for y in bed.y..bed.bottom() {
+            for x in [outer.x + 1, bed.right()] {
+                self.put(buffer, x, y, ' ', wood, cushion);
+            }
+        }
+    }
+
+    /// The rails where there are no blocks to paint with.
+    fn lines(&self, buffer: &mut Buffer) {
+        let (bed, background) = (self.mapping.bed, self.theme.background);
+        let wood = if self.theme.is_mono() { Color::Reset } else { self.theme.faint };
+        let (left, right) = (bed.x - 1, bed.right());
+        for x in bed.x..bed.right() {
+            for y in [bed.y - 1, bed.bottom()] {
+                self.put(buffer, x, y, self.look.pick('═', '='), wood, background);
+            }
+        }
+        for y in bed.y..bed.bottom() {
+            for x in [left, right] {
+                self.put(buffer, x, y, self.look.pick('║', '|'), wood, background);
+            }
+        }
+        for (x, y, symbol) in [
+            (left, bed.y - 1, '╔'),
+            (right, bed.y - 1, '╗'),
+            (left, bed.bottom(), '╚'),
+            (right, bed.bottom(), '╝'),
+        ] {
+            self.put(buffer, x, y, self.look.pick(symbol, '+'), wood, background);
+        }
+    }
+
+    fn sights(&self, diamond: f64, buffer: &mut Buffer) {
+        let (bed, scale) = (self.mapping.bed, self.mapping.scale());
+        let letters = self.look.glyphs == Glyphs::Letters;
+        let symbol = |blocks: char| if letters { self.look.pick('◆', 'o') } else { blocks };
+        let behind = if letters { self.theme.background } else { self.theme.cushion };
+        // From both ends inwards, so that the picture is as symmetric as the table.
+        for n in 1..=4 {
+            let column = (diamond * f64::from(n) * scale.x) as u16;
+            if 2 * column > bed.width {
+                break;
+            }
+            for x in [bed.x + column.min(bed.width - 1), bed.right() - 1 - column.min(bed.width - 1)] {
+                // The one in the middle would be two.
+                if 2 * column == bed.width && x < bed.x + column {
+                    continue;
+                }
+                self.put(buffer, x, bed.y - 1, symbol('▀'), self.theme.sight, behind);
+                self.put(buffer, x, bed.bottom(), symbol('▄'), self.theme.sight, behind);
+            }
+        }
+        let behind = if letters { self.theme.background } else { self.theme.wood };
+        let mut n = 1.0;
+        while diamond * n * scale.y < f64::from(bed.height) - 0.5 {
+            let row = diamond * n * scale.y;
+            let thirds = [SEXTANTS[0b11], SEXTANTS[0b1100], SEXTANTS[0b11_0000]];
+            let block = match self.look.glyphs {
+                Glyphs::Sextant => thirds[(row.fract() * 3.0) as usize % 3],
+                _ if row.fract() < 0.5 => '▀',
+                _ => '▄',
+            };
+            let inset = if letters { 1 } else { RAIL_COLUMNS };
+            for x in [bed.x - inset, bed.right() + inset - 1] {
+                self.put(buffer, x, bed.y + row as u16, symbol(block), self.theme.sight, behind);
+            }
+            n += 1.0;
+        }
+    }
+
+    fn pointers(&self, place: DVec2, buffer: &mut Buffer) {
+        let (bed, (x, y)) = (self.mapping.bed, self.mapping.to_cell(place));
+        let letters = self.look.glyphs == Glyphs::Letters;
+        let behind = if letters { self.theme.background } else { self.theme.cushion };
+        for (x, y, symbol, plain) in [
+            (x, bed.y - 1, '▼', 'v'),
+            (x, bed.bottom(), '▲', '^'),
+            (bed.x - 1, y, '▶', '>'),
+            (bed.right(), y, '◀', '<'),
+        ] {
+            self.put(buffer, x, y, self.look.pick(symbol, plain), self.theme.accent, behind);
+            if let Some(cell) = buffer.cell_mut((x, y)) {
+                cell.modifier.insert(Modifier::BOLD);
+            }
+        }
+    }
+}

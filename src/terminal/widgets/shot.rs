@@ -1,0 +1,85 @@
+//! The panel of the shot: the five cue inputs and what they give the ball.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use super::draw_title;
+use crate::terminal::{
+    app::App,
+    look::Look,
+    shot::Shot,
+    words::{across_word, fixed, height_word},
+};
+
+/// Columns from which on the panel explains the numbers.
+const WIDE: u16 = 30;
+
+/// Draws the panel.
+pub fn draw_shot(app: &App, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let mut title = vec![Span::styled("Shot", theme.text())];
+    if let Some(shot) = app.shot() {
+        let (words, style) = if shot.solved { ("point", theme.good()) } else { ("no point", theme.warning()) };
+        title.push(Span::styled(look.pick(" · ", " - "), theme.faint()));
+        title.push(Span::styled(words, style));
+        if area.width >= WIDE {
+            title.push(Span::styled(format!(" {}", shot.source), theme.faint()));
+        }
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    let Some(shot) = app.shot() else {
+        for (text, row) in ["", "no shot yet", "Enter asks", "the coach"].into_iter().zip(inner.y..inner.bottom()) {
+            buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), theme.faint());
+        }
+        return;
+    };
+    let wide = inner.width >= WIDE;
+    let rows = if wide { wide_rows(shot, app.table().radius, look) } else { narrow_rows(shot, look) };
+    for ((name, value, note), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let line = Line::from(vec![
+            Span::styled(format!("{name:<3}"), theme.faint()),
+            Span::styled(value, theme.text()),
+            Span::styled(format!(" {note}"), theme.faint()),
+        ]);
+        buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+    }
+}
+
+type Row = (&'static str, String, String);
+
+fn wide_rows(shot: &Shot, radius: f64, look: &Look) -> Vec<Row> {
+    let cue = &shot.cue;
+    let offset = |value: f64| fixed((1000.0 * radius * value).abs(), 1);
+    let degree = look.pick("°", " deg");
+    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let value = |text: String| format!("{text:>8}");
+    vec![
+        ("a", value(fixed(cue.a, 3)), format!("R, {} mm {}", offset(cue.a), across_word(cue.a))),
+        ("b", value(fixed(cue.b, 3)), format!("R, {} mm {}", offset(cue.b), height_word(cue.b))),
+        (look.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
+        (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + degree), "from the x axis".into()),
+        ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
+        ("V0", format!("{:>8} {:>7}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
+        (look.pick("ω0", "w0"), format!("{:>8} {:>6} {:>6}", fixed(w.x, 1), fixed(w.y, 1), fixed(w.z, 1)), "rad/s".into()),
+    ]
+}
+
+fn narrow_rows(shot: &Shot, look: &Look) -> Vec<Row> {
+    let cue = &shot.cue;
+    let degree = look.pick("°", " deg");
+    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let none = String::new;
+    vec![
+        ("a", format!("{:>6}", fixed(cue.a, 3)), across_word(cue.a).into()),
+        ("b", format!("{:>6}", fixed(cue.b, 3)), height_word(cue.b).into()),
+        (look.pick("θ", "th"), format!("{:>6}", fixed(cue.theta.to_degrees(), 1)) + degree, none()),
+        (look.pick("φ", "ph"), format!("{:>6}", fixed(cue.phi.to_degrees(), 1)) + degree, none()),
+        ("V", format!("{:>6}", fixed(cue.speed, 2)), "m/s".into()),
+        ("V0", format!("{:>5} {:>5}", fixed(v.x, 2), fixed(v.y, 2)), none()),
+        (look.pick("ω0", "w0"), format!("{:>5} {:>5}", fixed(w.x, 0), fixed(w.y, 0)), none()),
+        ("", format!("{:>5}", fixed(w.z, 0)), "rad/s".into()),
+    ]
+}

@@ -1,0 +1,88 @@
+//! Numbers and events in the words of a player.
+
+use crate::{
+    simulation::{EventKind, Rail},
+    table::BALLS,
+};
+
+/// The balls' names by their index.
+pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
+
+/// The cushion's name as it lies on the screen.
+pub const fn rail_name(rail: Rail) -> &'static str {
+    match rail {
+        Rail::Left => "left cushion",
+        Rail::Right => "right cushion",
+        Rail::Bottom => "bottom cushion",
+        Rail::Top => "top cushion",
+    }
+}
+
+/// What happens, in a few words.
+pub fn event_words(kind: EventKind) -> String {
+    let name = |ball: usize| BALL_NAMES[ball];
+    match kind {
+        EventKind::BallBall(first, second) => format!("{} - {}", name(first), name(second)),
+        EventKind::BallRail(ball, rail) => format!("{} - {}", name(ball), rail_name(rail)),
+        EventKind::SlidingRolling(ball) => format!("{} rolls", name(ball)),
+        EventKind::RollingStationary(ball) => format!("{} stops", name(ball)),
+        EventKind::ContactBegins(ball) => format!("{} leans on", name(ball)),
+        EventKind::ContactEnds(ball) => format!("{} comes free", name(ball)),
+    }
+}
+
+/// The number with `decimals` digits, never as minus zero.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if text.starts_with('-') && !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte)) {
+        text[1..].to_owned()
+    } else {
+        text
+    }
+}
+
+/// Metres as millimetres with one decimal.
+pub fn millimetres(metres: f64) -> String {
+    fixed(1000.0 * metres, 1)
+}
+
+/// Millimetres of a step size, without needless decimals.
+pub fn step_words(millimetres: f64) -> String {
+    format!("{millimetres} mm")
+}
+
+/// The side of the tip's offset `a`, R positive to the shooter's left, or nothing for the centre.
+pub fn across_word(a: f64) -> &'static str {
+    match a {
+        _ if a > 0.0 => "left",
+        _ if a < 0.0 => "right",
+        _ => "centre",
+    }
+}
+
+/// The side of the tip's offset `b`, positive above the centre.
+pub fn height_word(b: f64) -> &'static str {
+    match b {
+        _ if b > 0.0 => "above",
+        _ if b < 0.0 => "below",
+        _ => "centre",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_number_is_minus_zero() {
+        assert_eq!(fixed(-0.000_4, 3), "0.000");
+        assert_eq!(fixed(-0.000_6, 3), "-0.001");
+        assert_eq!(millimetres(-0.71), "-710.0");
+        assert_eq!(fixed(f64::NAN, 1), "NaN");
+    }
+
+    #[test]
+    fn the_side_is_the_one_the_shooter_sees() {
+        assert_eq!((across_word(0.2), across_word(-0.2), height_word(-0.1)), ("left", "right", "below"));
+    }
+}
