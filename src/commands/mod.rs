@@ -10,6 +10,8 @@ use clap::{Parser, Subcommand};
 
 pub use failure::Failure;
 
+use crate::table::Table;
+
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
 #[command(version, about, long_about = None)]
@@ -36,7 +38,9 @@ impl Cli {
     /// A [`Failure`] with its sentence and exit code.
     pub fn run(self) -> Result<(), Failure> {
         match self.command {
-            None => Ok(()),
+            None => Table::preset(&self.table)
+                .map_err(Failure::wrong_input)
+                .and_then(|table| crate::terminal::run(table, None).map_err(Failure::wrong_input)),
             Some(Command::Simulate(args)) => simulate::run(&args),
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),

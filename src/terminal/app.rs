@@ -152,7 +152,9 @@ impl App {
             Action::Suspend => return Some(Effect::Suspend),
             Action::OpenHelp => self.help = Some(0),
             Action::CloseHelp => self.help = None,
-            Action::ScrollHelp(lines) => self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL)),
+            Action::ScrollHelp(lines) => {
+                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL))
+            }
             Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
             Action::Select(ball) => self.select(ball),
             Action::SelectNext => self.select((self.selected + 1) % BALLS),
@@ -261,8 +263,6 @@ impl App {
         self.pending = None;
         match answer.shot {
             Ok(shot) => {
-                let speed = self.playback;
-                self.playback = Playback { playing: false, ..speed };
                 self.playback.jump(0.0);
                 self.message = Some(news(&shot));
                 self.balls.present_mut().shot = Some(shot);
@@ -291,11 +291,7 @@ impl App {
 
     /// Seconds until the next picture; `None` while nothing moves by itself.
     pub fn frame_interval(&self) -> Option<f64> {
-        if self.playback.playing {
-            Some(1.0 / 30.0)
-        } else {
-            self.pending.as_ref().map(|_| SPINNER_INTERVAL)
-        }
+        if self.playback.playing { Some(1.0 / 30.0) } else { self.pending.as_ref().map(|_| SPINNER_INTERVAL) }
     }
 
     /// Draws the screen.

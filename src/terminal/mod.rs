@@ -1,1 +1,70 @@
 //! The terminal program: screens, input and drawing.
+//!
+//! [`App`] holds the state and knows no terminal: keys go in, pictures come out, and what it wants done outside comes
+//! back as an [`Effect`]. [`run`] is the loop around it.
+
+mod app;
+mod canvas;
+mod chord;
+mod geometry;
+mod history;
+mod inbox;
+mod keymap;
+mod look;
+mod placing;
+mod playback;
+mod recommender;
+mod runner;
+mod screens;
+mod session;
+mod shot;
+mod sprites;
+mod standin;
+mod status;
+mod theme;
+mod widgets;
+mod words;
+
+use std::{io, time::SystemTime};
+
+use crate::table::{Layout, LayoutError, Table};
+
+pub use app::{App, Effect, Mode};
+pub use geometry::Mapping;
+pub use keymap::{Action, When};
+pub use look::{Depth, Glyphs, Look};
+pub use recommender::{Answer, Job, Office};
+pub use shot::Shot;
+
+/// Why the terminal program cannot run.
+#[derive(Debug, thiserror::Error)]
+pub enum TerminalError {
+    /// Input or output is no terminal, or one that shows no pictures.
+    #[error(
+        "this is no terminal that can show the table; use the command line instead: \
+         carom recommend --layout \"-0.71,0 0.71,0 -0.71,0.1825\""
+    )]
+    NoTerminal,
+    /// The first layout is not possible.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+    /// The terminal has failed.
+    #[error("the terminal has failed: {0}")]
+    Io(#[from] io::Error),
+}
+
+/// Opens the coach on `table` with the balls at `layout`, or in the opening position, until the player quits.
+///
+/// # Errors
+/// [`TerminalError`]: no terminal, a layout that is not possible, or a terminal that fails.
+pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
+    let layout = layout.unwrap_or_else(|| Layout::opening(&table));
+    layout.validate(&table)?;
+    if !session::has_terminal() {
+        return Err(TerminalError::NoTerminal);
+    }
+    let look = Look::detect(|name| std::env::var(name).ok());
+    // Any number does: it only makes random layouts differ from one start to the next.
+    let seed = SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64);
+    Ok(runner::run(App::new(table, layout, look, seed)?)?)
+}

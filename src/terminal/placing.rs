@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::table::{BALLS, Layout, LayoutError, TOUCHING_TOLERANCE, Table};
 
 /// Where a ball came to lie, and why it did not go all the way.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Slide {
     /// The layout after the move.
     pub layout: Layout,

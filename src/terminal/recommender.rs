@@ -53,17 +53,15 @@ pub struct Office {
 impl Office {
     /// Answers a question on this thread. A panic becomes a sentence.
     pub fn answer(&self, job: &Job) -> Answer {
-        let shot = catch_unwind(AssertUnwindSafe(|| self.shot(job))).unwrap_or_else(|_| {
-            Err("the coach failed on this layout; move a ball a little and ask again".to_owned())
-        });
+        let shot = catch_unwind(AssertUnwindSafe(|| self.shot(job)))
+            .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
         Answer { id: job.id, shot: shot.map(Arc::new) }
     }
 
     fn shot(&self, job: &Job) -> Result<Shot, String> {
         let coach = self.coach.get_or_init(|| Coach::new(job.table.clone()).map_err(|error| error.to_string()));
         let coach = coach.as_ref().map_err(Clone::clone)?;
-        let request =
-            Request { budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel), ..Request::default() };
+        let request = Request { budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel), ..Request::default() };
         let recommendation = coach.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
         Shot::new(&job.table, &job.layout, &recommendation)
     }

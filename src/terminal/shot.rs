@@ -2,20 +2,17 @@
 
 use glam::DVec2;
 
-use super::{
-    standin::{Recommendation, Recording},
-    words::BALL_NAMES,
-};
+use super::{standin::Recommendation, words::BALL_NAMES};
 use crate::{
-    physics::{CueInputs, Impulse, strike},
-    simulation::EventKind,
+    physics::{CueInputs, Impulse},
+    simulation::{EventKind, Recording},
     table::{BALLS, Layout, Table},
 };
 
-/// Distance of two dots of a path, m.
-const DOT_SPACING: f64 = 0.055;
-/// Seconds between two looks at a path; at 10 m/s a ball moves 20 mm meanwhile, less than half a dot's distance.
-const PATH_STEP: f64 = 0.002;
+/// Distance of two dots of a path, m. The screen shows every second or third of them, as its sub-pixels ask for.
+pub const DOT_SPACING: f64 = 0.0275;
+/// Seconds between two looks at a path; at 10 m/s a ball moves 10 mm meanwhile, well below a dot's distance.
+const PATH_STEP: f64 = 0.001;
 
 /// A dot of a ball's path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +65,7 @@ impl Shot {
         let recording = Recording::new(table, layout, &cue).map_err(|error| error.to_string())?;
         Ok(Self {
             cue,
-            impulse: strike(table, &cue),
+            impulse: *recording.impulse(),
             solved: recommendation.solved,
             source: recommendation.source.to_string(),
             paths: std::array::from_fn(|ball| dots(&recording, ball)),
@@ -97,7 +94,8 @@ fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
         since_dot += place.distance(last);
         last = place;
         if since_dot >= DOT_SPACING {
-            since_dot = 0.0;
+            // What is over counts for the next, so that the distance is right on average.
+            since_dot -= DOT_SPACING;
             dots.push(Dot { time, place });
         }
     }

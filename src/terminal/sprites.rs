@@ -8,12 +8,13 @@ use super::{
     look::Glyphs,
 };
 
-/// Below this many columns a ball is enlarged, or it would be a mere speck.
-const SMALL_BALL: f64 = 2.0;
-/// How much a small ball is enlarged; the physics keeps the true size.
-const ENLARGED: f64 = 1.3;
-/// A larger ball gains a little too, since its corners are cut.
+/// A ball is drawn a little larger than it is, since its corners are cut.
 const ROUNDED: f64 = 1.1;
+/// The smallest shape in sextants that looks round: anything smaller is a cross or a block. On a table of 60 columns it is
+/// almost twice the ball; the physics keeps the true size.
+const LEAST_SEXTANTS: (i32, i32) = (5, 4);
+/// The smallest shape in half blocks that can be seen.
+const LEAST_HALVES: (i32, i32) = (2, 2);
 
 /// A ball's picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,15 +26,12 @@ pub struct Sprite {
 impl Sprite {
     /// The picture of a ball at the scale of `mapping`.
     pub fn new(mapping: &Mapping, glyphs: Glyphs) -> Self {
-        let columns = mapping.ball_columns();
-        let drawn = columns * if columns < SMALL_BALL { ENLARGED } else { ROUNDED };
-        // A row is as high as two columns are wide.
+        let drawn = mapping.ball_columns() * ROUNDED;
         let (across, down) = sub_pixels(glyphs);
+        let least = if glyphs == Glyphs::Sextant { LEAST_SEXTANTS } else { LEAST_HALVES };
         let size = |per_column: f64, least: i32| ((drawn * per_column).round() as i32).max(least);
-        match glyphs {
-            Glyphs::Sextant => Self { width: size(f64::from(across), 4), height: size(f64::from(down) / 2.0, 3) },
-            Glyphs::Half | Glyphs::Letters => Self { width: size(1.0, 2), height: size(1.0, 2) },
-        }
+        // A row is as high as two columns are wide.
+        Self { width: size(f64::from(across), least.0), height: size(f64::from(down) / 2.0, least.1) }
     }
 
     /// Whether the sub-pixel belongs to the ball, counted from the picture's upper left corner.
@@ -96,7 +94,8 @@ mod tests {
             let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, columns, 60));
             shape(Sprite::new(&mapping, Glyphs::Sextant))
         };
-        assert_eq!(sprite(64), [".##.", "####", ".##."]);
+        assert_eq!(sprite(64), [".###.", "#####", "#####", ".###."]);
         assert_eq!(sprite(112), [".###.", "#####", "#####", ".###."]);
+        assert_eq!(sprite(192), ["..#####..", ".#######.", "#########", "#########", ".#######.", "..#####.."]);
     }
 }

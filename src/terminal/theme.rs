@@ -38,8 +38,6 @@ pub struct Theme {
     pub face: Color,
     /// The part of the face where the tip would slip off.
     pub miscue: Color,
-    /// The miscue circle and the cross hair.
-    pub mark: Color,
     /// The tip's contact.
     pub tip: Color,
 }
@@ -58,17 +56,12 @@ impl Theme {
             warning: ink(0x00ff_8a70, Color::LightRed),
             cloth: ink(0x001b_6d83, Color::Blue),
             cushion: ink(0x0011_4a5c, Color::Cyan),
-            wood: ink(0x006b_4128, Color::Black),
+            wood: ink(0x006b_4128, Color::DarkGray),
             sight: ink(0x00f3_e3bf, Color::White),
             balls: [ink(0x00f7_f3e8, Color::White), ink(0x00f6_c324, Color::LightYellow), ink(0x00d9_3636, Color::Red)],
-            paths: [
-                ink(0x00b9_d3d8, Color::Gray),
-                ink(0x00d8_c05a, Color::Yellow),
-                ink(0x00ee_8f83, Color::LightRed),
-            ],
+            paths: [ink(0x00b9_d3d8, Color::Gray), ink(0x00d8_c05a, Color::Yellow), ink(0x00ee_8f83, Color::LightRed)],
             face: ink(0x00f7_f3e8, Color::White),
             miscue: ink(0x00c3_c4be, Color::Gray),
-            mark: ink(0x0091_9a9c, Color::DarkGray),
             tip: ink(0x001f_63c8, Color::Blue),
         }
     }

@@ -11,10 +11,10 @@ pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
 /// The cushion's name as it lies on the screen.
 pub const fn rail_name(rail: Rail) -> &'static str {
     match rail {
-        Rail::Left => "left cushion",
-        Rail::Right => "right cushion",
-        Rail::Bottom => "bottom cushion",
-        Rail::Top => "top cushion",
+        Rail::Left => "left rail",
+        Rail::Right => "right rail",
+        Rail::Bottom => "bottom rail",
+        Rail::Top => "top rail",
     }
 }
 

@@ -35,6 +35,11 @@ pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
     for (line, row) in lines[first..].iter().zip(page.y..page.bottom()) {
         buffer.set_line(page.x, row, line, page.width);
     }
+    let hidden = last - first;
+    if hidden > 0 {
+        let more = format!("{hidden} more lines below");
+        buffer.set_string(page.x, page.bottom(), more, app.theme().faint());
+    }
     draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, buffer);
 }
 

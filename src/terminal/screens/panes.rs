@@ -11,8 +11,8 @@ const BELOW_BESIDE: u16 = 4;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (16, 36);
 /// Columns of the panels of balls, shot and tip where they stand side by side.
-const BALLS_WIDTH: u16 = 40;
-const SHOT_WIDTH: u16 = 36;
+const BALLS_WIDTH: u16 = 39;
+const SHOT_WIDTH: u16 = 33;
 const TIP_WIDTH: u16 = 16;
 
 /// The areas of the coach's screen.

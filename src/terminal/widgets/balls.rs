@@ -27,8 +27,8 @@ const MOTION: u16 = 33;
 pub fn draw_balls(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     let inner = draw_title(&Line::from(Span::styled("Balls", theme.text())), area, theme, look, buffer);
-    for (end, label) in [(X_END, " x mm"), (Y_END, " y mm"), (SPEED_END, " m/s")] {
-        write_right(buffer, area.x, area.x + end, area.y, label, theme.faint());
+    for (end, label) in [(X_END, " x mm "), (Y_END, " y mm "), (SPEED_END, " m/s ")] {
+        write_right(buffer, area.x, area.x + end + 1, area.y, label, theme.faint());
     }
     for (ball, row) in (0..BALLS).zip(inner.y..inner.bottom()) {
         draw_ball(app, ball, Rect { y: row, height: 1, ..inner }, buffer);

@@ -16,6 +16,9 @@ use crate::{
     },
 };
 
+/// Columns before an event's words.
+const WORDS: u16 = 9;
+
 /// Draws the panel: the stroke, then every event, with the present one marked and in view.
 pub fn draw_events(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
@@ -43,11 +46,13 @@ pub fn draw_events(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         let pointer = if n == present { look.pick("▸", ">") } else { " " };
         buffer.set_string(inner.x, row, pointer, theme.accent());
-        write_right(buffer, inner.x, inner.x + 8, row, &fixed(at, 3), style);
-        buffer.set_stringn(inner.x + 10, row, &words, usize::from(inner.width.saturating_sub(10)), style);
+        write_right(buffer, inner.x, inner.x + 7, row, &fixed(at, 3), style);
+        buffer.set_stringn(inner.x + WORDS, row, &words, usize::from(inner.width.saturating_sub(WORDS)), style);
         if n == present + 1 && app.watched().is_some() {
             let wait = format!("in {} s", fixed(at - time, 1));
-            write_right(buffer, inner.x, inner.right().saturating_sub(1), row, &wait, theme.faint());
+            if usize::from(inner.width) > usize::from(WORDS) + words.len() + wait.len() + 2 {
+                write_right(buffer, inner.x, inner.right().saturating_sub(1), row, &wait, theme.faint());
+            }
         }
     }
 }

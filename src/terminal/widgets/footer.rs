@@ -4,7 +4,7 @@ use ratatui::{
     buffer::Buffer,
     layout::Rect,
     text::{Line, Span},
-    widgets::{Clear, Paragraph, Widget, Wrap},
+    widgets::{Clear, Widget},
 };
 
 use crate::{
@@ -33,22 +33,40 @@ pub fn draw_status(app: &App, area: Rect, buffer: &mut Buffer) {
         }
         None => (standing(app), theme.text()),
     };
-    let status = Paragraph::new(Line::styled(text, style)).style(theme.text()).wrap(Wrap { trim: true });
     let width = area.width.saturating_sub(2);
-    let mut rows = 1;
-    while rows < area.height && !fits(&status, width, rows) {
-        rows += 1;
+    let lines = wrap(&text, usize::from(width));
+    let rows = (lines.len() as u16).min(area.height);
+    let place = Rect::new(area.x, area.bottom() - rows, area.width, rows);
+    Clear.render(place, buffer);
+    buffer.set_style(place, theme.text());
+    for (line, row) in lines.iter().zip(place.y..place.bottom()) {
+        buffer.set_stringn(place.x + 1, row, line, usize::from(width), style);
     }
-    let row = Rect::new(area.x, area.bottom().saturating_sub(rows), area.width, rows.min(area.height));
-    Clear.render(row, buffer);
-    buffer.set_style(row, theme.text());
-    status.render(Rect { x: row.x + 1, width, ..row }, buffer);
+}
+
+/// The words of `text` in lines of at most `width` characters; a longer word has a line to itself.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        let line = &mut lines[last];
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= width {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
 }
 
 /// What the status line says while there is no news.
 fn standing(app: &App) -> String {
     if let Some(picture) = app.spinner() {
-        let pictures = app.look().pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
+        let pictures =
+            app.look().pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
         return format!("{} the coach is thinking; Esc stops it", pictures[picture % pictures.len()]);
     }
     match (app.mode(), app.watched()) {
@@ -62,9 +80,8 @@ fn standing(app: &App) -> String {
         _ => {
             let (ball, balls) = (app.selected(), app.layout().balls);
             let others = (0..BALLS).filter(|&other| other != ball);
-            let near = others.min_by(|&one, &two| {
-                balls[ball].distance(balls[one]).total_cmp(&balls[ball].distance(balls[two]))
-            });
+            let near = others
+                .min_by(|&one, &two| balls[ball].distance(balls[one]).total_cmp(&balls[ball].distance(balls[two])));
             let near = near.map_or(String::new(), |other| {
                 let gap = (balls[ball].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
                 format!(", {} mm from {}", millimetres(gap), BALL_NAMES[other])
@@ -103,4 +120,16 @@ fn hint(app: &App, binding: &Binding) -> Option<Line<'static>> {
         Span::styled(keys, app.theme().accent()),
         Span::styled(format!(" {words}   "), app.theme().faint()),
     ]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_sentences_are_broken_between_words() {
+        assert_eq!(wrap("", 5), [""]);
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("unbreakable a b", 3), ["unbreakable", "a b"]);
+    }
 }

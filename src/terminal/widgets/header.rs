@@ -12,8 +12,8 @@ use crate::terminal::{
     words::fixed,
 };
 
-/// Cells of the bar that shows how far the shot has played.
-const BAR: u16 = 24;
+/// Most cells of the bar that shows how far the shot has played.
+const BAR: u16 = 40;
 
 /// Draws the row.
 pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -22,17 +22,18 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
     let left = Line::from(vec![
         Span::styled(" carom ", theme.accent().add_modifier(Modifier::REVERSED)),
         Span::styled(format!(" {}", table.name), theme.text()),
-        Span::styled(format!(" table {} x {} m", table.length, table.width), theme.faint()),
+        Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint()),
     ]);
-    buffer.set_line(area.x, area.y, &left, area.width);
-    let right = transport(app);
-    let width = right.width() as u16;
-    if let Some(x) = area.right().checked_sub(width + 1) {
-        buffer.set_line(x, area.y, &right, width);
-    }
+    let taken = buffer.set_line(area.x, area.y, &left, area.width).0;
+    let room = area.right().saturating_sub(taken + 2);
+    // The bar is left out where a long name leaves it no room.
+    let bar = BAR.min(room.saturating_sub(transport(app, 0).width() as u16));
+    let right = transport(app, usize::from(bar));
+    let x = area.right().saturating_sub(right.width() as u16 + 1).max(taken + 1);
+    buffer.set_line(x, area.y, &right, area.right().saturating_sub(x));
 }
 
-fn transport(app: &App) -> Line<'static> {
+fn transport(app: &App, bar: usize) -> Line<'static> {
     let (theme, look) = (app.theme(), app.look());
     let playback = app.playback();
     let Some(shot) = app.shot() else {
@@ -44,11 +45,11 @@ fn transport(app: &App) -> Line<'static> {
         Mode::Watching if playback.playing => "playing",
         Mode::Watching => "paused",
     };
-    let done = if duration > 0.0 { (playback.readout / duration * f64::from(BAR)) as usize } else { usize::from(BAR) };
+    let done = if duration > 0.0 { (playback.readout / duration * bar as f64) as usize } else { bar };
     Line::from(vec![
         Span::styled(format!("{state}  "), theme.text()),
-        Span::styled(look.pick("━", "=").repeat(done), theme.accent()),
-        Span::styled(look.pick("─", "-").repeat(usize::from(BAR) - done), theme.faint()),
+        Span::styled(look.pick("━", "=").repeat(done.min(bar)), theme.accent()),
+        Span::styled(look.pick("─", "-").repeat(bar - done.min(bar)), theme.faint()),
         Span::styled(format!("  {:>5}", fixed(playback.readout, 2)), theme.text()),
         Span::styled(format!(" / {} s", fixed(duration, 2)), theme.faint()),
         Span::styled(format!("  {}{}", look.pick("×", "x"), playback.speed()), theme.text()),

@@ -81,12 +81,9 @@ impl Rails<'_> {
                 self.put(buffer, x, y, self.look.pick('║', '|'), wood, background);
             }
         }
-        for (x, y, symbol) in [
-            (left, bed.y - 1, '╔'),
-            (right, bed.y - 1, '╗'),
-            (left, bed.bottom(), '╚'),
-            (right, bed.bottom(), '╝'),
-        ] {
+        for (x, y, symbol) in
+            [(left, bed.y - 1, '╔'), (right, bed.y - 1, '╗'), (left, bed.bottom(), '╚'), (right, bed.bottom(), '╝')]
+        {
             self.put(buffer, x, y, self.look.pick(symbol, '+'), wood, background);
         }
     }
@@ -115,12 +112,7 @@ impl Rails<'_> {
         let mut n = 1.0;
         while diamond * n * scale.y < f64::from(bed.height) - 0.5 {
             let row = diamond * n * scale.y;
-            let thirds = [SEXTANTS[0b11], SEXTANTS[0b1100], SEXTANTS[0b11_0000]];
-            let block = match self.look.glyphs {
-                Glyphs::Sextant => thirds[(row.fract() * 3.0) as usize % 3],
-                _ if row.fract() < 0.5 => '▀',
-                _ => '▄',
-            };
+            let block = self.part_of_row(row);
             let inset = if letters { 1 } else { RAIL_COLUMNS };
             for x in [bed.x - inset, bed.right() + inset - 1] {
                 self.put(buffer, x, bed.y + row as u16, symbol(block), self.theme.sight, behind);
@@ -129,20 +121,38 @@ impl Rails<'_> {
         }
     }
 
+    /// Marks in the cushions, or between the signs of the rails, where the lines through `place` meet them.
     fn pointers(&self, place: DVec2, buffer: &mut Buffer) {
         let (bed, (x, y)) = (self.mapping.bed, self.mapping.to_cell(place));
-        let letters = self.look.glyphs == Glyphs::Letters;
-        let behind = if letters { self.theme.background } else { self.theme.cushion };
-        for (x, y, symbol, plain) in [
-            (x, bed.y - 1, '▼', 'v'),
-            (x, bed.bottom(), '▲', '^'),
-            (bed.x - 1, y, '▶', '>'),
-            (bed.right(), y, '◀', '<'),
-        ] {
-            self.put(buffer, x, y, self.look.pick(symbol, plain), self.theme.accent, behind);
-            if let Some(cell) = buffer.cell_mut((x, y)) {
-                cell.modifier.insert(Modifier::BOLD);
+        if self.look.glyphs == Glyphs::Letters {
+            for (x, y, symbol, plain) in [
+                (x, bed.y - 1, '▼', 'v'),
+                (x, bed.bottom(), '▲', '^'),
+                (bed.x - 1, y, '▶', '>'),
+                (bed.right(), y, '◀', '<'),
+            ] {
+                self.put(buffer, x, y, self.look.pick(symbol, plain), self.theme.accent, self.theme.background);
+                buffer[(x, y)].modifier.insert(Modifier::BOLD);
             }
+            return;
+        }
+        // The wood or the sight in the cell's outer half stays.
+        for y in [bed.y - 1, bed.bottom()] {
+            buffer[(x, y)].set_bg(self.theme.accent);
+        }
+        let block = self.part_of_row(self.mapping.to_cells(place).y);
+        for x in [bed.x - 1, bed.right()] {
+            self.put(buffer, x, y, block, self.theme.accent, self.theme.cushion);
+        }
+    }
+
+    /// The block that is nearest to `row` inside its cell.
+    fn part_of_row(&self, row: f64) -> char {
+        let thirds = [SEXTANTS[0b11], SEXTANTS[0b1100], SEXTANTS[0b11_0000]];
+        match self.look.glyphs {
+            Glyphs::Sextant => thirds[(row.fract() * 3.0) as usize % 3],
+            _ if row.fract() < 0.5 => '▀',
+            _ => '▄',
         }
     }
 }

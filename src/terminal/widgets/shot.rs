@@ -44,7 +44,8 @@ pub fn draw_shot(app: &App, area: Rect, buffer: &mut Buffer) {
             Span::styled(value, theme.text()),
             Span::styled(format!(" {note}"), theme.faint()),
         ]);
-        buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+        let indent = u16::from(wide);
+        buffer.set_line(inner.x + indent, row, &line, inner.width.saturating_sub(indent));
     }
 }
 
@@ -55,15 +56,19 @@ fn wide_rows(shot: &Shot, radius: f64, look: &Look) -> Vec<Row> {
     let offset = |value: f64| fixed((1000.0 * radius * value).abs(), 1);
     let degree = look.pick("°", " deg");
     let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
-    let value = |text: String| format!("{text:>8}");
+    let value = |text: String| format!("{text:>7}");
     vec![
         ("a", value(fixed(cue.a, 3)), format!("R, {} mm {}", offset(cue.a), across_word(cue.a))),
         ("b", value(fixed(cue.b, 3)), format!("R, {} mm {}", offset(cue.b), height_word(cue.b))),
         (look.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
         (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + degree), "from the x axis".into()),
         ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
-        ("V0", format!("{:>8} {:>7}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
-        (look.pick("ω0", "w0"), format!("{:>8} {:>6} {:>6}", fixed(w.x, 1), fixed(w.y, 1), fixed(w.z, 1)), "rad/s".into()),
+        ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
+        (
+            look.pick("ω0", "w0"),
+            format!("{:>6} {:>6} {:>6}", fixed(w.x, 1), fixed(w.y, 1), fixed(w.z, 1)),
+            "rad/s".into(),
+        ),
     ]
 }
 

@@ -12,17 +12,24 @@ use crate::{
     table::BALLS,
     terminal::{
         app::{App, Mode},
-        canvas::{Canvas, Ink},
+        canvas::{Canvas, Ink, sub_pixels},
         geometry::Mapping,
         look::Glyphs,
+        shot::DOT_SPACING,
         sprites::Sprite,
     },
 };
 
 /// Dots and rings nearer to a ball than this, in radii, are left out: three colours do not fit a cell.
 const CLEAR_RADII: f64 = 2.2;
-/// Columns across a ball from which on a ring has a hole that can be seen.
-const RING_COLUMNS: f64 = 2.0;
+/// Sub-pixels from one dot of a path to the next.
+const DOT_PIXELS: f64 = 3.6;
+/// Columns across a ball from which on its letter has room for brackets.
+const BRACKET_COLUMNS: f64 = 2.0;
+/// The cue behind the ball before the stroke, from its tip to where it is left out, in ball radii.
+const CUE: (f64, f64) = (1.8, 14.0);
+/// Dots of the cue in a ball radius: it is to be a line.
+const CUE_DOTS: f64 = 4.0;
 /// Letters of the balls, and the signs of their paths.
 const LETTERS: [char; BALLS] = ['W', 'Y', 'R'];
 const DOTS: [char; BALLS] = ['·', '+', '×'];
@@ -61,11 +68,13 @@ impl Scene<'_> {
         self.balls.iter().all(|ball| ball.distance(place) > CLEAR_RADII * self.mapping.radius)
     }
 
-    /// Calls `draw` with each dot of the predicted paths that no ball hides.
-    fn each_dot(&self, mut draw: impl FnMut(usize, DVec2)) {
+    /// Calls `draw` with each dot of the predicted paths that no ball hides; there are `across` sub-pixels in a cell.
+    fn each_dot(&self, across: u16, mut draw: impl FnMut(usize, DVec2)) {
         let Some(shot) = self.app.shot() else { return };
+        let pixel = 1.0 / (self.mapping.scale().x * f64::from(across));
+        let stride = (DOT_PIXELS * pixel / DOT_SPACING).round().max(1.0) as usize;
         for (ball, path) in shot.paths.iter().enumerate().rev() {
-            for dot in path.iter().filter(|dot| self.is_clear(dot.place)) {
+            for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place)) {
                 draw(ball, dot.place);
             }
         }
@@ -74,12 +83,25 @@ impl Scene<'_> {
     /// Calls `draw` with the places where balls will be: the first contact, and where they come to rest.
     fn each_ghost(&self, mut draw: impl FnMut(usize, DVec2)) {
         let Some(shot) = self.app.shot() else { return };
-        let contact = shot.contact.map(|contact| (0, contact.place));
-        let ends = shot.recording.final_layout().balls.into_iter().enumerate();
-        for (ball, place) in contact.into_iter().chain(ends) {
+        // At the contact the ring touches the object ball; only the cue ball itself may hide it.
+        let contact = shot.contact.map(|contact| contact.place);
+        if let Some(place) = contact.filter(|place| place.distance(self.balls[0]) > CLEAR_RADII * self.mapping.radius) {
+            draw(0, place);
+        }
+        for (ball, place) in shot.recording.final_layout().balls.into_iter().enumerate() {
             if self.is_clear(place) {
                 draw(ball, place);
             }
+        }
+    }
+
+    /// Calls `draw` along the cue, as long as it has not struck.
+    fn each_cue_dot(&self, mut draw: impl FnMut(DVec2)) {
+        let Some(shot) = self.app.shot().filter(|_| self.app.playback().time == 0.0) else { return };
+        let back = -DVec2::from_angle(shot.cue.phi);
+        let dots = ((CUE.1 - CUE.0) * CUE_DOTS) as u32;
+        for dot in 0..=dots {
+            draw(self.balls[0] + back * (self.mapping.radius * (CUE.0 + f64::from(dot) / CUE_DOTS)));
         }
     }
 
@@ -97,22 +119,19 @@ impl Scene<'_> {
         let (width, height) = canvas.size();
         let grid = DVec2::new(f64::from(width), f64::from(height))
             / DVec2::new(f64::from(mapping.bed.width), f64::from(mapping.bed.height));
-        self.each_dot(|ball, place| {
+        let dot = |canvas: &mut Canvas, place: DVec2, color: Color| {
             let at = (mapping.to_cells(place) * grid).floor();
-            canvas.set(at.x as i32, at.y as i32, Ink { color: theme.paths[ball], weight: DOT_WEIGHT });
-        });
-        if mapping.ball_columns() >= RING_COLUMNS && glyphs == Glyphs::Sextant {
+            canvas.set(at.x as i32, at.y as i32, Ink { color, weight: DOT_WEIGHT });
+        };
+        self.each_dot(sub_pixels(glyphs).0, |ball, place| dot(&mut canvas, place, theme.paths[ball]));
+        self.each_cue_dot(|place| dot(&mut canvas, place, theme.sight));
+        if glyphs == Glyphs::Sextant {
             self.each_ghost(|ball, place| {
                 sprite.stamp_ring(&mut canvas, mapping, place, Ink { color: theme.paths[ball], weight: RING_WEIGHT });
             });
         }
         for ball in self.order() {
-            sprite.stamp(
-                &mut canvas,
-                mapping,
-                self.balls[ball],
-                Ink { color: theme.balls[ball], weight: BALL_WEIGHT },
-            );
+            sprite.stamp(&mut canvas, mapping, self.balls[ball], Ink { color: theme.balls[ball], weight: BALL_WEIGHT });
         }
         canvas.paint(buffer);
     }
@@ -126,11 +145,11 @@ impl Scene<'_> {
             cell.set_char(symbol).set_fg(color);
         };
         let dots = look.pick(DOTS, PLAIN_DOTS);
-        self.each_dot(|ball, place| put(place, dots[ball], theme.paths[ball]));
+        self.each_dot(1, |ball, place| put(place, dots[ball], theme.paths[ball]));
         self.each_ghost(|ball, place| put(place, LETTERS[ball].to_ascii_lowercase(), theme.paths[ball]));
         for ball in self.order() {
             let (x, y) = mapping.to_cell(self.balls[ball]);
-            let wide = mapping.ball_columns() >= RING_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
+            let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
             let text = if wide { format!("({})", LETTERS[ball]) } else { LETTERS[ball].to_string() };
             let mut style = Style::new().fg(theme.balls[ball]).add_modifier(Modifier::BOLD);
             if self.app.mode() == Mode::Placing && ball == self.app.selected() {

@@ -52,11 +52,15 @@ fn draw_blocks(app: &App, face: Rect, buffer: &mut Buffer) {
                 continue;
             }
             let on_tip = tip(app).is_some_and(|(right, up)| (x - right).hypot(y - up) <= TIP_RADIUS);
-            canvas.set(column, row, match () {
-                () if on_tip => ink(theme.tip, 8),
-                () if radius > limit => ink(theme.miscue, 3),
-                () => ink(theme.face, 3),
-            });
+            canvas.set(
+                column,
+                row,
+                match () {
+                    () if on_tip => ink(theme.tip, 8),
+                    () if radius > limit => ink(theme.miscue, 3),
+                    () => ink(theme.face, 3),
+                },
+            );
         }
     }
     canvas.paint(buffer);

@@ -1,0 +1,56 @@
+//! The one channel of everything that happens: keys, resizes, signals, and the coach's answers.
+
+use std::{
+    io,
+    sync::mpsc::{Receiver, Sender, channel},
+    thread,
+};
+
+use crossterm::event::{self, Event};
+use signal_hook::{
+    consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP},
+    iterator::Signals,
+};
+
+use super::recommender::Answer;
+
+/// Something that the screen has to deal with.
+#[derive(Debug)]
+pub enum News {
+    /// A key, a resize or another report of the terminal.
+    Input(Event),
+    /// The terminal gives no input any more.
+    InputEnded,
+    /// A signal.
+    Signal(i32),
+    /// The coach has answered.
+    Answer(Answer),
+}
+
+/// Starts the threads that read the terminal and the signals into one channel.
+///
+/// # Errors
+/// A thread or a signal handler that could not be set up.
+pub fn open() -> io::Result<(Sender<News>, Receiver<News>)> {
+    let (sender, receiver) = channel();
+    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT])?;
+    let to_screen = sender.clone();
+    thread::Builder::new().name("signals".into()).spawn(move || {
+        for signal in signals.forever() {
+            if to_screen.send(News::Signal(signal)).is_err() {
+                break;
+            }
+        }
+    })?;
+    let to_screen = sender.clone();
+    thread::Builder::new().name("input".into()).spawn(move || {
+        loop {
+            let news = event::read().map_or(News::InputEnded, News::Input);
+            let ended = matches!(news, News::InputEnded);
+            if to_screen.send(news).is_err() || ended {
+                break;
+            }
+        }
+    })?;
+    Ok((sender, receiver))
+}

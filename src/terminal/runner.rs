@@ -1,0 +1,136 @@
+//! The loop: waits for news, hands them to the app, and draws once when something has changed.
+
+use std::{
+    io,
+    sync::mpsc::{Receiver, RecvTimeoutError, Sender},
+    time::{Duration, Instant},
+};
+
+use crossterm::event::Event;
+use signal_hook::{
+    consts::{SIGCONT, SIGTSTP},
+    low_level::emulate_default_handler,
+};
+
+use super::{
+    app::{App, Effect},
+    inbox::{self, News},
+    recommender::{self, Job},
+    session::Session,
+};
+
+/// Least time between two pictures; keys that come faster are drained and drawn together.
+const LEAST_INTERVAL: Duration = Duration::from_millis(15);
+
+/// Whether the loop goes on.
+enum Next {
+    GoOn,
+    Quit,
+    /// The process was told to end by a signal.
+    Die(i32),
+}
+
+/// Runs the app on the terminal until the player quits.
+///
+/// # Errors
+/// What the terminal answers.
+pub fn run(app: App) -> io::Result<()> {
+    let (to_screen, news) = inbox::open()?;
+    let session = Session::start()?;
+    let jobs = recommender::spawn(move |answer| {
+        // A screen that is gone needs no answer.
+        let _ = to_screen.send(News::Answer(answer));
+    })?;
+    let mut runner = Runner { app, session, jobs };
+    let end = runner.until_the_end(&news);
+    runner.session.leave()?;
+    match end? {
+        // The parent is to see that a signal ended the program.
+        Some(signal) => emulate_default_handler(signal),
+        None => Ok(()),
+    }
+}
+
+struct Runner {
+    app: App,
+    session: Session,
+    jobs: Sender<Job>,
+}
+
+impl Runner {
+    /// The signal that ended the program, or `None` where the player did.
+    fn until_the_end(&mut self, news: &Receiver<News>) -> io::Result<Option<i32>> {
+        let mut drawn = Instant::now();
+        self.draw()?;
+        let mut ticked = Instant::now();
+        loop {
+            let wait = self.app.frame_interval().map(Duration::from_secs_f64);
+            let first = match wait {
+                // Nothing moves: no timer, no processor time, no bytes.
+                None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(interval) => news.recv_timeout(interval.saturating_sub(drawn.elapsed())),
+            };
+            let first = match first {
+                Ok(first) => Some(first),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            };
+            if first.is_some() {
+                std::thread::sleep(LEAST_INTERVAL.saturating_sub(drawn.elapsed()));
+            }
+            // Time that passed while nothing moved does not count.
+            let passed = ticked.elapsed();
+            ticked = Instant::now();
+            if wait.is_some() {
+                self.app.tick(passed.as_secs_f64());
+            }
+            for news in first.into_iter().chain(news.try_iter()) {
+                match self.take(news)? {
+                    Next::GoOn => {}
+                    Next::Quit => return Ok(None),
+                    Next::Die(signal) => return Ok(Some(signal)),
+                }
+            }
+            self.draw()?;
+            drawn = Instant::now();
+        }
+    }
+
+    fn draw(&mut self) -> io::Result<()> {
+        self.session.draw(|frame| self.app.draw(frame))
+    }
+
+    fn take(&mut self, news: News) -> io::Result<Next> {
+        match news {
+            News::Input(Event::Key(key)) => match self.app.handle(&key) {
+                Some(Effect::Quit) => return Ok(Next::Quit),
+                Some(Effect::Suspend) => self.suspend()?,
+                Some(Effect::Recommend(job)) => {
+                    if self.jobs.send(job).is_err() {
+                        self.app.coach_lost();
+                    }
+                }
+                None => {}
+            },
+            // A resize needs a picture, which follows anyway.
+            News::Input(_) => {}
+            News::InputEnded => return Ok(Next::Quit),
+            News::Signal(SIGTSTP) => self.suspend()?,
+            // Somebody else may have had the terminal since.
+            News::Signal(SIGCONT) => {
+                self.session.leave()?;
+                self.session.enter()?;
+            }
+            News::Signal(signal) => return Ok(Next::Die(signal)),
+            News::Answer(answer) => self.app.receive(answer),
+        }
+        Ok(Next::GoOn)
+    }
+
+    /// Gives the terminal back and stops until the shell continues the program.
+    fn suspend(&mut self) -> io::Result<()> {
+        self.session.leave()?;
+        emulate_default_handler(SIGTSTP)?;
+        self.session.enter()
+    }
+}
