@@ -62,8 +62,9 @@ impl Office {
         let coach = self.coach.get_or_init(|| Coach::new(job.table.clone()).map_err(|error| error.to_string()));
         let coach = coach.as_ref().map_err(Clone::clone)?;
         let request = Request { budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel), ..Request::default() };
-        let recommendation = coach.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
-        Shot::new(&job.table, &job.layout, &recommendation)
+        let found = coach.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
+        Shot::new(&job.table, &job.layout, found.cue, found.solved, found.source.to_string())
+            .map_err(|error| error.to_string())
     }
 }
 

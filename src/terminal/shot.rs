@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::{standin::Recommendation, words::BALL_NAMES};
+use super::words::BALL_NAMES;
 use crate::{
     physics::{CueInputs, Impulse},
-    simulation::{EventKind, Recording},
+    simulation::{EventKind, Recording, ShotError},
     table::{BALLS, Layout, Table},
 };
 
@@ -56,18 +56,23 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// Records the recommended shot from `layout`.
+    /// Records the shot `cue` from `layout`; `solved` says whether it makes the point, `source` where it comes from.
     ///
     /// # Errors
-    /// The simulator's sentence where it refuses the shot.
-    pub fn new(table: &Table, layout: &Layout, recommendation: &Recommendation) -> Result<Self, String> {
-        let cue = recommendation.cue;
-        let recording = Recording::new(table, layout, &cue).map_err(|error| error.to_string())?;
+    /// What the simulator refuses.
+    pub fn new(
+        table: &Table,
+        layout: &Layout,
+        cue: CueInputs,
+        solved: bool,
+        source: impl Into<String>,
+    ) -> Result<Self, ShotError> {
+        let recording = Recording::new(table, layout, &cue)?;
         Ok(Self {
             cue,
             impulse: *recording.impulse(),
-            solved: recommendation.solved,
-            source: recommendation.source.to_string(),
+            solved,
+            source: source.into(),
             paths: std::array::from_fn(|ball| dots(&recording, ball)),
             contact: first_contact(&recording, 2.0 * table.radius),
             recording,
@@ -119,20 +124,11 @@ fn first_contact(recording: &Recording, two_radii: f64) -> Option<Contact> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
 
     fn shot(layout: &str, cue: &str) -> Shot {
         let table = Table::default();
         let layout = Layout::parse(layout, &table).unwrap();
-        let recommendation = Recommendation {
-            cue: CueInputs::parse(cue).unwrap(),
-            solved: false,
-            source: "policy",
-            simulations: 1,
-            elapsed: Duration::ZERO,
-            policy_success: None,
-        };
-        Shot::new(&table, &layout, &recommendation).unwrap()
+        Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "policy").unwrap()
     }
 
     #[test]

@@ -83,21 +83,17 @@ fn more(app: &App) -> Vec<Line<'static>> {
     let value = |text: String| Span::styled(text, theme.text());
     let mut lines = Vec::new();
     if app.mode() == Mode::Placing {
-        let step = app.step_mm();
         lines.push(Line::from(vec![
             label("step "),
-            value(step_words(step)),
-            label(", Shift "),
-            value(step_words(10.0 * step)),
-            label(", Ctrl "),
-            value(step_words(step / 10.0)),
+            value(step_words(app.step_mm())),
+            label(" (Shift x10, Ctrl x0.1)"),
         ]));
-        let mut gaps = vec![label("gap ")];
+        let mut gaps = vec![label("gap")];
         for other in (0..BALLS).filter(|&other| other != app.selected()) {
             let balls = app.layout().balls;
             let gap = (balls[app.selected()].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
-            gaps.push(label(if gaps.len() > 1 { ", to " } else { "to " }));
-            gaps.push(value(format!("{} {}", BALL_NAMES[other], millimetres(gap))));
+            gaps.push(label(if gaps.len() > 1 { ", " } else { " " }));
+            gaps.push(value(format!("{} {} mm", BALL_NAMES[other], millimetres(gap))));
         }
         lines.push(Line::from(gaps));
     }

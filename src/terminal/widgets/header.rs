@@ -25,7 +25,7 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
         Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint()),
     ]);
     let taken = buffer.set_line(area.x, area.y, &left, area.width).0;
-    let room = area.right().saturating_sub(taken + 2);
+    let room = area.right().saturating_sub(taken + 4);
     // The bar is left out where a long name leaves it no room.
     let bar = BAR.min(room.saturating_sub(transport(app, 0).width() as u16));
     let right = transport(app, usize::from(bar));
@@ -47,7 +47,7 @@ fn transport(app: &App, bar: usize) -> Line<'static> {
     };
     let done = if duration > 0.0 { (playback.readout / duration * bar as f64) as usize } else { bar };
     Line::from(vec![
-        Span::styled(format!("{state}  "), theme.text()),
+        Span::styled(format!("{state:<10}  "), theme.text()),
         Span::styled(look.pick("━", "=").repeat(done.min(bar)), theme.accent()),
         Span::styled(look.pick("─", "-").repeat(bar - done.min(bar)), theme.faint()),
         Span::styled(format!("  {:>5}", fixed(playback.readout, 2)), theme.text()),

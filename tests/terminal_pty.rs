@@ -1,0 +1,224 @@
+//! The real binary in a pseudo-terminal: a session from start to end, and every way of leaving.
+
+use std::{
+    io::{Read, Write},
+    num::NonZero,
+    process::Command,
+    sync::mpsc::{Receiver, RecvTimeoutError, channel},
+    thread,
+    time::{Duration, Instant},
+};
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+
+/// Longest time that a test waits for a picture, s; a loaded machine may take long to start a process.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn cells(count: u16) -> NonZero<u16> {
+    NonZero::new(count).unwrap()
+}
+
+struct Session {
+    master: Box<dyn MasterPty + Send>,
+    child: Box<dyn Child + Send + Sync>,
+    writer: Box<dyn Write + Send>,
+    output: Receiver<Vec<u8>>,
+    screen: vt100::Parser,
+    /// Bytes and writes seen so far.
+    bytes: usize,
+}
+
+impl Session {
+    fn start(width: u16, height: u16) -> Self {
+        Self::start_command(CommandBuilder::new(env!("CARGO_BIN_EXE_carom")), width, height)
+    }
+
+    fn start_command(mut command: CommandBuilder, width: u16, height: u16) -> Self {
+        let size = PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 };
+        let pair = native_pty_system().openpty(size).unwrap();
+        for (name, value) in [("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LC_ALL", "C.UTF-8")] {
+            command.env(name, value);
+        }
+        command.env_remove("NO_COLOR");
+        command.env_remove("CAROM_GLYPHS");
+        let child = pair.slave.spawn_command(command).unwrap();
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let (sender, output) = channel();
+        thread::spawn(move || {
+            let mut buffer = [0; 65536];
+            while let Ok(count @ 1..) = reader.read(&mut buffer) {
+                if sender.send(buffer[..count].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        let writer = pair.master.take_writer().unwrap();
+        let screen = vt100::Parser::new(cells(height), cells(width), 0);
+        Self { master: pair.master, child, writer, output, screen, bytes: 0 }
+    }
+
+    fn send(&mut self, keys: &str) {
+        self.writer.write_all(keys.as_bytes()).unwrap();
+        self.writer.flush().unwrap();
+    }
+
+    fn signal(&self, name: &str) {
+        let id = self.child.process_id().unwrap().to_string();
+        assert!(Command::new("kill").args([&format!("-{name}"), &id]).status().unwrap().success());
+    }
+
+    /// Reads what comes within `time`; `false` once the other side is closed.
+    fn read(&mut self, time: Duration) -> bool {
+        match self.output.recv_timeout(time) {
+            Ok(bytes) => {
+                self.bytes += bytes.len();
+                self.screen.process(&bytes);
+                true
+            }
+            Err(RecvTimeoutError::Timeout) => true,
+            Err(RecvTimeoutError::Disconnected) => false,
+        }
+    }
+
+    fn wait_until(&mut self, what: &str, condition: impl Fn(&vt100::Screen) -> bool) {
+        let start = Instant::now();
+        while !condition(self.screen.screen()) {
+            assert!(start.elapsed() < PATIENCE, "never came: {what}\n{}", self.screen.screen().contents());
+            self.read(Duration::from_millis(50));
+        }
+    }
+
+    fn wait_for(&mut self, text: &str) {
+        self.wait_until(text, |screen| screen.contents().contains(text));
+    }
+
+    /// Bytes that come within `time`.
+    fn count(&mut self, time: Duration) -> usize {
+        let (start, before) = (Instant::now(), self.bytes);
+        while start.elapsed() < time {
+            self.read(time.saturating_sub(start.elapsed()));
+        }
+        self.bytes - before
+    }
+
+    /// Waits for the end of the process and of its output; the terminal has to be as it was.
+    fn assert_left_without_trace(&mut self) -> portable_pty::ExitStatus {
+        let start = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                break status;
+            }
+            assert!(start.elapsed() < PATIENCE, "it does not end\n{}", self.screen.screen().contents());
+            self.read(Duration::from_millis(20));
+        };
+        while self.read(Duration::from_millis(100)) && self.count(Duration::from_millis(50)) > 0 {}
+        let screen = self.screen.screen();
+        assert!(!screen.alternate_screen(), "the alternate screen was left on");
+        assert!(!screen.hide_cursor(), "the cursor was left hidden");
+        assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+        status
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        // It has ended already where the test went well.
+        let _ = self.child.kill();
+    }
+}
+
+#[test]
+fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
+    let mut session = Session::start(80, 24);
+    session.wait_for("white at x -710.0 mm, y 0.0 mm");
+    assert!(session.screen.screen().alternate_screen() && session.screen.screen().hide_cursor());
+    session.send("\x1b[B\x1b[1;2B");
+    session.wait_for("white at x -710.0 mm, y -110.0 mm");
+    session.send("\r");
+    session.wait_for("Events 0/");
+    session.wait_for("paused");
+    session.send(".");
+    session.wait_for("Events 1/");
+    session.send(" ");
+    session.wait_for("playing");
+    session.wait_until("the next event", |screen| !screen.contents().contains("Events 1/"));
+    session.send(" ?");
+    session.wait_for("Placing the balls");
+    // Escape and q at once would be Alt-q.
+    session.send("?q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn it_costs_nothing_while_nothing_moves() {
+    let mut session = Session::start(120, 40);
+    session.wait_for("white at x -710.0 mm");
+    session.count(Duration::from_millis(200));
+    assert_eq!(session.count(Duration::from_millis(500)), 0);
+}
+
+#[test]
+fn a_resize_repaints_and_a_small_terminal_says_so() {
+    let mut session = Session::start(80, 24);
+    session.wait_for("white at x -710.0 mm");
+    for (width, height, text) in [(60, 20, "60×20"), (120, 40, "Shift x10")] {
+        session.master.resize(PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 }).unwrap();
+        session.screen.screen_mut().set_size(cells(height), cells(width));
+        session.wait_for(text);
+    }
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn signals_restore_the_terminal_and_still_end_the_program() {
+    for name in ["TERM", "INT", "HUP"] {
+        let mut session = Session::start(80, 24);
+        session.wait_for("white at x -710.0 mm");
+        session.signal(name);
+        let status = session.assert_left_without_trace();
+        assert!(!status.success(), "{name}: {status:?}");
+    }
+}
+
+#[test]
+fn suspending_gives_the_terminal_back_and_continuing_repaints() {
+    let mut session = Session::start(80, 24);
+    session.wait_for("white at x -710.0 mm");
+    session.send("\x1a");
+    session.wait_until("the shell's screen", |screen| !screen.alternate_screen() && !screen.hide_cursor());
+    session.signal("CONT");
+    session.wait_until("the table again", |screen| {
+        screen.alternate_screen() && screen.contents().contains("white at x -710.0 mm")
+    });
+    session.send("\x1b[C");
+    session.wait_for("white at x -700.0 mm");
+    session.send("\x03");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn raw_mode_is_off_again_after_the_end() {
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "\"$0\"; stty -a", env!("CARGO_BIN_EXE_carom")]);
+    let mut session = Session::start_command(command, 120, 40);
+    session.wait_for("white at x -710.0 mm");
+    session.send("q");
+    session.wait_for(" icanon");
+    session.wait_for(" echo ");
+}
+
+#[test]
+fn without_a_terminal_it_names_the_command_line() {
+    for term in ["xterm", "dumb"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_carom")).env("TERM", term).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(output.stdout.is_empty());
+        assert!(String::from_utf8_lossy(&output.stderr).contains("carom recommend --layout"));
+    }
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "TERM=dumb \"$0\"; echo code $?", env!("CARGO_BIN_EXE_carom")]);
+    let mut session = Session::start_command(command, 120, 40);
+    session.wait_for("carom recommend --layout");
+    session.wait_for("code 2");
+}

@@ -1,0 +1,274 @@
+//! What the player sees: keys go through the real app, and its pictures are compared at both sizes.
+
+use std::sync::Arc;
+
+use carom::{
+    physics::CueInputs,
+    table::{Layout, Table},
+    terminal::{Answer, App, Depth, Effect, Glyphs, Job, Look, Office, Shot},
+};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
+
+const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+
+/// A shot that makes the point from the opening position, so that the pictures do not change with the coach.
+const SHOT: &str = "-0.2,0.25,6,9.2,3.2";
+
+struct Player {
+    app: App,
+    asked: Option<Job>,
+}
+
+impl Player {
+    fn with(look: Look) -> Self {
+        let table = Table::default();
+        let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap();
+        Self { app, asked: None }
+    }
+
+    fn new() -> Self {
+        Self::with(TRUE_COLOUR)
+    }
+
+    /// Presses keys: letters as they are, names like `Left`, `S-Left`, `C-Left`, `Enter` between blanks.
+    fn press(mut self, keys: &str) -> Self {
+        for word in keys.split_whitespace() {
+            let (modifiers, name) = match word.split_once('-') {
+                Some(("S", name)) => (KeyModifiers::SHIFT, name),
+                Some(("C", name)) => (KeyModifiers::CONTROL, name),
+                _ => (KeyModifiers::NONE, word),
+            };
+            let code = match name {
+                "Left" => KeyCode::Left,
+                "Right" => KeyCode::Right,
+                "Up" => KeyCode::Up,
+                "Down" => KeyCode::Down,
+                "Enter" => KeyCode::Enter,
+                "Esc" => KeyCode::Esc,
+                "Tab" => KeyCode::Tab,
+                "End" => KeyCode::End,
+                "Space" => KeyCode::Char(' '),
+                letter => KeyCode::Char(letter.chars().next().unwrap()),
+            };
+            match self.app.handle(&KeyEvent::new(code, modifiers)) {
+                Some(Effect::Recommend(job)) => self.asked = Some(job),
+                Some(other) => panic!("{word} gives {other:?}"),
+                None => {}
+            }
+        }
+        self
+    }
+
+    /// The coach answers with [`SHOT`].
+    fn answer(mut self) -> Self {
+        let job = self.asked.take().expect("the coach was asked");
+        let cue = CueInputs::parse(SHOT).unwrap();
+        let shot = Shot::new(&job.table, &job.layout, cue, true, "policy").unwrap();
+        self.app.receive(Answer { id: job.id, shot: Ok(Arc::new(shot)) });
+        self
+    }
+
+    fn wait(mut self, seconds: f64) -> Self {
+        self.app.tick(seconds);
+        self
+    }
+
+    fn draw(&self, width: u16, height: u16) -> Terminal<TestBackend> {
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        terminal.draw(|frame| self.app.draw(frame)).unwrap();
+        terminal
+    }
+
+    fn picture(&self, width: u16, height: u16) -> Buffer {
+        self.draw(width, height).backend().buffer().clone()
+    }
+
+    fn text(&self, width: u16, height: u16) -> String {
+        self.draw(width, height).backend().to_string()
+    }
+}
+
+/// Compares the picture at both sizes.
+fn check(name: &str, player: &Player) {
+    for (width, height) in [(80, 24), (120, 40)] {
+        insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
+    }
+}
+
+#[test]
+fn the_start() {
+    check("start", &Player::new());
+}
+
+#[test]
+fn a_ball_moved_by_plain_coarse_and_fine_steps() {
+    let player = Player::new().press("2 Right S-Right C-Up l L");
+    check("moved", &player);
+    let text = player.text(80, 24);
+    assert!(text.contains("yellow at x -490.0 mm, y 183.5 mm"), "{text}");
+}
+
+#[test]
+fn an_overlap_is_refused_at_contact_with_the_same_sentence_as_everywhere() {
+    let player = Player::new().press("S-Up S-Up");
+    check("overlap_refused", &player);
+    let text = player.text(80, 24);
+    assert!(text.contains("white stops: balls 0 and 1 are"), "{text}");
+    assert!(text.contains("121.0"), "the white ball touches the yellow one: 182.5 - 61.5\n{text}");
+}
+
+#[test]
+fn the_rail_stops_a_ball_and_the_sentence_takes_a_second_line() {
+    let player = Player::new().press("+ + S-Left");
+    check("rail_refused", &player);
+    assert!(player.text(80, 24).contains("|x| <= 1.3892 and |y| <= 0.6792"));
+}
+
+#[test]
+fn the_coach_thinks_and_can_be_stopped() {
+    let player = Player::new().press("Enter").wait(0.35);
+    check("thinking", &player);
+    let player = player.press("Left");
+    assert!(player.text(80, 24).contains("the coach is thinking; Esc stops it"));
+    let late = player.asked.clone().unwrap();
+    let mut player = player.press("Esc");
+    assert!(late.cancel.load(std::sync::atomic::Ordering::Relaxed));
+    player.asked = Some(late);
+    assert!(player.answer().app.shot().is_none(), "a late answer is dropped");
+}
+
+#[test]
+fn a_shot_is_recommended() {
+    check("recommended", &Player::new().press("Enter").answer());
+}
+
+#[test]
+fn the_shot_plays() {
+    check("playing", &Player::new().press("Enter").answer().press("+ Space").wait(0.5));
+}
+
+#[test]
+fn stepping_stops_at_events() {
+    let player = Player::new().press("Enter").answer().press(". . Right Left .");
+    check("at_event", &player);
+    let shot = player.app.shot().unwrap();
+    assert_eq!(player.app.playback().time, shot.recording.events()[2].time);
+}
+
+#[test]
+fn the_end_of_a_shot_is_a_new_beginning() {
+    let player = Player::new().press("Enter").answer().press("End");
+    check("at_the_end", &player);
+    let end = player.app.shot().unwrap().recording.final_layout();
+    let player = player.press("n");
+    assert_eq!(*player.app.layout(), end);
+    assert!(player.app.shot().is_none());
+    let player = player.press("u");
+    assert!(player.app.shot().is_some(), "undo brings the shot back as well");
+}
+
+#[test]
+fn undo_and_redo_walk_through_all_changes() {
+    let start = *Player::new().app.layout();
+    let moved = Player::new().press("Left 3 Up r");
+    let end = *moved.app.layout();
+    let back = moved.press("u u u");
+    assert_eq!(*back.app.layout(), start);
+    let refused = back.press("u");
+    assert!(refused.text(80, 24).contains("there is nothing to take back"));
+    assert_eq!(*refused.press("U U C-r").app.layout(), end);
+}
+
+#[test]
+fn the_help_lists_every_key() {
+    check("help", &Player::new().press("?"));
+    let closed = Player::new().press("? Left Esc");
+    assert_eq!(closed.picture(80, 24), Player::new().picture(80, 24));
+}
+
+#[test]
+fn without_colours_letters_tell_everything() {
+    for (name, look) in [("no_colour", NO_COLOUR), ("ascii", ASCII)] {
+        let player = Player::with(look).press("Enter").answer().press(". .");
+        check(name, &player);
+        check(&format!("{name}_placing"), &player.press("2"));
+    }
+    assert!(Player::with(ASCII).press("Enter").answer().text(120, 40).is_ascii());
+}
+
+#[test]
+fn monochrome_pictures_hold_no_colour_at_all() {
+    let player = Player::with(NO_COLOUR).press("Enter").answer();
+    for cell in player.picture(120, 40).content() {
+        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
+    }
+}
+
+#[test]
+fn half_blocks_draw_the_same_scene() {
+    check("half_blocks", &Player::new().press("Enter").answer().press("g ."));
+}
+
+#[test]
+fn too_small_a_terminal_names_both_sizes() {
+    let player = Player::new();
+    insta::assert_snapshot!("too_small_79x24", player.text(79, 24));
+    for (width, height) in [(80, 23), (20, 5), (1, 1), (0, 0)] {
+        player.picture(width, height);
+    }
+    let text = player.text(40, 10);
+    assert!(text.contains("40×10") && text.contains("80×24"), "{text}");
+}
+
+#[test]
+fn every_size_can_be_drawn() {
+    let player = Player::new().press("Enter").answer().press(".");
+    for width in (1..=240).step_by(7) {
+        for height in (1..=90).step_by(5) {
+            player.picture(width, height);
+        }
+    }
+}
+
+#[test]
+fn the_balls_have_their_colours_where_they_lie() {
+    let picture = Player::new().picture(120, 40);
+    // Bed of 108 by 27 cells from (6, 2): white at a quarter, red at three quarters, half way down.
+    assert_eq!(picture[(33, 15)].bg, Color::Rgb(0xf7, 0xf3, 0xe8));
+    assert_eq!(picture[(87, 15)].bg, Color::Rgb(0xd9, 0x36, 0x36));
+    assert_eq!(picture[(60, 15)].bg, Color::Rgb(0x1b, 0x6d, 0x83));
+}
+
+#[test]
+fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
+    // Positive a is left of the centre, and the recommended shot has a negative one.
+    let picture = Player::new().press("Enter").answer().picture(120, 40);
+    let blue = Color::Rgb(0x1f, 0x63, 0xc8);
+    let columns: Vec<u16> =
+        (74..90).filter(|&x| (30..40).any(|y| picture[(x, y)].fg == blue || picture[(x, y)].bg == blue)).collect();
+    assert!(!columns.is_empty() && columns.iter().all(|&x| x >= 82), "{columns:?}");
+}
+
+#[test]
+fn the_real_coach_answers() {
+    let player = Player::new().press("Enter");
+    let mut app = player.app;
+    app.receive(Office::default().answer(&player.asked.unwrap()));
+    assert!(app.shot().is_some());
+}
+
+#[test]
+fn nothing_moves_by_itself_while_nothing_plays() {
+    let player = Player::new();
+    assert_eq!(player.app.frame_interval(), None);
+    let player = player.press("Enter");
+    assert!(player.app.frame_interval().is_some());
+    let player = player.answer();
+    assert_eq!(player.app.frame_interval(), None);
+    let player = player.press("Space");
+    assert!(player.app.frame_interval().is_some());
+    assert_eq!(player.wait(1e3).app.frame_interval(), None, "playback ends at the end");
+}
