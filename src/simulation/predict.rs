@@ -90,8 +90,8 @@ fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> Ahead {
     }
 }
 
-/// The same for a ball in a resting contact, whose course is a polynomial of degree five. Cushions that it touches hold
-/// it: they are part of its course.
+/// The same for a ball in a resting contact, whose course is a polynomial of degree five and holds it at the cushions
+/// that it rests on.
 fn curved_cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     let mut nearest = (Ahead::Nothing, Rail::Left);
     let mut earliest = horizon;
@@ -101,14 +101,18 @@ fn curved_cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) 
         let edge = inward.abs().dot(constants.reach);
         let mut gap = course.map(|c| c.dot(inward));
         gap[0] += edge;
-        if gap[0] <= TOUCHING {
-            continue;
-        }
+        let margin = if gap[0] > TOUCHING {
+            0.0
+        } else if gap[1] < -RESTING_SPEED {
+            return (Ahead::Meeting(0.0), rail);
+        } else {
+            TOUCHING
+        };
         let mut slope = [0.0; 5];
         for power in 1..6 {
             slope[power - 1] = power as f64 * gap[power];
         }
-        if let Some(time) = first_crossing(|t| horner(&gap, t), &slope, earliest, 0.0) {
+        if let Some(time) = first_crossing(|t| horner(&gap, t), &slope, earliest, margin) {
             earliest = time;
             nearest = (Ahead::Meeting(time), rail);
         }
@@ -169,8 +173,16 @@ fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: 
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
     let quotient = [c1.max(0.0), clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()];
-    let derivative = [quotient[1], 2.0 * quotient[2], 3.0 * quotient[3]];
-    first_crossing(|t| horner(&quotient, t), &derivative, horizon, 0.0).map_or(Ahead::Nothing, Ahead::Meeting)
+    let ahead = if separation > RESTING_SPEED {
+        let derivative = [quotient[1], 2.0 * quotient[2], 3.0 * quotient[3]];
+        first_crossing(|t| horner(&quotient, t), &derivative, horizon, 0.0)
+    } else {
+        // They stay together for now. They meet when the gap has closed by as much as counts as touching.
+        let margin = 2.0 * diameter * TOUCHING;
+        let derivative = [quotient[0], 2.0 * quotient[1], 3.0 * quotient[2], 4.0 * quotient[3]];
+        first_crossing(|t| margin + t * horner(&quotient, t), &derivative, horizon, 0.0)
+    };
+    ahead.map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.

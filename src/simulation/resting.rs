@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-13;
 const SHORTEST_STEP: f64 = 1e-13;
 
 /// Step that is tried first, s.
-const FIRST_STEP: f64 = 1e-3;
+const FIRST_STEP: f64 = 2e-2;
 
 /// A slip or speed may use up this share of itself in a step, so that its direction stays known.
 const STOPPING_SHARE: f64 = 0.9;
@@ -130,7 +130,7 @@ impl Resting {
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let mut step = self.longest_step(table.radius).min(FIRST_STEP.max(SHORTEST_STEP));
+        let mut step = self.longest_step(table.radius).min(FIRST_STEP);
         loop {
             let (end, error) = self.dormand_prince(table, step);
             if error <= 1.0 || step <= SHORTEST_STEP {
