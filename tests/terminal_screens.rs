@@ -19,7 +19,7 @@ const SHOT: &str = "-0.2,0.25,6,9.2,3.2";
 
 struct Player {
     app: App,
-    asked: Option<Job>,
+    asked: Option<Box<Job>>,
 }
 
 impl Player {
@@ -237,8 +237,8 @@ fn every_size_can_be_drawn() {
 fn the_balls_have_their_colours_where_they_lie() {
     let picture = Player::new().picture(120, 40);
     // Bed of 108 by 27 cells from (6, 2): white at a quarter, red at three quarters, half way down.
-    assert_eq!(picture[(33, 15)].bg, Color::Rgb(0xf7, 0xf3, 0xe8));
-    assert_eq!(picture[(87, 15)].bg, Color::Rgb(0xd9, 0x36, 0x36));
+    assert_eq!(picture[(33, 15)].fg, Color::Rgb(0xf7, 0xf3, 0xe8));
+    assert_eq!(picture[(87, 15)].fg, Color::Rgb(0xd9, 0x36, 0x36));
     assert_eq!(picture[(60, 15)].bg, Color::Rgb(0x1b, 0x6d, 0x83));
 }
 

@@ -60,7 +60,7 @@ struct Pending {
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Ask the coach and hand the answer to [`App::receive`].
-    Recommend(Job),
+    Recommend(Box<Job>),
     /// Stop until the shell continues the program.
     Suspend,
     /// End.
@@ -153,7 +153,7 @@ impl App {
             Action::OpenHelp => self.help = Some(0),
             Action::CloseHelp => self.help = None,
             Action::ScrollHelp(lines) => {
-                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL))
+                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL));
             }
             Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
             Action::Select(ball) => self.select(ball),
@@ -184,8 +184,8 @@ impl App {
         self.mode = Mode::Watching;
         match action {
             Action::PlayPause => self.playback.toggle(duration),
-            Action::NextEvent => self.playback.to_next(events, duration),
-            Action::PreviousEvent => self.playback.to_previous(events),
+            Action::NextEvent => self.playback.step_forward(events, duration),
+            Action::PreviousEvent => self.playback.step_back(events),
             Action::ToStart => self.playback.jump(0.0),
             Action::ToEnd => self.playback.jump(duration),
             Action::Faster => self.playback.faster(),
@@ -245,7 +245,7 @@ impl App {
         let cancel = Arc::new(AtomicBool::new(false));
         self.pending = Some(Pending { id: self.questions, cancel: Arc::clone(&cancel), waited: 0.0 });
         let (table, layout) = (self.table.clone(), *self.layout());
-        Effect::Recommend(Job { id: self.questions, table, layout, seed: self.questions, cancel })
+        Effect::Recommend(Box::new(Job { id: self.questions, table, layout, seed: self.questions, cancel }))
     }
 
     fn cancel(&mut self) {
@@ -358,8 +358,8 @@ impl App {
     }
 
     /// What the terminal can show.
-    pub const fn look(&self) -> &Look {
-        &self.look
+    pub const fn look(&self) -> Look {
+        self.look
     }
 
     /// The colours.

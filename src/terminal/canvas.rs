@@ -95,8 +95,11 @@ fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
     let found = &mut found[..kinds];
     // A stable sort: the one met first wins a tie, always the same.
     found.sort_by_key(|&(_, weight)| std::cmp::Reverse(weight));
-    if let [(only, _)] = found {
-        return (' ', ground, *only);
+    match found {
+        [(only, _)] if *only == ground => return (' ', ground, ground),
+        // Not a blank on the ball's colour: most neighbours have the ground behind them, and each change costs bytes.
+        [(only, _)] => return ('█', *only, ground),
+        _ => {}
     }
     let (mut front, mut back) = (found[0].0, found[1].0);
     if front == ground {
@@ -123,7 +126,7 @@ mod tests {
     #[test]
     fn a_plain_cell_is_a_blank_in_its_colour() {
         assert_eq!(two_colours(&[GROUND; 6], GROUND.color), (' ', Color::Blue, Color::Blue));
-        assert_eq!(two_colours(&[BALL; 6], GROUND.color), (' ', Color::Blue, Color::Red));
+        assert_eq!(two_colours(&[BALL; 6], GROUND.color), ('█', Color::Red, Color::Blue));
     }
 
     #[test]

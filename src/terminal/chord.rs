@@ -50,7 +50,7 @@ impl Chord {
         }
     }
 
-    fn name(self, look: &Look) -> String {
+    fn name(self, look: Look) -> String {
         match self.code {
             KeyCode::Char(' ') => "Space".into(),
             KeyCode::Char(letter) => letter.into(),
@@ -74,7 +74,7 @@ impl Chord {
 }
 
 /// The keys as they are written on the screen, like `Shift-←↓↑→ HJKL`.
-pub fn keys_text(chords: impl IntoIterator<Item = Chord>, look: &Look) -> String {
+pub fn keys_text(chords: impl IntoIterator<Item = Chord>, look: Look) -> String {
     let mut text = String::new();
     let mut before: Option<Chord> = None;
     for chord in chords {
@@ -102,10 +102,10 @@ mod tests {
     fn keys_are_written_as_on_the_keyboard() {
         let chords = [KeyCode::Left, KeyCode::Down, KeyCode::Up, KeyCode::Right].map(Chord::shift);
         let look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-        assert_eq!(keys_text(chords.into_iter().chain([Chord::char('H'), Chord::char('J')]), &look), "Shift-←↓↑→ HJ");
+        assert_eq!(keys_text(chords.into_iter().chain([Chord::char('H'), Chord::char('J')]), look), "Shift-←↓↑→ HJ");
         let plain = Look { unicode: false, ..look };
-        assert_eq!(keys_text(chords, &plain), "Shift-arrows");
-        assert_eq!(keys_text([Chord::char(' '), Chord::plain(KeyCode::F(1))], &look), "Space F1");
+        assert_eq!(keys_text(chords, plain), "Shift-arrows");
+        assert_eq!(keys_text([Chord::char(' '), Chord::plain(KeyCode::F(1))], look), "Space F1");
     }
 
     #[test]

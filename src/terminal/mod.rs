@@ -11,6 +11,7 @@ mod history;
 mod inbox;
 mod keymap;
 mod look;
+mod painter;
 mod placing;
 mod playback;
 mod recommender;

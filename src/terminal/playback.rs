@@ -77,13 +77,13 @@ impl Playback {
     }
 
     /// Pauses at the first event after now, or at the end.
-    pub fn to_next(&mut self, events: &[Event], duration: f64) {
+    pub fn step_forward(&mut self, events: &[Event], duration: f64) {
         let next = events.iter().find(|event| event.time > self.time);
         self.jump(next.map_or(duration, |event| event.time));
     }
 
     /// Pauses at the last event before now, or at the stroke.
-    pub fn to_previous(&mut self, events: &[Event]) {
+    pub fn step_back(&mut self, events: &[Event]) {
         let before = events.iter().rfind(|event| event.time < self.time);
         self.jump(before.map_or(0.0, |event| event.time));
     }
@@ -108,12 +108,12 @@ mod tests {
         let mut playback = Playback::default();
         let mut seen = Vec::new();
         for _ in 0..4 {
-            playback.to_next(&events(), 2.0);
+            playback.step_forward(&events(), 2.0);
             seen.push(playback.time);
         }
         assert_eq!(seen, [0.5, 1.25, 2.0, 2.0]);
         for _ in 0..4 {
-            playback.to_previous(&events());
+            playback.step_back(&events());
             seen.push(playback.time);
         }
         assert_eq!(seen[4..], [1.25, 0.5, 0.0, 0.0]);

@@ -69,8 +69,8 @@ impl Office {
 }
 
 /// Starts the thread that answers questions through `reply`; it ends with the sender that is returned.
-pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Job>> {
-    let (sender, questions): (Sender<Job>, Receiver<Job>) = channel();
+pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Box<Job>>> {
+    let (sender, questions): (Sender<Box<Job>>, Receiver<Box<Job>>) = channel();
     thread::Builder::new().name("coach".into()).spawn(move || {
         let office = Office::default();
         for job in questions {

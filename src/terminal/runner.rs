@@ -54,7 +54,7 @@ pub fn run(app: App) -> io::Result<()> {
 struct Runner {
     app: App,
     session: Session,
-    jobs: Sender<Job>,
+    jobs: Sender<Box<Job>>,
 }
 
 impl Runner {
@@ -105,11 +105,7 @@ impl Runner {
             News::Input(Event::Key(key)) => match self.app.handle(&key) {
                 Some(Effect::Quit) => return Ok(Next::Quit),
                 Some(Effect::Suspend) => self.suspend()?,
-                Some(Effect::Recommend(job)) => {
-                    if self.jobs.send(job).is_err() {
-                        self.app.coach_lost();
-                    }
-                }
+                Some(Effect::Recommend(job)) => self.ask(job),
                 None => {}
             },
             // A resize needs a picture, which follows anyway.
@@ -125,6 +121,12 @@ impl Runner {
             News::Answer(answer) => self.app.receive(answer),
         }
         Ok(Next::GoOn)
+    }
+
+    fn ask(&mut self, job: Box<Job>) {
+        if self.jobs.send(job).is_err() {
+            self.app.coach_lost();
+        }
     }
 
     /// Gives the terminal back and stops until the shell continues the program.

@@ -1,51 +1,29 @@
 //! The terminal while the program has it: taken over, given back as it was found, whatever ends the program.
 
 use std::{
-    cell::RefCell,
     fs::File,
-    io::{self, IsTerminal, Write},
+    io::{self, IsTerminal},
     os::fd::AsFd,
-    panic,
-    rc::Rc,
-    thread,
+    panic, thread,
 };
 
 use crossterm::{
     cursor::{Hide, Show},
-    execute, queue,
+    execute,
     terminal::{
-        BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode,
-        enable_raw_mode,
+        EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
     },
 };
 use ratatui::{
     Frame, Terminal,
-    backend::CrosstermBackend,
     layout::{Position, Rect},
 };
 
-/// Bytes of a frame that fit without growing; a full picture of a large terminal is some 30 KB.
-const FRAME_BYTES: usize = 64 * 1024;
-
-/// Output that is kept until the frame is complete: ratatui flushes twice a frame, and bare stdout writes it in pieces.
-#[derive(Clone, Debug)]
-struct FrameBuffer(Rc<RefCell<Vec<u8>>>);
-
-impl Write for FrameBuffer {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
+use super::painter::Painter;
 
 /// The terminal in raw mode with its alternate screen; dropping it gives the terminal back.
 pub struct Session {
-    terminal: Terminal<CrosstermBackend<FrameBuffer>>,
-    frame: FrameBuffer,
+    terminal: Terminal<Painter>,
     output: File,
     entered: bool,
 }
@@ -56,11 +34,10 @@ impl Session {
     /// # Errors
     /// What the terminal answers.
     pub fn start() -> io::Result<Self> {
-        let frame = FrameBuffer(Rc::new(RefCell::new(Vec::with_capacity(FRAME_BYTES))));
         let output = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         restore_on_panic();
-        let terminal = Terminal::new(CrosstermBackend::new(frame.clone()))?;
-        let mut session = Self { terminal, frame, output, entered: false };
+        let terminal = Terminal::new(Painter::new(size))?;
+        let mut session = Self { terminal, output, entered: false };
         session.enter()?;
         Ok(session)
     }
@@ -72,7 +49,8 @@ impl Session {
     pub fn enter(&mut self) -> io::Result<()> {
         self.entered = true;
         enable_raw_mode()?;
-        queue!(self.frame, EnterAlternateScreen, Hide)?;
+        execute!(self.output, EnterAlternateScreen, Hide)?;
+        self.terminal.backend_mut().forget();
         // The next picture has to be painted in full. `Terminal::clear` would ask the terminal for the cursor's place, and
         // the answer would have to get past the thread that reads keys.
         let size = self.terminal.size()?;
@@ -87,23 +65,17 @@ impl Session {
         if !std::mem::take(&mut self.entered) {
             return Ok(());
         }
-        self.frame.0.borrow_mut().clear();
         let shown = execute!(self.output, LeaveAlternateScreen, Show);
         disable_raw_mode().and(shown)
     }
 
-    /// Draws one picture and writes what has changed, in one piece.
+    /// Draws one picture and writes what has changed, in one piece; nothing where nothing has.
     ///
     /// # Errors
     /// What the terminal answers.
     pub fn draw(&mut self, draw: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        queue!(self.frame, BeginSynchronizedUpdate)?;
         self.terminal.draw(draw)?;
-        queue!(self.frame, EndSynchronizedUpdate)?;
-        let mut bytes = self.frame.0.borrow_mut();
-        self.output.write_all(&bytes)?;
-        bytes.clear();
-        Ok(())
+        self.terminal.backend_mut().write_frame(&mut self.output)
     }
 }
 

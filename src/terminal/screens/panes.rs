@@ -14,6 +14,8 @@ const BESIDE: (u16, u16) = (16, 36);
 const BALLS_WIDTH: u16 = 39;
 const SHOT_WIDTH: u16 = 33;
 const TIP_WIDTH: u16 = 16;
+/// Columns from which on the events find room beside these three.
+const ALL_BELOW_WIDTH: u16 = BALLS_WIDTH + SHOT_WIDTH + TIP_WIDTH + 24;
 
 /// The areas of the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +44,7 @@ impl Panes {
         let below = Self::all_below(table, area);
         let beside = Self::some_beside(table, area);
         let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
-        if rows(&below) >= rows(&beside) { below } else { beside }
+        if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
     }
 
     fn frame(area: Rect) -> (Rect, Rect, Rect, Rect) {

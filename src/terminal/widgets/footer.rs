@@ -10,12 +10,12 @@ use ratatui::{
 use crate::{
     table::BALLS,
     terminal::{
-        app::{App, Mode},
+        app::App,
         chord::keys_text,
         keymap::{BINDINGS, Binding, Section},
         playback::passed,
         status::Tone,
-        words::{BALL_NAMES, event_words, fixed, millimetres},
+        words::{BALL_NAMES, event_words, fixed, millimetres, step_words},
     },
 };
 
@@ -69,27 +69,27 @@ fn standing(app: &App) -> String {
             app.look().pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
         return format!("{} the coach is thinking; Esc stops it", pictures[picture % pictures.len()]);
     }
-    match (app.mode(), app.watched()) {
-        (Mode::Watching, Some(shot)) => {
+    match app.watched() {
+        Some(shot) => {
             let (events, time) = (shot.recording.events(), app.playback().readout);
-            match events.get(passed(events, time)) {
-                Some(next) => format!("next: {} in {} s", event_words(next.kind), fixed(next.time - time, 1)),
-                None => "all balls lie still".to_owned(),
-            }
+            events.get(passed(events, time)).map_or("all balls lie still".to_owned(), |next| {
+                format!("next: {} in {} s", event_words(next.kind), fixed(next.time - time, 1))
+            })
         }
-        _ => {
-            let (ball, balls) = (app.selected(), app.layout().balls);
-            let others = (0..BALLS).filter(|&other| other != ball);
-            let near = others
-                .min_by(|&one, &two| balls[ball].distance(balls[one]).total_cmp(&balls[ball].distance(balls[two])));
-            let near = near.map_or(String::new(), |other| {
-                let gap = (balls[ball].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
-                format!(", {} mm from {}", millimetres(gap), BALL_NAMES[other])
-            });
-            let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
-            format!("{} at x {x} mm, y {y} mm{near}; step {} mm", BALL_NAMES[ball], app.step_mm())
-        }
+        None => selected_ball(app),
     }
+}
+
+/// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.
+fn selected_ball(app: &App) -> String {
+    let (ball, balls) = (app.selected(), app.layout().balls);
+    let others = (0..BALLS).filter(|&other| other != ball);
+    let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
+    let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
+    let near =
+        nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), BALL_NAMES[other]));
+    let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
+    format!("{} at x {x} mm, y {y} mm{near}; step {}", BALL_NAMES[ball], step_words(app.step_mm()))
 }
 
 /// Draws the keys that may be used now, as many as fit.

@@ -27,7 +27,7 @@ pub use table::draw_table;
 pub use tip::draw_tip;
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
-pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: &Look, buffer: &mut Buffer) -> Rect {
+pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> Rect {
     if area.is_empty() {
         return area;
     }

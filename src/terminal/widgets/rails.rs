@@ -19,7 +19,7 @@ pub fn draw_rails(
     diamond: f64,
     marked: Option<DVec2>,
     theme: &Theme,
-    look: &Look,
+    look: Look,
     buffer: &mut Buffer,
 ) {
     let rails = Rails { mapping, theme, look };
@@ -34,34 +34,34 @@ pub fn draw_rails(
     }
 }
 
+fn put(buffer: &mut Buffer, x: u16, y: u16, symbol: char, front: Color, back: Color) {
+    if let Some(cell) = buffer.cell_mut((x, y)) {
+        cell.set_char(symbol).set_style(Style::new().fg(front).bg(back));
+    }
+}
+
 struct Rails<'a> {
     mapping: &'a Mapping,
     theme: &'a Theme,
-    look: &'a Look,
+    look: Look,
 }
 
 impl Rails<'_> {
-    fn put(&self, buffer: &mut Buffer, x: u16, y: u16, symbol: char, front: Color, back: Color) {
-        if let Some(cell) = buffer.cell_mut((x, y)) {
-            cell.set_char(symbol).set_style(Style::new().fg(front).bg(back));
-        }
-    }
-
     fn blocks(&self, buffer: &mut Buffer) {
         let (bed, outer) = (self.mapping.bed, self.mapping.outer());
         let (wood, cushion) = (self.theme.wood, self.theme.cushion);
         for x in outer.x + 1..outer.right() - 1 {
-            self.put(buffer, x, outer.y, '▀', wood, cushion);
-            self.put(buffer, x, bed.bottom(), '▄', wood, cushion);
+            put(buffer, x, outer.y, '▀', wood, cushion);
+            put(buffer, x, bed.bottom(), '▄', wood, cushion);
         }
         for y in outer.y..outer.bottom() {
             for x in [outer.x, outer.right() - 1] {
-                self.put(buffer, x, y, ' ', wood, wood);
+                put(buffer, x, y, ' ', wood, wood);
             }
         }
         for y in bed.y..bed.bottom() {
             for x in [outer.x + 1, bed.right()] {
-                self.put(buffer, x, y, ' ', wood, cushion);
+                put(buffer, x, y, ' ', wood, cushion);
             }
         }
     }
@@ -73,18 +73,18 @@ impl Rails<'_> {
         let (left, right) = (bed.x - 1, bed.right());
         for x in bed.x..bed.right() {
             for y in [bed.y - 1, bed.bottom()] {
-                self.put(buffer, x, y, self.look.pick('═', '='), wood, background);
+                put(buffer, x, y, self.look.pick('═', '='), wood, background);
             }
         }
         for y in bed.y..bed.bottom() {
             for x in [left, right] {
-                self.put(buffer, x, y, self.look.pick('║', '|'), wood, background);
+                put(buffer, x, y, self.look.pick('║', '|'), wood, background);
             }
         }
         for (x, y, symbol) in
             [(left, bed.y - 1, '╔'), (right, bed.y - 1, '╗'), (left, bed.bottom(), '╚'), (right, bed.bottom(), '╝')]
         {
-            self.put(buffer, x, y, self.look.pick(symbol, '+'), wood, background);
+            put(buffer, x, y, self.look.pick(symbol, '+'), wood, background);
         }
     }
 
@@ -104,8 +104,8 @@ impl Rails<'_> {
                 if 2 * column == bed.width && x < bed.x + column {
                     continue;
                 }
-                self.put(buffer, x, bed.y - 1, symbol('▀'), self.theme.sight, behind);
-                self.put(buffer, x, bed.bottom(), symbol('▄'), self.theme.sight, behind);
+                put(buffer, x, bed.y - 1, symbol('▀'), self.theme.sight, behind);
+                put(buffer, x, bed.bottom(), symbol('▄'), self.theme.sight, behind);
             }
         }
         let behind = if letters { self.theme.background } else { self.theme.wood };
@@ -115,7 +115,7 @@ impl Rails<'_> {
             let block = self.part_of_row(row);
             let inset = if letters { 1 } else { RAIL_COLUMNS };
             for x in [bed.x - inset, bed.right() + inset - 1] {
-                self.put(buffer, x, bed.y + row as u16, symbol(block), self.theme.sight, behind);
+                put(buffer, x, bed.y + row as u16, symbol(block), self.theme.sight, behind);
             }
             n += 1.0;
         }
@@ -131,7 +131,7 @@ impl Rails<'_> {
                 (bed.x - 1, y, '▶', '>'),
                 (bed.right(), y, '◀', '<'),
             ] {
-                self.put(buffer, x, y, self.look.pick(symbol, plain), self.theme.accent, self.theme.background);
+                put(buffer, x, y, self.look.pick(symbol, plain), self.theme.accent, self.theme.background);
                 buffer[(x, y)].modifier.insert(Modifier::BOLD);
             }
             return;
@@ -142,7 +142,7 @@ impl Rails<'_> {
         }
         let block = self.part_of_row(self.mapping.to_cells(place).y);
         for x in [bed.x - 1, bed.right()] {
-            self.put(buffer, x, y, block, self.theme.accent, self.theme.cushion);
+            put(buffer, x, y, block, self.theme.accent, self.theme.cushion);
         }
     }
 

@@ -51,7 +51,7 @@ pub fn draw_shot(app: &App, area: Rect, buffer: &mut Buffer) {
 
 type Row = (&'static str, String, String);
 
-fn wide_rows(shot: &Shot, radius: f64, look: &Look) -> Vec<Row> {
+fn wide_rows(shot: &Shot, radius: f64, look: Look) -> Vec<Row> {
     let cue = &shot.cue;
     let offset = |value: f64| fixed((1000.0 * radius * value).abs(), 1);
     let degree = look.pick("°", " deg");
@@ -72,7 +72,7 @@ fn wide_rows(shot: &Shot, radius: f64, look: &Look) -> Vec<Row> {
     ]
 }
 
-fn narrow_rows(shot: &Shot, look: &Look) -> Vec<Row> {
+fn narrow_rows(shot: &Shot, look: Look) -> Vec<Row> {
     let cue = &shot.cue;
     let degree = look.pick("°", " deg");
     let (v, w) = (shot.impulse.velocity, shot.impulse.spin);

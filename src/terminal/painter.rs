@@ -1,0 +1,318 @@
+//! Turns changed cells into as few bytes as possible: a slow link shows it.
+//!
+//! crossterm's backend names both colours at each change of one and takes everything back at the end of a frame, which
+//! is two thirds of the bytes in playback; and under `NO_COLOR` its colour commands turn bold and reverse off.
+
+use std::io::{self, Write};
+
+use ratatui::{
+    backend::{Backend, ClearType, WindowSize},
+    buffer::Cell,
+    layout::{Position, Size},
+    style::{Color, Modifier},
+};
+
+/// Bytes of a frame that fit without growing; a full picture of a large terminal is some 30 KB.
+const FRAME_BYTES: usize = 64 * 1024;
+/// Between these, a terminal shows the frame at once. Those that do not know the mode ignore it.
+const BEGIN: &[u8] = b"\x1b[?2026h";
+const END: &[u8] = b"\x1b[?2026l";
+
+/// A backend that keeps a frame's bytes until [`Painter::write_frame`].
+#[derive(Debug)]
+pub struct Painter {
+    bytes: Vec<u8>,
+    size: fn() -> io::Result<(u16, u16)>,
+    front: Color,
+    back: Color,
+    modifier: Modifier,
+    /// Where the next character goes, if that is known.
+    cursor: Option<Position>,
+}
+
+impl Painter {
+    /// A painter for a terminal of the size that `size` tells.
+    pub fn new(size: fn() -> io::Result<(u16, u16)>) -> Self {
+        let mut painter = Self {
+            bytes: Vec::with_capacity(FRAME_BYTES),
+            size,
+            front: Color::Reset,
+            back: Color::Reset,
+            modifier: Modifier::empty(),
+            cursor: None,
+        };
+        painter.forget();
+        painter
+    }
+
+    /// Throws away what was not written and assumes nothing of the terminal.
+    pub fn forget(&mut self) {
+        self.bytes.clear();
+        self.bytes.extend_from_slice(BEGIN);
+        self.reset_style();
+        self.cursor = None;
+    }
+
+    /// Writes the frame in one piece, unless nothing has changed.
+    ///
+    /// # Errors
+    /// What the output answers.
+    pub fn write_frame(&mut self, output: &mut impl Write) -> io::Result<()> {
+        if self.bytes.len() == BEGIN.len() {
+            return Ok(());
+        }
+        self.bytes.extend_from_slice(END);
+        let written = output.write_all(&self.bytes).and_then(|()| output.flush());
+        self.bytes.clear();
+        self.bytes.extend_from_slice(BEGIN);
+        written
+    }
+
+    fn reset_style(&mut self) {
+        self.push(format_args!("\x1b[m"));
+        (self.front, self.back, self.modifier) = (Color::Reset, Color::Reset, Modifier::empty());
+    }
+
+    fn push(&mut self, text: std::fmt::Arguments) {
+        // Writing to memory does not fail.
+        let _ = self.bytes.write_fmt(text);
+    }
+
+    fn move_to(&mut self, x: u16, y: u16) {
+        match self.cursor {
+            Some(at) if at.y == y && at.x == x => {}
+            Some(at) if at.y == y && at.x + 1 == x => self.push(format_args!("\x1b[C")),
+            Some(at) if at.y == y && at.x < x => self.push(format_args!("\x1b[{}C", x - at.x)),
+            _ => self.push(format_args!("\x1b[{};{}H", y + 1, x + 1)),
+        }
+    }
+
+    fn restyle(&mut self, cell: &Cell) {
+        let mut codes: Vec<u8> = Vec::new();
+        let mut add = |text: std::fmt::Arguments| {
+            if !codes.is_empty() {
+                codes.push(b';');
+            }
+            let _ = codes.write_fmt(text);
+        };
+        if self.modifier != cell.modifier {
+            if !(self.modifier - cell.modifier).is_empty() {
+                add(format_args!("0"));
+                (self.front, self.back, self.modifier) = (Color::Reset, Color::Reset, Modifier::empty());
+            }
+            for (bit, code) in
+                [(Modifier::BOLD, 1), (Modifier::DIM, 2), (Modifier::UNDERLINED, 4), (Modifier::REVERSED, 7)]
+            {
+                if (cell.modifier - self.modifier).contains(bit) {
+                    add(format_args!("{code}"));
+                }
+            }
+            self.modifier = cell.modifier;
+        }
+        // Nobody sees the colour of a blank, unless it is reversed or underlined.
+        let blank = cell.symbol() == " " && !cell.modifier.intersects(Modifier::REVERSED | Modifier::UNDERLINED);
+        if self.front != cell.fg && !blank {
+            add(format_args!("{}", Sgr { color: cell.fg, base: 30 }));
+            self.front = cell.fg;
+        }
+        if self.back != cell.bg {
+            add(format_args!("{}", Sgr { color: cell.bg, base: 40 }));
+            self.back = cell.bg;
+        }
+        if !codes.is_empty() {
+            self.bytes.extend_from_slice(b"\x1b[");
+            self.bytes.extend_from_slice(&codes);
+            self.bytes.push(b'm');
+        }
+    }
+}
+
+/// A colour as the parameters of SGR; `base` is 30 for the front and 40 for the back.
+struct Sgr {
+    color: Color,
+    base: u8,
+}
+
+impl std::fmt::Display for Sgr {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let base = self.base;
+        let basic = |number: u8| base + number;
+        let bright = |number: u8| base + 60 + number;
+        let code = match self.color {
+            Color::Reset => basic(9),
+            Color::Black => basic(0),
+            Color::Red => basic(1),
+            Color::Green => basic(2),
+            Color::Yellow => basic(3),
+            Color::Blue => basic(4),
+            Color::Magenta => basic(5),
+            Color::Cyan => basic(6),
+            Color::Gray => basic(7),
+            Color::DarkGray => bright(0),
+            Color::LightRed => bright(1),
+            Color::LightGreen => bright(2),
+            Color::LightYellow => bright(3),
+            Color::LightBlue => bright(4),
+            Color::LightMagenta => bright(5),
+            Color::LightCyan => bright(6),
+            Color::White => bright(7),
+            Color::Rgb(r, g, b) => return write!(out, "{};2;{r};{g};{b}", basic(8)),
+            Color::Indexed(index) => return write!(out, "{};5;{index}", basic(8)),
+        };
+        write!(out, "{code}")
+    }
+}
+
+impl Backend for Painter {
+    type Error = io::Error;
+
+    fn draw<'a, I>(&mut self, content: I) -> io::Result<()>
+    where
+        I: Iterator<Item = (u16, u16, &'a Cell)>,
+    {
+        for (x, y, cell) in content {
+            self.move_to(x, y);
+            self.restyle(cell);
+            self.bytes.extend_from_slice(cell.symbol().as_bytes());
+            self.cursor = Some(Position::new(x + 1, y));
+        }
+        // After the last column terminals differ in where the cursor waits; the next frame may have grown past it.
+        self.cursor = None;
+        Ok(())
+    }
+
+    fn clear_region(&mut self, region: ClearType) -> io::Result<()> {
+        self.reset_style();
+        let code = match region {
+            ClearType::All => "2J",
+            ClearType::AfterCursor => "J",
+            ClearType::BeforeCursor => "1J",
+            ClearType::CurrentLine => "2K",
+            ClearType::UntilNewLine => "K",
+        };
+        self.push(format_args!("\x1b[{code}"));
+        Ok(())
+    }
+
+    fn clear(&mut self) -> io::Result<()> {
+        self.clear_region(ClearType::All)
+    }
+
+    /// The cursor is hidden as long as the program has the terminal.
+    fn hide_cursor(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn show_cursor(&mut self) -> io::Result<()> {
+        self.push(format_args!("\x1b[?25h"));
+        Ok(())
+    }
+
+    fn get_cursor_position(&mut self) -> io::Result<Position> {
+        Ok(self.cursor.unwrap_or(Position::ORIGIN))
+    }
+
+    fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> io::Result<()> {
+        let Position { x, y } = position.into();
+        self.push(format_args!("\x1b[{};{}H", y + 1, x + 1));
+        self.cursor = Some(Position { x, y });
+        Ok(())
+    }
+
+    fn size(&self) -> io::Result<Size> {
+        (self.size)().map(Size::from)
+    }
+
+    fn window_size(&mut self) -> io::Result<WindowSize> {
+        Ok(WindowSize { columns_rows: self.size()?, pixels: Size::ZERO })
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZero;
+
+    use ratatui::{Terminal, style::Style};
+
+    use super::*;
+
+    const WIDTH: u16 = 30;
+    const HEIGHT: u16 = 8;
+
+    /// What a terminal shows after the frames, against what was drawn.
+    fn check(frames: &[fn(&mut ratatui::Frame)]) -> usize {
+        let mut terminal = Terminal::new(Painter::new(|| Ok((WIDTH, HEIGHT)))).unwrap();
+        let mut screen = vt100::Parser::new(NonZero::new(HEIGHT).unwrap(), NonZero::new(WIDTH).unwrap(), 0);
+        let mut last = 0;
+        for frame in frames {
+            let drawn = terminal.draw(*frame).unwrap().buffer.clone();
+            let mut bytes = Vec::new();
+            terminal.backend_mut().write_frame(&mut bytes).unwrap();
+            screen.process(&bytes);
+            last = bytes.len();
+            for y in 0..HEIGHT {
+                for x in 0..WIDTH {
+                    let (wanted, shown) = (&drawn[(x, y)], screen.screen().cell(y, x).unwrap());
+                    let text = if shown.contents().is_empty() { " " } else { shown.contents() };
+                    assert_eq!(text, wanted.symbol(), "{x},{y}");
+                    assert_eq!(shown.bgcolor(), as_vt100(wanted.bg), "{x},{y}");
+                    assert_eq!(shown.bold(), wanted.modifier.contains(Modifier::BOLD), "{x},{y}");
+                    assert_eq!(shown.inverse(), wanted.modifier.contains(Modifier::REVERSED), "{x},{y}");
+                    if text != " " {
+                        assert_eq!(shown.fgcolor(), as_vt100(wanted.fg), "{x},{y}");
+                    }
+                }
+            }
+        }
+        last
+    }
+
+    fn as_vt100(color: Color) -> vt100::Color {
+        match color {
+            Color::Rgb(r, g, b) => vt100::Color::Rgb(r, g, b),
+            Color::Indexed(index) => vt100::Color::Idx(index),
+            Color::LightYellow => vt100::Color::Idx(11),
+            Color::Cyan => vt100::Color::Idx(6),
+            _ => vt100::Color::Default,
+        }
+    }
+
+    fn first(frame: &mut ratatui::Frame) {
+        let cloth = Style::new().bg(Color::Rgb(1, 2, 3)).fg(Color::Indexed(200));
+        let area = frame.area();
+        frame.buffer_mut().set_style(area, cloth);
+        frame.buffer_mut().set_string(2, 1, "one 🬋🬹 two", cloth.add_modifier(Modifier::BOLD));
+        frame.buffer_mut().set_string(WIDTH - 4, 3, "edge", Style::new().fg(Color::LightYellow));
+        frame.buffer_mut().set_string(0, 4, "reversed", Style::new().add_modifier(Modifier::REVERSED));
+    }
+
+    fn second(frame: &mut ratatui::Frame) {
+        first(frame);
+        frame.buffer_mut().set_string(6, 1, "x y", Style::new().fg(Color::Cyan).remove_modifier(Modifier::BOLD));
+        frame.buffer_mut().set_string(0, 4, "rev", Style::new().bg(Color::Reset).remove_modifier(Modifier::REVERSED));
+        frame.buffer_mut().set_string(WIDTH - 1, HEIGHT - 1, "#", Style::new());
+    }
+
+    #[test]
+    fn a_terminal_shows_what_was_drawn_frame_after_frame() {
+        check(&[first, second, first, |_| (), second]);
+    }
+
+    #[test]
+    fn a_frame_without_changes_is_no_bytes() {
+        assert_eq!(check(&[first, first]), 0);
+    }
+
+    #[test]
+    fn a_small_change_is_a_small_frame() {
+        let bytes = check(&[first, |frame| {
+            first(frame);
+            frame.buffer_mut().set_string(9, 2, "*", Style::new());
+        }]);
+        assert!(bytes < 60, "{bytes}");
+    }
+}
