@@ -79,14 +79,16 @@ pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
     }
 }
 
-/// The block character, its colour and the colour behind it. The two heaviest colours stay; sub-pixels of a third go
-/// to the colour in front unless they are ground. The ground lies behind wherever it is one of the two.
+/// The block character, its colour and the colour behind it. The two heaviest colours stay; sub-pixels of a third go to
+/// the one behind, or to the one in front if they are as heavy as that: a second ball. The ground lies behind wherever
+/// it is one of the two.
 fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
-    let mut found: [(Color, u16); 6] = [(ground, 0); 6];
+    // Colour, weight of all its sub-pixels, weight of one.
+    let mut found: [(Color, u16, u8); 6] = [(ground, 0, 0); 6];
     let mut kinds = 0;
     for ink in inks {
-        let index = found[..kinds].iter().position(|(color, _)| *color == ink.color).unwrap_or_else(|| {
-            found[kinds] = (ink.color, 0);
+        let index = found[..kinds].iter().position(|(color, ..)| *color == ink.color).unwrap_or_else(|| {
+            found[kinds] = (ink.color, 0, ink.weight);
             kinds += 1;
             kinds - 1
         });
@@ -94,20 +96,21 @@ fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
     }
     let found = &mut found[..kinds];
     // A stable sort: the one met first wins a tie, always the same.
-    found.sort_by_key(|&(_, weight)| std::cmp::Reverse(weight));
+    found.sort_by_key(|&(_, weight, _)| std::cmp::Reverse(weight));
     match found {
-        [(only, _)] if *only == ground => return (' ', ground, ground),
+        [(only, ..)] if *only == ground => return (' ', ground, ground),
         // Not a blank on the ball's colour: most neighbours have the ground behind them, and each change costs bytes.
-        [(only, _)] => return ('█', *only, ground),
+        [(only, ..)] => return ('█', *only, ground),
         _ => {}
     }
-    let (mut front, mut back) = (found[0].0, found[1].0);
-    if front == ground {
+    let (mut front, mut back) = (found[0], found[1]);
+    if front.0 == ground {
         std::mem::swap(&mut front, &mut back);
     }
+    let ((front, _, heavy), back) = (front, back.0);
     let mut bits = 0;
     for (n, ink) in inks.iter().enumerate() {
-        if ink.color != back && (ink.color == front || ink.color != ground) {
+        if ink.color == front || (ink.color != back && ink.color != ground && ink.weight >= heavy) {
             bits |= 1 << n;
         }
     }
@@ -141,7 +144,7 @@ mod tests {
         let cell = [BALL, BALL, DOT, GROUND, GROUND, GROUND];
         let (symbol, front, back) = two_colours(&cell, GROUND.color);
         assert_eq!((front, back), (Color::Red, Color::Blue));
-        assert_eq!(symbol, SEXTANTS[0b111]);
+        assert_eq!(symbol, SEXTANTS[0b11]);
     }
 
     #[test]

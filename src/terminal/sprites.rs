@@ -34,6 +34,14 @@ impl Sprite {
         Self { width: size(f64::from(across), least.0), height: size(f64::from(down) / 2.0, least.1) }
     }
 
+    /// Half of the picture's width in metres, at most.
+    pub fn reach(self, mapping: &Mapping, glyphs: Glyphs) -> f64 {
+        let (across, down) = sub_pixels(glyphs);
+        let scale = mapping.scale();
+        let half = |size: i32, sub_pixels: u16, cells: f64| 0.5 * f64::from(size) / (f64::from(sub_pixels) * cells);
+        half(self.width, across, scale.x).max(half(self.height, down, scale.y))
+    }
+
     /// Whether the sub-pixel belongs to the ball, counted from the picture's upper left corner.
     fn covers(self, x: i32, y: i32) -> bool {
         let offset = |at: i32, size: i32| f64::from(2 * at + 1 - size) / f64::from(size);

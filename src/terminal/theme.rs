@@ -30,6 +30,8 @@ pub struct Theme {
     pub wood: Color,
     /// The sights in the rails.
     pub sight: Color,
+    /// The cue before the stroke.
+    pub cue: Color,
     /// White, yellow and red ball.
     pub balls: [Color; 3],
     /// The dots of their paths.
@@ -58,6 +60,7 @@ impl Theme {
             cushion: ink(0x0011_4a5c, Color::Cyan),
             wood: ink(0x006b_4128, Color::DarkGray),
             sight: ink(0x00f3_e3bf, Color::White),
+            cue: ink(0x00e2_bb82, Color::Gray),
             balls: [ink(0x00f7_f3e8, Color::White), ink(0x00f6_c324, Color::LightYellow), ink(0x00d9_3636, Color::Red)],
             paths: [ink(0x00b9_d3d8, Color::Gray), ink(0x00d8_c05a, Color::Yellow), ink(0x00ee_8f83, Color::LightRed)],
             face: ink(0x00f7_f3e8, Color::White),

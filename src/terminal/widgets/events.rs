@@ -18,6 +18,8 @@ use crate::{
 
 /// Columns before an event's words.
 const WORDS: u16 = 9;
+/// Columns of an event's words and of how soon it comes.
+const WAIT: u16 = 34;
 
 /// Draws the panel: the stroke, then every event, with the present one marked and in view.
 pub fn draw_events(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -51,7 +53,8 @@ pub fn draw_events(app: &App, area: Rect, buffer: &mut Buffer) {
         if n == present + 1 && app.watched().is_some() {
             let wait = format!("in {} s", fixed(at - time, 1));
             if usize::from(inner.width) > usize::from(WORDS) + words.len() + wait.len() + 2 {
-                write_right(buffer, inner.x, inner.right().saturating_sub(1), row, &wait, theme.faint());
+                let end = inner.right().saturating_sub(1).min(inner.x + WORDS + WAIT);
+                write_right(buffer, inner.x, end, row, &wait, theme.faint());
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::{
     table::BALLS,
     terminal::{
         app::{App, Mode},
-        canvas::{Canvas, Ink, sub_pixels},
+        canvas::{Canvas, Ink},
         geometry::Mapping,
         look::Glyphs,
         shot::DOT_SPACING,
@@ -22,14 +22,16 @@ use crate::{
 
 /// Dots and rings nearer to a ball than this, in radii, are left out: three colours do not fit a cell.
 const CLEAR_RADII: f64 = 2.2;
-/// Sub-pixels from one dot of a path to the next.
-const DOT_PIXELS: f64 = 3.6;
+/// The same against the pictures of the balls, where they are enlarged, in halves of their width.
+const CLEAR_PICTURES: f64 = 1.45;
+/// Columns from one dot of a path to the next, and where a dot is as wide as a column.
+const DOT_COLUMNS: f64 = 1.8;
+const HALF_DOT_COLUMNS: f64 = 2.6;
 /// Columns across a ball from which on its letter has room for brackets.
 const BRACKET_COLUMNS: f64 = 2.0;
-/// The cue behind the ball before the stroke, from its tip to where it is left out, in ball radii.
-const CUE: (f64, f64) = (1.8, 14.0);
-/// Dots of the cue in a ball radius: it is to be a line.
-const CUE_DOTS: f64 = 4.0;
+/// Length of the cue that is drawn before the stroke, m, and the distance of its dots: it is to be a line.
+const CUE_LENGTH: f64 = 0.4;
+const CUE_DOTS: f64 = 0.008;
 /// Letters of the balls, and the signs of their paths.
 const LETTERS: [char; BALLS] = ['W', 'Y', 'R'];
 const DOTS: [char; BALLS] = ['·', '+', '×'];
@@ -49,8 +51,11 @@ pub fn draw_table(app: &App, area: Rect, buffer: &mut Buffer) {
     let balls = app.watched().map_or(app.layout().balls, |shot| shot.recording.positions(app.playback().time));
     let marked = (app.mode() == Mode::Placing).then(|| balls[app.selected()]);
     draw_rails(&mapping, app.table().diamond(), marked, app.theme(), app.look(), buffer);
-    let scene = Scene { app, mapping, balls };
-    if app.look().glyphs == Glyphs::Letters {
+    let glyphs = app.look().glyphs;
+    let sprite = Sprite::new(&mapping, glyphs);
+    let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * sprite.reach(&mapping, glyphs));
+    let scene = Scene { app, mapping, balls, sprite, clear };
+    if glyphs == Glyphs::Letters {
         scene.draw_letters(buffer);
     } else {
         scene.draw_blocks(buffer);
@@ -61,47 +66,48 @@ struct Scene<'a> {
     app: &'a App,
     mapping: Mapping,
     balls: [DVec2; BALLS],
+    sprite: Sprite,
+    /// Distance from a ball from which on something else can be drawn, m.
+    clear: f64,
 }
 
 impl Scene<'_> {
     fn is_clear(&self, place: DVec2) -> bool {
-        self.balls.iter().all(|ball| ball.distance(place) > CLEAR_RADII * self.mapping.radius)
+        self.balls.iter().all(|ball| ball.distance(place) > self.clear)
     }
 
-    /// Calls `draw` with each dot of the predicted paths that no ball hides; there are `across` sub-pixels in a cell.
-    fn each_dot(&self, across: u16, mut draw: impl FnMut(usize, DVec2)) {
+    /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
+    fn each_dot(&self, mut draw: impl FnMut(usize, DVec2)) {
         let Some(shot) = self.app.shot() else { return };
-        let pixel = 1.0 / (self.mapping.scale().x * f64::from(across));
-        let stride = (DOT_PIXELS * pixel / DOT_SPACING).round().max(1.0) as usize;
+        let columns = if self.app.look().glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
+        let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
+        let ghosts = self.ghosts();
+        let is_free = |place: DVec2| ghosts.iter().all(|(_, ghost)| ghost.distance(place) > 0.75 * self.clear);
         for (ball, path) in shot.paths.iter().enumerate().rev() {
-            for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place)) {
+            for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place) && is_free(dot.place)) {
                 draw(ball, dot.place);
             }
         }
     }
 
-    /// Calls `draw` with the places where balls will be: the first contact, and where they come to rest.
-    fn each_ghost(&self, mut draw: impl FnMut(usize, DVec2)) {
-        let Some(shot) = self.app.shot() else { return };
+    /// Where balls will be: the cue ball at the first contact, and all balls that move where they come to rest.
+    fn ghosts(&self) -> Vec<(usize, DVec2)> {
+        let Some(shot) = self.app.shot() else { return Vec::new() };
         // At the contact the ring touches the object ball; only the cue ball itself may hide it.
         let contact = shot.contact.map(|contact| contact.place);
-        if let Some(place) = contact.filter(|place| place.distance(self.balls[0]) > CLEAR_RADII * self.mapping.radius) {
-            draw(0, place);
-        }
-        for (ball, place) in shot.recording.final_layout().balls.into_iter().enumerate() {
-            if self.is_clear(place) {
-                draw(ball, place);
-            }
-        }
+        let contact = contact.filter(|place| place.distance(self.balls[0]) > self.clear);
+        let ends = shot.recording.final_layout().balls.into_iter().enumerate();
+        contact.map(|place| (0, place)).into_iter().chain(ends.filter(|&(_, place)| self.is_clear(place))).collect()
     }
 
     /// Calls `draw` along the cue, as long as it has not struck.
     fn each_cue_dot(&self, mut draw: impl FnMut(DVec2)) {
         let Some(shot) = self.app.shot().filter(|_| self.app.playback().time == 0.0) else { return };
         let back = -DVec2::from_angle(shot.cue.phi);
-        let dots = ((CUE.1 - CUE.0) * CUE_DOTS) as u32;
+        let tip = 1.2 * self.sprite.reach(&self.mapping, self.app.look().glyphs);
+        let dots = (CUE_LENGTH / CUE_DOTS) as u32;
         for dot in 0..=dots {
-            draw(self.balls[0] + back * (self.mapping.radius * (CUE.0 + f64::from(dot) / CUE_DOTS)));
+            draw(self.balls[0] + back * (tip + f64::from(dot) * CUE_DOTS));
         }
     }
 
@@ -114,7 +120,6 @@ impl Scene<'_> {
     fn draw_blocks(&self, buffer: &mut Buffer) {
         let (theme, glyphs) = (self.app.theme(), self.app.look().glyphs);
         let mapping = &self.mapping;
-        let sprite = Sprite::new(mapping, glyphs);
         let mut canvas = Canvas::new(mapping.bed, glyphs, theme.cloth);
         let (width, height) = canvas.size();
         let grid = DVec2::new(f64::from(width), f64::from(height))
@@ -123,15 +128,21 @@ impl Scene<'_> {
             let at = (mapping.to_cells(place) * grid).floor();
             canvas.set(at.x as i32, at.y as i32, Ink { color, weight: DOT_WEIGHT });
         };
-        self.each_dot(sub_pixels(glyphs).0, |ball, place| dot(&mut canvas, place, theme.paths[ball]));
-        self.each_cue_dot(|place| dot(&mut canvas, place, theme.sight));
+        self.each_dot(|ball, place| dot(&mut canvas, place, theme.paths[ball]));
+        self.each_cue_dot(|place| dot(&mut canvas, place, theme.cue));
         if glyphs == Glyphs::Sextant {
-            self.each_ghost(|ball, place| {
-                sprite.stamp_ring(&mut canvas, mapping, place, Ink { color: theme.paths[ball], weight: RING_WEIGHT });
-            });
+            for (ball, place) in self.ghosts() {
+                let ink = Ink { color: theme.paths[ball], weight: RING_WEIGHT };
+                self.sprite.stamp_ring(&mut canvas, mapping, place, ink);
+            }
         }
         for ball in self.order() {
-            sprite.stamp(&mut canvas, mapping, self.balls[ball], Ink { color: theme.balls[ball], weight: BALL_WEIGHT });
+            self.sprite.stamp(
+                &mut canvas,
+                mapping,
+                self.balls[ball],
+                Ink { color: theme.balls[ball], weight: BALL_WEIGHT },
+            );
         }
         canvas.paint(buffer);
     }
@@ -145,8 +156,10 @@ impl Scene<'_> {
             cell.set_char(symbol).set_fg(color);
         };
         let dots = look.pick(DOTS, PLAIN_DOTS);
-        self.each_dot(1, |ball, place| put(place, dots[ball], theme.paths[ball]));
-        self.each_ghost(|ball, place| put(place, LETTERS[ball].to_ascii_lowercase(), theme.paths[ball]));
+        self.each_dot(|ball, place| put(place, dots[ball], theme.paths[ball]));
+        for (ball, place) in self.ghosts() {
+            put(place, LETTERS[ball].to_ascii_lowercase(), theme.paths[ball]);
+        }
         for ball in self.order() {
             let (x, y) = mapping.to_cell(self.balls[ball]);
             let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
