@@ -18,6 +18,7 @@ mod recommender;
 mod runner;
 mod screens;
 mod session;
+mod sgr;
 mod shot;
 mod sprites;
 mod standin;

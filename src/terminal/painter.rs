@@ -12,6 +12,8 @@ use ratatui::{
     style::{Color, Modifier},
 };
 
+use super::sgr::Sgr;
+
 /// Bytes of a frame that fit without growing; a full picture of a large terminal is some 30 KB.
 const FRAME_BYTES: usize = 64 * 1024;
 /// Between these, a terminal shows the frame at once. Those that do not know the mode ignore it.
@@ -124,42 +126,6 @@ impl Painter {
             self.bytes.extend_from_slice(&codes);
             self.bytes.push(b'm');
         }
-    }
-}
-
-/// A colour as the parameters of SGR; `base` is 30 for the front and 40 for the back.
-struct Sgr {
-    color: Color,
-    base: u8,
-}
-
-impl std::fmt::Display for Sgr {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let base = self.base;
-        let basic = |number: u8| base + number;
-        let bright = |number: u8| base + 60 + number;
-        let code = match self.color {
-            Color::Reset => basic(9),
-            Color::Black => basic(0),
-            Color::Red => basic(1),
-            Color::Green => basic(2),
-            Color::Yellow => basic(3),
-            Color::Blue => basic(4),
-            Color::Magenta => basic(5),
-            Color::Cyan => basic(6),
-            Color::Gray => basic(7),
-            Color::DarkGray => bright(0),
-            Color::LightRed => bright(1),
-            Color::LightGreen => bright(2),
-            Color::LightYellow => bright(3),
-            Color::LightBlue => bright(4),
-            Color::LightMagenta => bright(5),
-            Color::LightCyan => bright(6),
-            Color::White => bright(7),
-            Color::Rgb(r, g, b) => return write!(out, "{};2;{r};{g};{b}", basic(8)),
-            Color::Indexed(index) => return write!(out, "{};5;{index}", basic(8)),
-        };
-        write!(out, "{code}")
     }
 }
 

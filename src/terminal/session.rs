@@ -4,7 +4,9 @@ use std::{
     fs::File,
     io::{self, IsTerminal},
     os::fd::AsFd,
-    panic, thread,
+    panic,
+    sync::atomic::{AtomicBool, Ordering},
+    thread,
 };
 
 use crossterm::{
@@ -21,11 +23,14 @@ use ratatui::{
 
 use super::painter::Painter;
 
+/// Whether the program has the terminal. A process has one, and a panic has to know: giving it back twice would move the
+/// cursor onto the report.
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
 /// The terminal in raw mode with its alternate screen; dropping it gives the terminal back.
 pub struct Session {
     terminal: Terminal<Painter>,
     output: File,
-    entered: bool,
 }
 
 impl Session {
@@ -37,7 +42,7 @@ impl Session {
         let output = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         restore_on_panic();
         let terminal = Terminal::new(Painter::new(size))?;
-        let mut session = Self { terminal, output, entered: false };
+        let mut session = Self { terminal, output };
         session.enter()?;
         Ok(session)
     }
@@ -47,7 +52,7 @@ impl Session {
     /// # Errors
     /// What the terminal answers.
     pub fn enter(&mut self) -> io::Result<()> {
-        self.entered = true;
+        TAKEN.store(true, Ordering::SeqCst);
         enable_raw_mode()?;
         execute!(self.output, EnterAlternateScreen, Hide)?;
         self.terminal.backend_mut().forget();
@@ -62,7 +67,7 @@ impl Session {
     /// # Errors
     /// What the terminal answers.
     pub fn leave(&mut self) -> io::Result<()> {
-        if !std::mem::take(&mut self.entered) {
+        if !TAKEN.swap(false, Ordering::SeqCst) {
             return Ok(());
         }
         let shown = execute!(self.output, LeaveAlternateScreen, Show);
@@ -98,9 +103,11 @@ fn restore_on_panic() {
     let screen = thread::current().id();
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        if thread::current().id() == screen {
+        if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
             let _ = execute!(io::stdout(), EndSynchronizedUpdate, LeaveAlternateScreen, Show);
+        }
+        if thread::current().id() == screen {
             report(info);
         }
     }));

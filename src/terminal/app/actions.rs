@@ -1,0 +1,134 @@
+//! What each action does to the state.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use glam::DVec2;
+
+use super::{App, Effect, Mode, Pending, Position, STEPS};
+use crate::{
+    table::{BALLS, Layout},
+    terminal::{
+        history::History,
+        keymap::Action,
+        placing,
+        recommender::Job,
+        screens,
+        status::Message,
+        words::{BALL_NAMES, step_words},
+    },
+};
+
+impl App {
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Quit => return Some(Effect::Quit),
+            Action::Suspend => return Some(Effect::Suspend),
+            Action::OpenHelp => self.help = Some(0),
+            Action::CloseHelp => self.help = None,
+            Action::ScrollHelp(lines) => {
+                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL));
+            }
+            Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
+            Action::Select(ball) => self.select(ball),
+            Action::SelectNext => self.select((self.selected + 1) % BALLS),
+            Action::SelectPrevious => self.select((self.selected + BALLS - 1) % BALLS),
+            Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
+            Action::LargerStep => self.choose_step(self.step + 1),
+            Action::SmallerStep => self.choose_step(self.step.saturating_sub(1)),
+            Action::Opening => self.place(Layout::opening(&self.table)),
+            Action::Random => {
+                let layout = Layout::random(&self.table, &mut self.rng);
+                self.place(layout);
+            }
+            Action::Undo => self.travel(History::undo),
+            Action::Redo => self.travel(History::redo),
+            Action::Recommend => return Some(self.ask()),
+            Action::Cancel => self.cancel(),
+            Action::PlaceBalls => self.mode = Mode::Placing,
+            Action::Continue => self.go_on(),
+            other => self.play(other),
+        }
+        None
+    }
+
+    fn play(&mut self, action: Action) {
+        let Some(shot) = self.shot().cloned() else { return };
+        let (events, duration) = (shot.recording.events(), shot.recording.duration());
+        self.mode = Mode::Watching;
+        match action {
+            Action::PlayPause => self.playback.toggle(duration),
+            Action::NextEvent => self.playback.step_forward(events, duration),
+            Action::PreviousEvent => self.playback.step_back(events),
+            Action::ToStart => self.playback.jump(0.0),
+            Action::ToEnd => self.playback.jump(duration),
+            Action::Faster => self.playback.faster(),
+            Action::Slower => self.playback.slower(),
+            _ => {}
+        }
+    }
+
+    fn select(&mut self, ball: usize) {
+        self.selected = ball;
+        self.mode = Mode::Placing;
+    }
+
+    fn choose_step(&mut self, step: usize) {
+        self.step = step.min(STEPS.len() - 1);
+        self.message = Some(Message::plain(format!("one step is {}", step_words(self.step_mm()))));
+    }
+
+    fn move_ball(&mut self, direction: DVec2, scale: f64) {
+        let step = direction * (0.001 * self.step_mm() * scale);
+        let slide = placing::slide(&self.table, self.layout(), self.selected, step);
+        if slide.layout != *self.layout() {
+            self.place(slide.layout);
+        }
+        if let Some(reason) = slide.stopped {
+            self.message = Some(Message::warning(format!("{} stops: {reason}", BALL_NAMES[self.selected])));
+        }
+    }
+
+    /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
+    fn place(&mut self, layout: Layout) {
+        self.balls.push(Position { layout, shot: None });
+        self.rest();
+    }
+
+    fn travel(&mut self, step: impl Fn(&mut History<Position>) -> bool) {
+        step(&mut self.balls);
+        self.rest();
+    }
+
+    fn rest(&mut self) {
+        self.mode = Mode::Placing;
+        self.playback.jump(0.0);
+    }
+
+    fn go_on(&mut self) {
+        let Some(end) = self.shot().map(|shot| shot.recording.final_layout()) else { return };
+        match end.validate(&self.table) {
+            Ok(()) => self.place(end),
+            Err(error) => self.message = Some(Message::warning(error.to_string())),
+        }
+    }
+
+    fn ask(&mut self) -> Effect {
+        self.questions += 1;
+        self.playback.playing = false;
+        let cancel = Arc::new(AtomicBool::new(false));
+        self.pending = Some(Pending { id: self.questions, cancel: Arc::clone(&cancel), waited: 0.0 });
+        let (table, layout) = (self.table.clone(), *self.layout());
+        Effect::Recommend(Box::new(Job { id: self.questions, table, layout, seed: self.questions, cancel }))
+    }
+
+    fn cancel(&mut self) {
+        if let Some(pending) = self.pending.take() {
+            pending.cancel.store(true, Ordering::Relaxed);
+            self.message = Some(Message::plain("the coach has stopped thinking"));
+        }
+    }
+}
