@@ -15,7 +15,7 @@ const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unic
 const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
 
 /// A shot that makes the point from the opening position, so that the pictures do not change with the coach.
-const SHOT: &str = "-0.2,0.25,6,9.2,3.2";
+const SHOT: &str = "-0.2,0.2,6,82.6,2.5";
 
 struct Player {
     app: App,
@@ -116,7 +116,7 @@ fn an_overlap_is_refused_at_contact_with_the_same_sentence_as_everywhere() {
     let player = Player::new().press("S-Up S-Up");
     check("overlap_refused", &player);
     let text = player.text(80, 24);
-    assert!(text.contains("white stops: balls 0 and 1 are"), "{text}");
+    assert!(text.contains("white stops in contact with yellow: beyond, balls 0 and 1 are"), "{text}");
     assert!(text.contains("121.0"), "the white ball touches the yellow one: 182.5 - 61.5\n{text}");
 }
 
@@ -142,7 +142,12 @@ fn the_coach_thinks_and_can_be_stopped() {
 
 #[test]
 fn a_shot_is_recommended() {
-    check("recommended", &Player::new().press("Enter").answer());
+    let player = Player::new().press("Enter").answer();
+    check("recommended", &player);
+    let text = player.text(120, 40);
+    for part in ["makes the point", "a    -0.200 R, 6.2 mm right", "82.60°", "V0", "ω0", "hits yellow"] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
 }
 
 #[test]
@@ -180,6 +185,20 @@ fn undo_and_redo_walk_through_all_changes() {
     let refused = back.press("u");
     assert!(refused.text(80, 24).contains("there is nothing to take back"));
     assert_eq!(*refused.press("U U C-r").app.layout(), end);
+}
+
+#[test]
+fn a_key_that_does_nothing_now_says_why() {
+    for (keys, reason) in [
+        ("Space", "there is no shot yet; Enter asks the coach"),
+        ("Esc", "there is no shot yet; Enter asks the coach"),
+        ("U", "nothing was taken back"),
+    ] {
+        let text = Player::new().press(keys).text(80, 24);
+        assert!(text.contains(reason), "{keys}\n{text}");
+    }
+    let watching = Player::new().press("Enter").answer().press("h");
+    assert!(watching.text(80, 24).contains("a shot is being watched; Esc goes back to the balls"));
 }
 
 #[test]

@@ -206,20 +206,19 @@ pub const BINDINGS: &[Binding] = &[
         "quit"),
 ];
 
-/// What `event` asks for: the first binding that may be used now, or else the reason why the first one may not.
+/// What `event` asks for: the first binding that may be used now, or else the reason why the last one may not, since the
+/// more particular ones come first.
 /// `None` where no binding has the key. `refusal` says why a binding may not be used.
 pub fn find<'a>(event: &KeyEvent, refusal: impl Fn(When) -> Option<&'a str>) -> Option<Result<Action, &'a str>> {
-    let mut first = None;
+    let mut refused = None;
     for binding in BINDINGS {
         let Some((_, action)) = binding.keys.iter().find(|(chord, _)| chord.matches(event)) else { continue };
         match refusal(binding.when) {
             None => return Some(Ok(*action)),
-            Some(reason) => {
-                first.get_or_insert(reason);
-            }
+            Some(reason) => refused = Some(Err(reason)),
         }
     }
-    first.map(Err)
+    refused
 }
 
 #[cfg(test)]

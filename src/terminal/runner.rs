@@ -60,15 +60,22 @@ struct Runner {
 impl Runner {
     /// The signal that ended the program, or `None` where the player did.
     fn until_the_end(&mut self, news: &Receiver<News>) -> io::Result<Option<i32>> {
-        let mut drawn = Instant::now();
         self.draw()?;
-        let mut ticked = Instant::now();
+        let mut drawn = Instant::now();
+        let mut ticked = drawn;
+        let mut due = drawn;
         loop {
-            let wait = self.app.frame_interval().map(Duration::from_secs_f64);
-            let first = match wait {
+            let interval = self.app.frame_interval().map(Duration::from_secs_f64);
+            let first = match interval {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some(interval) => news.recv_timeout(interval.saturating_sub(drawn.elapsed())),
+                Some(interval) => {
+                    // From when the last picture was due, not from when it was done: the rate is to be steady.
+                    if due <= drawn {
+                        due = (due + interval).max(drawn);
+                    }
+                    news.recv_timeout(due.saturating_duration_since(Instant::now()))
+                }
             };
             let first = match first {
                 Ok(first) => Some(first),
@@ -81,7 +88,7 @@ impl Runner {
             // Time that passed while nothing moved does not count.
             let passed = ticked.elapsed();
             ticked = Instant::now();
-            if wait.is_some() {
+            if interval.is_some() {
                 self.app.tick(passed.as_secs_f64());
             }
             for news in first.into_iter().chain(news.try_iter()) {

@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::{App, Effect, Mode, Pending, Position, STEPS};
 use crate::{
-    table::{BALLS, Layout},
+    table::{BALLS, Layout, LayoutError},
     terminal::{
         history::History,
         keymap::Action,
@@ -88,7 +88,14 @@ impl App {
             self.place(slide.layout);
         }
         if let Some(reason) = slide.stopped {
-            self.message = Some(Message::warning(format!("{} stops: {reason}", BALL_NAMES[self.selected])));
+            let name = BALL_NAMES[self.selected];
+            let place = match &reason {
+                LayoutError::Overlap { first, second, .. } => {
+                    format!("in contact with {}", BALL_NAMES[first + second - self.selected])
+                }
+                _ => "at the rail".to_owned(),
+            };
+            self.message = Some(Message::warning(format!("{name} stops {place}: beyond, {reason}")));
         }
     }
 

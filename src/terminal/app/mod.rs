@@ -137,8 +137,9 @@ impl App {
             _ if thinking.is_some() => thinking,
             When::Idle => None,
             When::Placing => refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls"),
+            When::Shot | When::Watching if self.shot().is_none() => Some("there is no shot yet; Enter asks the coach"),
+            When::Shot => None,
             When::Watching => refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one"),
-            When::Shot => refuse(self.shot().is_none(), "there is no shot yet; Enter asks the coach"),
             When::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             When::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }
