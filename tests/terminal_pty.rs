@@ -158,6 +158,19 @@ fn it_costs_nothing_while_nothing_moves() {
 }
 
 #[test]
+fn playback_stays_small_enough_for_a_slow_link() {
+    let mut session = Session::start(120, 40);
+    session.wait_for("white at x -710.0 mm");
+    session.send("\r");
+    session.wait_for("paused");
+    session.send(" ");
+    session.wait_for("playing");
+    let frame = session.count(Duration::from_secs(1)) / 30;
+    // 230 in the first seconds of a shot, when most balls move; 540 with crossterm's backend.
+    assert!((20..450).contains(&frame), "{frame} bytes a frame");
+}
+
+#[test]
 fn a_resize_repaints_and_a_small_terminal_says_so() {
     let mut session = Session::start(80, 24);
     session.wait_for("white at x -710.0 mm");

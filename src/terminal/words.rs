@@ -26,7 +26,7 @@ pub fn event_words(kind: EventKind) -> String {
         EventKind::BallRail(ball, rail) => format!("{} - {}", name(ball), rail_name(rail)),
         EventKind::SlidingRolling(ball) => format!("{} rolls", name(ball)),
         EventKind::RollingStationary(ball) => format!("{} stops", name(ball)),
-        EventKind::ContactBegins(ball) => format!("{} leans on", name(ball)),
+        EventKind::ContactBegins(ball) => format!("{} leans", name(ball)),
         EventKind::ContactEnds(ball) => format!("{} comes free", name(ball)),
     }
 }
