@@ -12,7 +12,7 @@ const HALVES: [char; 4] = [' ', '▀', '▄', '█'];
 pub struct Ink {
     /// Its colour.
     pub color: Color,
-    /// How much a sub-pixel of it counts; the ground counts 2.
+    /// How much a sub-pixel of it counts.
     pub weight: u8,
 }
 
@@ -22,7 +22,7 @@ pub struct Canvas {
     area: Rect,
     /// Sub-pixels a cell, across and down.
     grid: (u16, u16),
-    ground: Ink,
+    ground: Color,
     pixels: Vec<Ink>,
 }
 
@@ -30,9 +30,8 @@ impl Canvas {
     /// A canvas of `ground` over `area`; letters have no sub-pixels and are drawn elsewhere.
     pub fn new(area: Rect, glyphs: Glyphs, ground: Color) -> Self {
         let grid = sub_pixels(glyphs);
-        let ground = Ink { color: ground, weight: 2 };
         let count = usize::from(area.width * grid.0) * usize::from(area.height * grid.1);
-        Self { area, grid, ground, pixels: vec![ground; count] }
+        Self { area, grid, ground, pixels: vec![Ink { color: ground, weight: 0 }; count] }
     }
 
     /// Width and height in sub-pixels.
@@ -55,7 +54,7 @@ impl Canvas {
             for column in 0..self.area.width {
                 let first = usize::from(row * self.grid.1) * stride + usize::from(column * self.grid.0);
                 let Some(cell) = buffer.cell_mut((self.area.x + column, self.area.y + row)) else { continue };
-                let mut inks = [self.ground; 6];
+                let mut inks = [Ink { color: self.ground, weight: 0 }; 6];
                 let mut count = 0;
                 for line in 0..usize::from(self.grid.1) {
                     for across in 0..usize::from(self.grid.0) {
@@ -63,7 +62,7 @@ impl Canvas {
                         count += 1;
                     }
                 }
-                let (symbol, front, back) = two_colours(&inks[..count], self.ground.color);
+                let (symbol, front, back) = two_colours(&inks[..count], self.ground);
                 cell.set_char(symbol).set_fg(front).set_bg(back);
             }
         }
@@ -79,40 +78,33 @@ pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
     }
 }
 
-/// The block character, its colour and the colour behind it. The two heaviest colours stay; sub-pixels of a third go to
-/// the one behind, or to the one in front if they are as heavy as that: a second ball. The ground lies behind wherever
-/// it is one of the two.
+/// The block character, its colour and the colour behind it. Where there is ground in the cell it lies behind, and only
+/// the heaviest other colour stays before it: a ball without its last corner is better than one with a foreign spot.
 fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
-    // Colour, weight of all its sub-pixels, weight of one.
-    let mut found: [(Color, u16, u8); 6] = [(ground, 0, 0); 6];
+    let mut found = [(ground, 0_u16); 6];
     let mut kinds = 0;
-    for ink in inks {
-        let index = found[..kinds].iter().position(|(color, ..)| *color == ink.color).unwrap_or_else(|| {
-            found[kinds] = (ink.color, 0, ink.weight);
+    for ink in inks.iter().filter(|ink| ink.color != ground) {
+        let index = found[..kinds].iter().position(|(color, _)| *color == ink.color).unwrap_or_else(|| {
+            found[kinds] = (ink.color, 0);
             kinds += 1;
             kinds - 1
         });
         found[index].1 += u16::from(ink.weight);
     }
-    let found = &mut found[..kinds];
     // A stable sort: the one met first wins a tie, always the same.
-    found.sort_by_key(|&(_, weight, _)| std::cmp::Reverse(weight));
-    match found {
-        [(only, ..)] if *only == ground => return (' ', ground, ground),
+    found[..kinds].sort_by_key(|&(_, weight)| std::cmp::Reverse(weight));
+    let front = found[0].0;
+    let has_ground = inks.iter().any(|ink| ink.color == ground);
+    match (kinds, has_ground) {
+        (0, _) => return (' ', ground, ground),
         // Not a blank on the ball's colour: most neighbours have the ground behind them, and each change costs bytes.
-        [(only, ..)] => return ('█', *only, ground),
+        (1, false) => return ('█', front, ground),
         _ => {}
     }
-    let (mut front, mut back) = (found[0], found[1]);
-    if front.0 == ground {
-        std::mem::swap(&mut front, &mut back);
-    }
-    let ((front, _, heavy), back) = (front, back.0);
+    let back = if has_ground { ground } else { found[1].0 };
     let mut bits = 0;
     for (n, ink) in inks.iter().enumerate() {
-        if ink.color == front || (ink.color != back && ink.color != ground && ink.weight >= heavy) {
-            bits |= 1 << n;
-        }
+        bits |= usize::from(ink.color == front) << n;
     }
     let symbol = if inks.len() == 6 { SEXTANTS[bits] } else { HALVES[bits & 3] };
     (symbol, front, back)
@@ -122,7 +114,7 @@ fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
 mod tests {
     use super::*;
 
-    const GROUND: Ink = Ink { color: Color::Blue, weight: 2 };
+    const GROUND: Ink = Ink { color: Color::Blue, weight: 0 };
     const BALL: Ink = Ink { color: Color::Red, weight: 4 };
     const DOT: Ink = Ink { color: Color::White, weight: 1 };
 
@@ -145,6 +137,13 @@ mod tests {
         let (symbol, front, back) = two_colours(&cell, GROUND.color);
         assert_eq!((front, back), (Color::Red, Color::Blue));
         assert_eq!(symbol, SEXTANTS[0b11]);
+    }
+
+    #[test]
+    fn two_balls_that_fill_a_cell_keep_both_their_colours() {
+        let other = Ink { color: Color::Yellow, weight: 4 };
+        let cell = [BALL, BALL, BALL, BALL, other, other];
+        assert_eq!(two_colours(&cell, GROUND.color), (SEXTANTS[0b1111], Color::Red, Color::Yellow));
     }
 
     #[test]

@@ -29,9 +29,11 @@ impl Sprite {
         let drawn = mapping.ball_columns() * ROUNDED;
         let (across, down) = sub_pixels(glyphs);
         let least = if glyphs == Glyphs::Sextant { LEAST_SEXTANTS } else { LEAST_HALVES };
-        let size = |per_column: f64, least: i32| ((drawn * per_column).round() as i32).max(least);
-        // A row is as high as two columns are wide.
-        Self { width: size(f64::from(across), least.0), height: size(f64::from(down) / 2.0, least.1) }
+        // A row is as high as two columns are wide. The width follows from the height, or rounding both would make some
+        // balls ovals.
+        let height = (drawn * f64::from(down) / 2.0).round();
+        let width = (height * 2.0 * f64::from(across) / f64::from(down)).round();
+        Self { width: (width as i32).max(least.0), height: (height as i32).max(least.1) }
     }
 
     /// Half of the picture's width in metres, at most.

@@ -37,7 +37,7 @@ const LETTERS: [char; BALLS] = ['W', 'Y', 'R'];
 const DOTS: [char; BALLS] = ['·', '+', '×'];
 const PLAIN_DOTS: [char; BALLS] = ['.', '+', 'x'];
 
-/// Weights of what shares a cell; the cloth weighs 2 (see [`Ink`]).
+/// Weights of what shares a cell (see [`Ink`]).
 const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
 const BALL_WEIGHT: u8 = 6;
@@ -54,6 +54,7 @@ pub fn draw_table(app: &App, area: Rect, buffer: &mut Buffer) {
     let glyphs = app.look().glyphs;
     let sprite = Sprite::new(&mapping, glyphs);
     let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * sprite.reach(&mapping, glyphs));
+    let balls = apart(balls, 2.0 * sprite.reach(&mapping, glyphs));
     let scene = Scene { app, mapping, balls, sprite, clear };
     if glyphs == Glyphs::Letters {
         scene.draw_letters(buffer);
@@ -62,9 +63,26 @@ pub fn draw_table(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
+/// The centres at which the pictures of the balls are drawn: where the pictures are larger than the balls, those of balls
+/// that touch are to touch as well, and not to hide each other.
+fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
+    // Twice, since moving one pair may bring another together; a third time nobody would see.
+    for (one, other) in [(0, 1), (0, 2), (1, 2), (0, 1), (0, 2), (1, 2)] {
+        let way = balls[other] - balls[one];
+        let push = 0.5 * (least - way.length());
+        if push > 0.0 {
+            let push = push * way.normalize_or(DVec2::X);
+            balls[one] -= push;
+            balls[other] += push;
+        }
+    }
+    balls
+}
+
 struct Scene<'a> {
     app: &'a App,
     mapping: Mapping,
+    /// Where the balls are drawn.
     balls: [DVec2; BALLS],
     sprite: Sprite,
     /// Distance from a ball from which on something else can be drawn, m.
@@ -170,5 +188,19 @@ impl Scene<'_> {
             }
             buffer.set_stringn(x - u16::from(wide), y, &text, 3, style);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_of_touching_balls_touch_and_others_stay() {
+        let balls = [DVec2::ZERO, DVec2::new(0.06, 0.0), DVec2::new(0.5, 0.0)];
+        let [one, two, three] = apart(balls, 0.12);
+        assert!((one.distance(two) - 0.12).abs() < 1e-12);
+        assert_eq!(three, balls[2]);
+        assert_eq!(apart(balls, 0.05), balls);
     }
 }
