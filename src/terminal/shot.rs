@@ -116,7 +116,9 @@ fn first_contact(recording: &Recording, two_radii: f64) -> Option<Contact> {
     let towards = recording.state(ball, time).position - place;
     // Just before the impact: at its time the recording already holds the velocities after it.
     let before = (0.999 * time).max(time - 1e-4);
-    let line = (place - recording.state(0, before).position).try_normalize()?;
+    // A ball that touches from the start is met in the direction of the stroke.
+    let line =
+        (place - recording.state(0, before).position).normalize_or(recording.impulse().velocity.normalize_or_zero());
     let offset = line.perp_dot(towards) / two_radii;
     Some(Contact { ball, place, fullness: (1.0 - offset.abs()).max(0.0), left: offset < 0.0 })
 }
@@ -139,6 +141,12 @@ mod tests {
         assert_eq!(contact.ball, 1);
         assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
         assert_eq!(half.contact_words().unwrap(), "hits yellow 50% full, left side");
+    }
+
+    #[test]
+    fn a_ball_that_is_touched_from_the_start_is_met_along_the_stroke() {
+        let contact = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3").contact.unwrap();
+        assert!((contact.fullness - 1.0).abs() < 1e-9, "{contact:?}");
     }
 
     #[test]
