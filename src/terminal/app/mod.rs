@@ -17,7 +17,7 @@ use super::{
     keymap::{self, When},
     look::Look,
     playback::Playback,
-    recommender::{Answer, Job},
+    recommender::{Answer, Effort, Job},
     screens,
     shot::Shot,
     status::Message,
@@ -135,10 +135,9 @@ impl App {
             When::Always => None,
             When::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
             _ if thinking.is_some() => thinking,
-            When::Idle => None,
             When::Placing => refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls"),
             When::Shot | When::Watching if self.shot().is_none() => Some("there is no shot yet; Enter asks the coach"),
-            When::Shot => None,
+            When::Idle | When::Shot => None,
             When::Watching => refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one"),
             When::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             When::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
@@ -154,7 +153,7 @@ impl App {
         match answer.shot {
             Ok(shot) => {
                 self.playback.jump(0.0);
-                self.message = Some(news(&shot));
+                self.message = Some(news(&shot, answer.effort));
                 self.balls.present_mut().shot = Some(shot);
                 self.mode = Mode::Watching;
             }
@@ -190,11 +189,12 @@ impl App {
     }
 }
 
-fn news(shot: &Shot) -> Message {
+fn news(shot: &Shot, effort: Option<Effort>) -> Message {
     let contact = shot.contact_words().map_or(String::new(), |words| format!("; {words}"));
+    let took = effort.map_or(String::new(), |effort| format!(", {} ms", effort.elapsed.as_millis()));
     if shot.solved {
-        Message::good(format!("makes the point ({}){contact}", shot.source))
-    } else {
-        Message::warning(format!("no point found in time; this is the best attempt ({}){contact}", shot.source))
+        return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
     }
+    let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
+    Message::warning(format!("no point found{tried}; this is the best attempt ({}{took}){contact}", shot.source))
 }
