@@ -27,6 +27,9 @@ const CONVERGED: f64 = 1e-14;
 /// some hundreds of them, all others a few.
 const MAX_SWEEPS: usize = 2000;
 
+/// After so many sweeps without an end the conjugate directions may be going in circles: plain sweeps follow.
+const CONJUGATE_SWEEPS: usize = 200;
+
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
@@ -141,7 +144,7 @@ pub fn contact_forces(
     }
     let mut direction = Forces::NONE;
     let mut last_size = f64::INFINITY;
-    for _ in 0..MAX_SWEEPS {
+    for count in 0..MAX_SWEEPS {
         let before = sweep.forces;
         sweep.change = 0.0;
         for ball in 0..BALLS {
@@ -158,7 +161,7 @@ pub fn contact_forces(
         let size = step.size_squared(table.radius);
         let memory = size / last_size;
         last_size = size;
-        if memory > 1.0 {
+        if memory > 1.0 || count > CONJUGATE_SWEEPS {
             direction = Forces::NONE;
         } else {
             sweep.forces = sweep.forces.plus(memory, &direction);
@@ -336,6 +339,7 @@ impl<'a> Sweep<'a> {
         self.press(index, normal - self.forces.normal[index], DVec2::ZERO);
 
         let mu = if second.is_some() { self.table.ball_friction } else { Some(self.table.rail_friction) };
+        // A contact that never slips holds even where it hardly pushes: letting go at zero would have no solution.
         let wanted = match mu {
             Some(mu) if self.laws.rubs[index] => DVec2::new(geometry.along, geometry.up) * -(mu * normal),
             _ => {
@@ -343,7 +347,6 @@ impl<'a> Sweep<'a> {
                 mu.map_or(held, |mu| held.clamp_length_max(mu * normal))
             }
         };
-        let wanted = if normal > 0.0 { wanted } else { DVec2::ZERO };
         self.press(index, 0.0, wanted - self.forces.friction[index]);
     }
 
