@@ -20,15 +20,15 @@ pub const MAX_TOUCHES: usize = 9;
 /// 1e-10 m.
 pub const SLIP_TOLERANCE: f64 = 1e-10;
 
-/// Sweeps end when no force per mass changes by more than this, m/s²; rounding is 1e-15.
-const CONVERGED: f64 = 1e-14;
+/// Sweeps end when no force per mass changes by more than this, m/s²: over a step of 0.01 s that is 1e-14 m/s.
+const CONVERGED: f64 = 1e-12;
 
 /// A bound on the sweeps. Convergence is geometric; a ball that sticks to cloth, cushion and another ball at once needs
 /// some hundreds of them, all others a few.
-const MAX_SWEEPS: usize = 2000;
+const MAX_SWEEPS: usize = 1000;
 
-/// After so many sweeps without an end the conjugate directions may be going in circles: plain sweeps follow.
-const CONJUGATE_SWEEPS: usize = 200;
+/// The conjugate directions start afresh after so many sweeps, which keeps them from going in circles.
+const RESTART: usize = 50;
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,7 +161,7 @@ pub fn contact_forces(
         let size = step.size_squared(table.radius);
         let memory = size / last_size;
         last_size = size;
-        if memory > 1.0 || count > CONJUGATE_SWEEPS {
+        if memory > 1.0 || count % RESTART == 0 {
             direction = Forces::NONE;
         } else {
             sweep.forces = sweep.forces.plus(memory, &direction);
