@@ -1,1 +1,6 @@
-//! Agents: environment, replay buffer, networks, DDPG, trainer.
+//! Agents that learn to play: what they see, what they do, and how they get better.
+
+mod adam;
+mod matmul;
+mod mlp;
+mod tensors;
