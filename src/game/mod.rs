@@ -1,1 +1,7 @@
-//! What counts: rules, difficulty and the thesis' rewards.
+//! What counts: the rules of carom, the difficulty of a shot, and the thesis' rewards.
+
+mod reward;
+mod rules;
+
+pub use reward::{Reward, UnknownReward};
+pub use rules::{Rule, Tally, UnknownRule, scores};

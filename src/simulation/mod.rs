@@ -1,9 +1,17 @@
 //! When things happen: event prediction, the engine, and playback of what it recorded.
 
+mod constants;
+mod engine;
 mod events;
+mod playback;
+mod predict;
+mod resting;
+mod roots;
+mod segment;
+mod settling;
 
+pub use constants::Constants;
+pub use engine::{End, simulate};
 pub use events::{Event, EventKind, Observer, Rail};
-
-/// Placeholder until the engine lands.
-#[derive(Clone, Copy, Debug)]
-pub struct Segment;
+pub use playback::{Recording, ShotError};
+pub use segment::{Curve, Segment};

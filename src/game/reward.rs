@@ -1,0 +1,149 @@
+//! The thesis' rewards r1 to r4 (its 4.1.5), and r1 with the difficulty of the shot.
+
+use std::{fmt, ops::ControlFlow, str::FromStr};
+
+use serde::{Deserialize, Serialize};
+
+use super::Tally;
+use crate::{
+    physics::{CueInputs, strike},
+    simulation::{Event, Observer, simulate},
+    table::{Layout, Table},
+};
+
+/// What an agent is rewarded for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Reward {
+    /// 1 if the cue ball meets an object ball (equation 48).
+    #[serde(rename = "r1")]
+    R1,
+    /// r1, halved by every cushion that the cue ball hits before the first object ball. The thesis only says that more
+    /// cushions give less.
+    #[serde(rename = "r1-difficulty")]
+    R1Difficulty,
+    /// r1 plus the distance reward of the balls at rest (equation 51).
+    #[serde(rename = "r2")]
+    R2,
+    /// 1 if the cue ball meets both object balls (equation 52): a straight-rail point.
+    #[default]
+    #[serde(rename = "r3")]
+    R3,
+    /// r3 plus the distance reward (equation 53).
+    #[serde(rename = "r4")]
+    R4,
+}
+
+/// A reward's name that is not known.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no reward \"{0}\"; use r1, r1-difficulty, r2, r3 or r4")]
+pub struct UnknownReward(String);
+
+impl Reward {
+    /// All rewards.
+    pub const ALL: [Self; 5] = [Self::R1, Self::R1Difficulty, Self::R2, Self::R3, Self::R4];
+
+    /// Name on the command line and in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::R1 => "r1",
+            Self::R1Difficulty => "r1-difficulty",
+            Self::R2 => "r2",
+            Self::R3 => "r3",
+            Self::R4 => "r4",
+        }
+    }
+
+    /// The reward of a shot, simulated just until it is decided. The layout and the stroke are taken as they are.
+    pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
+        let mut watch = Watch { tally: Tally::default(), reward: self };
+        let end = simulate(table, layout, &strike(table, cue), &mut watch);
+        self.value(table, &watch.tally, &end.layout())
+    }
+
+    /// The reward of a shot that did what `tally` says and left the balls at `end`.
+    pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
+        let one = |made: bool| f64::from(u8::from(made));
+        match self {
+            Self::R1 => one(tally.met_any()),
+            Self::R1Difficulty => one(tally.met_any()) * 0.5_f64.powf(f64::from(tally.cushions_before_first)),
+            Self::R2 => one(tally.met_any()) + distance_reward(table, end),
+            Self::R3 => one(tally.met_both()),
+            Self::R4 => one(tally.met_both()) + distance_reward(table, end),
+        }
+    }
+}
+
+impl fmt::Display for Reward {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl FromStr for Reward {
+    type Err = UnknownReward;
+
+    fn from_str(text: &str) -> Result<Self, UnknownReward> {
+        Self::ALL.into_iter().find(|reward| reward.name() == text).ok_or_else(|| UnknownReward(text.to_owned()))
+    }
+}
+
+/// The distance reward `r_d` (equation 50): 1 for balls close together, 0 for balls as far apart as the table allows.
+fn distance_reward(table: &Table, layout: &Layout) -> f64 {
+    let [a, b, c] = layout.balls;
+    let total = a.distance(b) + a.distance(c) + b.distance(c);
+    // The perimeter of a triangle in a rectangle is largest with corners for vertices: both sides and the diagonal.
+    let reach = 2.0 * table.reach();
+    1.0 - total / (reach.x + reach.y + reach.length())
+}
+
+/// Watches a shot until its reward is decided.
+struct Watch {
+    tally: Tally,
+    reward: Reward,
+}
+
+impl Observer for Watch {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.tally.note(&event);
+        let decided = match self.reward {
+            Reward::R1 | Reward::R1Difficulty => self.tally.met_any(),
+            Reward::R3 => self.tally.met_both(),
+            // Where the balls come to rest counts.
+            Reward::R2 | Reward::R4 => false,
+        };
+        if decided { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn the_distance_reward_spans_nought_to_one() {
+        let table = Table::default();
+        let reach = table.reach();
+        let apart = Layout::new([-reach, reach, DVec2::new(reach.x, -reach.y)]);
+        assert!(distance_reward(&table, &apart).abs() < 1e-15);
+        assert!(distance_reward(&table, &Layout::new([DVec2::ZERO; 3])) == 1.0);
+    }
+
+    #[test]
+    fn a_straight_shot_at_two_balls_in_line_earns_every_reward() {
+        let table = Table::default();
+        let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.5, 0.03)]);
+        let cue = CueInputs::parse("0,0.3,0,1,4").unwrap();
+        assert_eq!(Reward::R1.of(&table, &layout, &cue), 1.0);
+        assert_eq!(Reward::R1Difficulty.of(&table, &layout, &cue), 1.0);
+        assert!(Reward::R2.of(&table, &layout, &cue) > 1.0);
+    }
+
+    #[test]
+    fn a_cushion_before_the_ball_halves_the_reward_for_difficulty() {
+        let tally = Tally { met: [true, false], cushions: 3, cushions_before_first: 2, cushions_before_second: 0 };
+        let layout = Layout::opening(&Table::default());
+        assert_eq!(Reward::R1Difficulty.value(&Table::default(), &tally, &layout), 0.25);
+        assert_eq!(Reward::R3.value(&Table::default(), &tally, &layout), 0.0);
+    }
+}

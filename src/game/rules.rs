@@ -1,0 +1,182 @@
+//! The rules: when a shot is a point.
+
+use std::{fmt, ops::ControlFlow, str::FromStr};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    physics::{CueInputs, strike},
+    simulation::{Event, EventKind, Observer, simulate},
+    table::{Layout, Table},
+};
+
+/// What the cue ball must do for a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Rule {
+    /// Straight rail: it meets both object balls (r3 of the thesis).
+    #[default]
+    #[serde(rename = "straight")]
+    StraightRail,
+    /// At least one cushion before the second object ball is met for the first time.
+    #[serde(rename = "one-cushion")]
+    OneCushion,
+    /// At least three cushions before the second object ball is met for the first time.
+    #[serde(rename = "three-cushion")]
+    ThreeCushion,
+}
+
+/// A rule's name that is not known.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no rule \"{0}\"; use straight, one-cushion or three-cushion")]
+pub struct UnknownRule(String);
+
+impl Rule {
+    /// All rules.
+    pub const ALL: [Self; 3] = [Self::StraightRail, Self::OneCushion, Self::ThreeCushion];
+
+    /// Name on the command line and in JSON.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::StraightRail => "straight",
+            Self::OneCushion => "one-cushion",
+            Self::ThreeCushion => "three-cushion",
+        }
+    }
+
+    /// Cushion contacts needed before the second object ball.
+    pub const fn cushions(self) -> u32 {
+        match self {
+            Self::StraightRail => 0,
+            Self::OneCushion => 1,
+            Self::ThreeCushion => 3,
+        }
+    }
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl FromStr for Rule {
+    type Err = UnknownRule;
+
+    fn from_str(text: &str) -> Result<Self, UnknownRule> {
+        Self::ALL.into_iter().find(|rule| rule.name() == text).ok_or_else(|| UnknownRule(text.to_owned()))
+    }
+}
+
+/// What the cue ball has done so far in a shot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Whether it has met each object ball (balls 1 and 2).
+    pub met: [bool; 2],
+    /// Cushions that it has hit.
+    pub cushions: u32,
+    /// Cushions that it had hit when it met its first object ball.
+    pub cushions_before_first: u32,
+    /// Cushions that it had hit when it met its second object ball.
+    pub cushions_before_second: u32,
+}
+
+impl Tally {
+    /// Takes note of one event.
+    pub fn note(&mut self, event: &Event) {
+        match event.kind {
+            EventKind::BallRail(0, _) => self.cushions += 1,
+            EventKind::BallBall(0, ball) => {
+                if !self.met[ball - 1] {
+                    self.met[ball - 1] = true;
+                    if self.met == [true, true] {
+                        self.cushions_before_second = self.cushions;
+                    } else {
+                        self.cushions_before_first = self.cushions;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether the cue ball has met an object ball.
+    pub fn met_any(&self) -> bool {
+        self.met[0] || self.met[1]
+    }
+
+    /// Whether it has met both.
+    pub fn met_both(&self) -> bool {
+        self.met[0] && self.met[1]
+    }
+
+    /// Whether this is a point; it can still become one until both object balls are met.
+    pub fn is_point(&self, rule: Rule) -> bool {
+        self.met_both() && self.cushions_before_second >= rule.cushions()
+    }
+}
+
+/// Watches a shot just until the point is made or can no longer be made.
+struct Referee(Tally);
+
+impl Observer for Referee {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.0.note(&event);
+        if self.0.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Whether a shot makes a point. The layout and the stroke are taken as they are.
+pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+    let mut referee = Referee(Tally::default());
+    simulate(table, layout, &strike(table, cue), &mut referee);
+    referee.0.is_point(rule)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulation::Rail;
+
+    fn tally(kinds: &[EventKind]) -> Tally {
+        let mut tally = Tally::default();
+        for (index, kind) in kinds.iter().enumerate() {
+            tally.note(&Event { time: index as f64, kind: *kind });
+        }
+        tally
+    }
+
+    const RAIL: EventKind = EventKind::BallRail(0, Rail::Top);
+
+    #[test]
+    fn three_cushions_count_only_before_the_second_ball() {
+        let before = tally(&[RAIL, EventKind::BallBall(0, 2), RAIL, RAIL, EventKind::BallBall(0, 1)]);
+        assert!(before.is_point(Rule::ThreeCushion) && before.is_point(Rule::OneCushion));
+        let after = tally(&[RAIL, EventKind::BallBall(0, 2), RAIL, EventKind::BallBall(0, 1), RAIL]);
+        assert!(!after.is_point(Rule::ThreeCushion) && after.is_point(Rule::OneCushion));
+    }
+
+    #[test]
+    fn the_same_ball_twice_is_no_point() {
+        let tally = tally(&[EventKind::BallBall(0, 1), RAIL, EventKind::BallBall(0, 1)]);
+        assert!(tally.met_any() && !tally.is_point(Rule::StraightRail));
+    }
+
+    #[test]
+    fn what_object_balls_do_among_themselves_counts_for_nothing() {
+        let tally = tally(&[
+            EventKind::BallBall(0, 1),
+            EventKind::BallBall(1, 2),
+            EventKind::BallRail(1, Rail::Left),
+            EventKind::SlidingRolling(0),
+        ]);
+        assert_eq!((tally.met, tally.cushions), ([true, false], 0));
+    }
+
+    #[test]
+    fn names_are_read_back_and_an_unknown_one_is_named() {
+        for rule in Rule::ALL {
+            assert_eq!(rule.name().parse(), Ok(rule));
+        }
+        assert!("snooker".parse::<Rule>().unwrap_err().to_string().contains("snooker"));
+    }
+}

@@ -1,0 +1,386 @@
+//! The event-driven engine (thesis 3.2 and Algorithm 1): from one event to the next, with nothing in between.
+
+use std::ops::ControlFlow;
+
+use super::{
+    Constants, Event, EventKind, Observer, Rail, Segment,
+    predict::{Ahead, balls_ahead, cushion_ahead},
+    resting::{PAIRS, Resting},
+    settling::{settles_on_cushion, settles_together},
+};
+use crate::{
+    physics::{BallState, Impulse, Motion, collide_balls, collide_rail},
+    table::{BALLS, Layout, Table},
+};
+
+/// How a simulation ended: when all balls stood still, or when the observer had seen enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// Time of the last event, s.
+    pub time: f64,
+    /// The balls at that time.
+    pub balls: [BallState; BALLS],
+}
+
+impl End {
+    /// Where the balls are.
+    pub fn layout(&self) -> Layout {
+        Layout::new(self.balls.map(|ball| ball.position))
+    }
+}
+
+/// Plays a shot: the cue ball starts with `impulse`, and `observer` is told what happens until all balls stand still or
+/// it breaks off. The layout is taken as it is: see [`Layout::validate`].
+///
+/// Every run of the same shot gives the same bits.
+pub fn simulate<O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) -> End {
+    Engine::new(table, layout, observer).run(impulse)
+}
+
+/// A ball's present course and what it alone will do next.
+#[derive(Clone, Copy)]
+struct Ball {
+    segment: Segment,
+    /// How long the motion can last, s after the segment's start.
+    lasts: f64,
+    /// When the ball meets `rail`, s after the segment's start; infinity if never.
+    rail_after: f64,
+    rail: Rail,
+    /// The earlier of the two as a time, s.
+    next: f64,
+    /// Whether a resting contact holds it.
+    resting: bool,
+}
+
+/// When a pair of balls meets: `after` seconds after `since`. Both are kept, since their sum is rounded.
+#[derive(Clone, Copy)]
+struct Meeting {
+    since: f64,
+    after: f64,
+    time: f64,
+}
+
+impl Meeting {
+    const NEVER: Self = Self { since: 0.0, after: 0.0, time: f64::INFINITY };
+}
+
+struct Engine<'a, O> {
+    table: &'a Table,
+    constants: Constants,
+    observer: &'a mut O,
+    balls: [Ball; BALLS],
+    pairs: [Meeting; 3],
+    resting: Option<Box<Resting>>,
+    /// Whether a prediction has found balls pressed together that are not yet in `resting`.
+    pressed: bool,
+}
+
+impl<'a, O: Observer> Engine<'a, O> {
+    fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
+        let balls = layout.balls.map(|position| Ball {
+            segment: Segment::at_rest(position),
+            lasts: f64::INFINITY,
+            rail_after: f64::INFINITY,
+            rail: Rail::Left,
+            next: f64::INFINITY,
+            resting: false,
+        });
+        let constants = Constants::of(table);
+        Self { table, constants, observer, balls, pairs: [Meeting::NEVER; 3], resting: None, pressed: false }
+    }
+
+    fn run(mut self, impulse: &Impulse) -> End {
+        let cue_ball =
+            BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
+        self.launch(0, 0.0, &cue_ball);
+        let mut flow = self.look_ahead(0.0, [true, false, false]);
+        let mut now = 0.0;
+        while flow.is_continue() {
+            let (mut next, mut source) = (f64::INFINITY, usize::MAX);
+            for (index, ball) in self.balls.iter().enumerate() {
+                if ball.next < next {
+                    (next, source) = (ball.next, index);
+                }
+            }
+            for (index, pair) in self.pairs.iter().enumerate() {
+                if pair.time < next {
+                    (next, source) = (pair.time, BALLS + index);
+                }
+            }
+            if source == usize::MAX {
+                break;
+            }
+            flow = match source.checked_sub(BALLS) {
+                Some(pair) => self.collide(pair),
+                None if self.balls[source].rail_after < self.balls[source].lasts => self.rebound(source),
+                None if self.balls[source].segment.motion == Motion::Resting => self.rest_on(next),
+                None => self.change_motion(source),
+            };
+            now = next;
+        }
+        self.finish(now)
+    }
+
+    /// The end of sliding or rolling.
+    fn change_motion(&mut self, index: usize) -> ControlFlow<()> {
+        let ball = &self.balls[index];
+        let (segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
+        let kind = match ball.segment.motion {
+            Motion::Sliding => EventKind::SlidingRolling(index),
+            _ => EventKind::RollingStationary(index),
+        };
+        let (ended, now) = (ball.segment.motion, ball.next);
+        self.close(index, now);
+        self.tell(now, kind)?;
+        if ended == Motion::Sliding && segment.motion == Motion::Stationary {
+            self.tell(now, EventKind::RollingStationary(index))?;
+        }
+        self.set(index, Segment { start: now, ..segment }, lasts);
+        self.look_ahead(now, only(index))
+    }
+
+    fn rebound(&mut self, index: usize) -> ControlFlow<()> {
+        let Ball { segment, rail_after, rail, next: now, .. } = self.balls[index];
+        let n = rail.normal();
+        let freed = self.release(now, only(index));
+        let mut state = match &freed {
+            Some(states) => states[index],
+            None => segment.state_after(&self.constants, rail_after),
+        };
+        // The ball stands exactly at the cushion: the prediction's rounding must not leave a gap to fall through.
+        state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
+        let before = state;
+        let c = self.constants;
+        collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
+        if settles_on_cushion(&c, n, &state) {
+            state = before;
+            collide_rail(c.radius, 0.0, c.rail_friction, n, &mut state);
+            state.velocity -= state.velocity.dot(n) * n;
+        }
+        self.close(index, now);
+        self.launch(index, now, &state);
+        self.tell(now, EventKind::BallRail(index, rail))?;
+        self.look_ahead(now, members(freed.is_some(), self.freed_members(), only(index)))
+    }
+
+    fn collide(&mut self, pair: usize) -> ControlFlow<()> {
+        let (first, second) = PAIRS[pair];
+        let Meeting { since, after, time: now } = self.pairs[pair];
+        let mut changed = only(first);
+        changed[second] = true;
+        let freed = self.release(now, changed);
+        let state_of = |index: usize| match &freed {
+            Some(states) if self.freed_members()[index] => states[index],
+            _ => {
+                let segment = &self.balls[index].segment;
+                segment.state_after(&self.constants, (since - segment.start) + after)
+            }
+        };
+        let (mut a, mut b) = (state_of(first), state_of(second));
+        let before = (a, b);
+        let c = self.constants;
+        collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
+        if settles_together(&c, &a, &b) {
+            (a, b) = before;
+            collide_balls(c.radius, 0.0, c.ball_friction, &mut a, &mut b);
+        }
+        self.close(first, now);
+        self.close(second, now);
+        self.launch(first, now, &a);
+        self.launch(second, now, &b);
+        self.tell(now, EventKind::BallBall(first, second))?;
+        self.look_ahead(now, members(freed.is_some(), self.freed_members(), changed))
+    }
+
+    /// The next step of the balls in resting contact.
+    fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
+        let Some(resting) = self.resting.take() else { return ControlFlow::Continue(()) };
+        for index in (0..BALLS).filter(|&index| resting.members[index]) {
+            self.close(index, now);
+            self.launch(index, now, &resting.end[index]);
+        }
+        // Whether they go on resting is asked of all contacts together.
+        self.pressed = true;
+        self.look_ahead(now, resting.members)
+    }
+
+    /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it
+    /// is known what presses now. Returns the states of all members.
+    fn release(&mut self, now: f64, changed: [bool; BALLS]) -> Option<[BallState; BALLS]> {
+        let resting = self.resting.as_ref()?;
+        if !(0..BALLS).any(|index| changed[index] && resting.members[index]) {
+            return None;
+        }
+        let members = resting.members;
+        let states = resting.after(self.table, now - resting.start);
+        for index in (0..BALLS).filter(|&index| members[index] && !changed[index]) {
+            self.close(index, now);
+            self.launch(index, now, &states[index]);
+        }
+        self.pressed = true;
+        Some(states)
+    }
+
+    /// The balls of the resting contact that is still on record.
+    fn freed_members(&self) -> [bool; BALLS] {
+        self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
+    }
+
+    /// Sends a ball off on the free course that follows from its state.
+    fn launch(&mut self, index: usize, now: f64, state: &BallState) {
+        let (segment, lasts) = Segment::free(&self.constants, now, state);
+        self.set(index, segment, lasts);
+    }
+
+    fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
+        let (mut rail_after, mut rail) = (f64::INFINITY, Rail::Left);
+        if matches!(segment.motion, Motion::Sliding | Motion::Rolling | Motion::Resting) {
+            let (ahead, which) = cushion_ahead(&self.constants, &segment, lasts);
+            match ahead {
+                Ahead::Nothing => {}
+                Ahead::Meeting(after) => (rail_after, rail) = (after, which),
+                Ahead::Pressed => self.pressed = true,
+            }
+        }
+        let next = segment.start + lasts.min(rail_after);
+        let resting = self.balls[index].resting;
+        self.balls[index] = Ball { segment, lasts, rail_after, rail, next, resting };
+    }
+
+    /// Predicts what the `changed` balls will meet, after their courses have been set.
+    fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
+        let mut changed = changed;
+        self.predict_pairs(now, changed);
+        if self.pressed || self.balls.iter().any(|ball| ball.resting) {
+            self.press(now, &mut changed)?;
+            self.predict_pairs(now, changed);
+            self.pressed = false;
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS]) {
+        for (index, &(first, second)) in PAIRS.iter().enumerate() {
+            if !(changed[first] || changed[second]) {
+                continue;
+            }
+            self.pairs[index] = Meeting::NEVER;
+            let (a, b) = (&self.balls[first], &self.balls[second]);
+            if a.segment.motion == Motion::Stationary && b.segment.motion == Motion::Stationary {
+                continue;
+            }
+            if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
+                continue;
+            }
+            let horizon = a.next.min(b.next) - now;
+            match balls_ahead(&self.constants, &a.segment, &b.segment, now, horizon) {
+                Ahead::Nothing => {}
+                Ahead::Meeting(after) => self.pairs[index] = Meeting { since: now, after, time: now + after },
+                Ahead::Pressed => self.pressed = true,
+            }
+        }
+    }
+
+    /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.
+    #[cold]
+    fn press(&mut self, now: f64, changed: &mut [bool; BALLS]) -> ControlFlow<()> {
+        if let Some(resting) = &self.resting
+            && !self.pressed
+            && !(0..BALLS).any(|index| changed[index] && resting.members[index])
+        {
+            return ControlFlow::Continue(());
+        }
+        // Other members of a contact that goes on are part of the new one.
+        let states: [BallState; BALLS] = match &self.resting {
+            Some(resting) if resting.start < now => {
+                let at = resting.after(self.table, now - resting.start);
+                std::array::from_fn(|index| {
+                    if resting.members[index] && self.balls[index].segment.start < now {
+                        at[index]
+                    } else {
+                        self.state(index, now)
+                    }
+                })
+            }
+            _ => std::array::from_fn(|index| self.state(index, now)),
+        };
+        self.resting = Resting::begin(self.table, &self.constants, now, &states).map(Box::new);
+        let members = self.freed_members();
+        for index in 0..BALLS {
+            let was = std::mem::replace(&mut self.balls[index].resting, members[index]);
+            if members[index] {
+                self.rest(index, now, &states[index]);
+                changed[index] = true;
+            }
+            if members[index] && !was {
+                self.tell(now, EventKind::ContactBegins(index))?;
+            } else if was && !members[index] {
+                self.tell(now, EventKind::ContactEnds(index))?;
+                if self.balls[index].segment.motion == Motion::Rolling {
+                    self.tell(now, EventKind::SlidingRolling(index))?;
+                } else if self.balls[index].segment.motion == Motion::Stationary {
+                    self.tell(now, EventKind::RollingStationary(index))?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn rest(&mut self, index: usize, now: f64, state: &BallState) {
+        let Some(resting) = &self.resting else { return };
+        let (half_acceleration, curve) = resting.course(index);
+        let step = resting.step;
+        let segment = Segment {
+            start: now,
+            position: state.position,
+            velocity: state.velocity,
+            half_acceleration,
+            spin: state.spin,
+            motion: Motion::Resting,
+            curve: Some(curve),
+        };
+        if self.balls[index].segment.start < now {
+            self.close(index, now);
+        }
+        self.set(index, segment, step);
+    }
+
+    fn state(&self, index: usize, now: f64) -> BallState {
+        let segment = &self.balls[index].segment;
+        segment.state_after(&self.constants, now - segment.start)
+    }
+
+    fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
+        self.observer.event(Event { time, kind })
+    }
+
+    /// Hands a finished segment to an observer that records.
+    #[inline]
+    fn close(&mut self, index: usize, end: f64) {
+        if O::SEGMENTS {
+            self.observer.segment(index, &self.balls[index].segment, end);
+        }
+    }
+
+    fn finish(mut self, time: f64) -> End {
+        for index in 0..BALLS {
+            self.close(index, time);
+        }
+        let balls = std::array::from_fn(|index| {
+            let mut state = self.state(index, time);
+            if self.balls[index].segment.motion == Motion::Stationary {
+                state.velocity = glam::DVec2::ZERO;
+            }
+            state
+        });
+        End { time, balls }
+    }
+}
+
+fn only(index: usize) -> [bool; BALLS] {
+    std::array::from_fn(|other| other == index)
+}
+
+fn members(freed: bool, of_contact: [bool; BALLS], changed: [bool; BALLS]) -> [bool; BALLS] {
+    if freed { std::array::from_fn(|index| changed[index] || of_contact[index]) } else { changed }
+}

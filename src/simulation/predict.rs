@@ -1,0 +1,286 @@
+//! When a ball will meet a cushion or another ball, if nothing else happens first.
+//!
+//! It is the duty of this file that nothing is missed and nothing is found twice: a ball that already touches what it
+//! has just hit meets it again only when it really comes back.
+
+use glam::DVec2;
+
+use super::{
+    Constants, Rail, Segment,
+    roots::{MAX_DEGREE, first_crossing, horner},
+};
+use crate::physics::Motion;
+
+/// Gaps below this are contact, m. Coordinates of up to a few metres are rounded to 4e-16 m, so a gap is known to about
+/// 1e-15 m; a real gap of 1e-14 m that is closed at once moves nothing that could be seen at 1e-9 m.
+pub const TOUCHING: f64 = 1e-14;
+
+/// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by less than 1e-12 m.
+pub const RESTING_SPEED: f64 = 1e-13;
+
+/// Accelerations along a contact's normal below this do not press, m/s²: rounding of g's size is 1e-15.
+const PRESSING: f64 = 1e-13;
+
+/// What lies ahead of a ball, or of two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ahead {
+    /// They will not meet within the time asked for.
+    Nothing,
+    /// They meet after this many seconds.
+    Meeting(f64),
+    /// They touch, do not move against each other, and are pressed together: a resting contact.
+    Pressed,
+}
+
+/// The first cushion that `segment` meets within `horizon` seconds of its start.
+pub fn cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+    if segment.curve.is_some() {
+        return curved_cushion_ahead(constants, segment, horizon);
+    }
+    let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
+    let reach = constants.reach;
+    let mut nearest = (Ahead::Nothing, Rail::Left);
+    let mut earliest = horizon;
+    let sides = [
+        (Rail::Left, reach.x + p.x, -v.x, -k.x),
+        (Rail::Right, reach.x - p.x, v.x, k.x),
+        (Rail::Bottom, reach.y + p.y, -v.y, -k.y),
+        (Rail::Top, reach.y - p.y, v.y, k.y),
+    ];
+    for (rail, gap, speed, half_acceleration) in sides {
+        match gap_closes(gap, speed, half_acceleration) {
+            Ahead::Nothing => {}
+            Ahead::Pressed => return (Ahead::Pressed, rail),
+            Ahead::Meeting(time) => {
+                if time < earliest {
+                    earliest = time;
+                    nearest = (Ahead::Meeting(time), rail);
+                }
+            }
+        }
+    }
+    nearest
+}
+
+/// When `gap - speed t - half_acceleration t²` first falls to zero.
+#[inline]
+fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> Ahead {
+    if gap <= TOUCHING {
+        return if speed > RESTING_SPEED {
+            Ahead::Meeting(0.0)
+        } else if 2.0 * half_acceleration <= PRESSING {
+            Ahead::Nothing
+        } else if speed >= -RESTING_SPEED {
+            Ahead::Pressed
+        } else {
+            Ahead::Meeting(-speed / half_acceleration)
+        };
+    }
+    if speed <= 0.0 && half_acceleration <= 0.0 {
+        return Ahead::Nothing;
+    }
+    let discriminant = speed * speed + 4.0 * half_acceleration * gap;
+    if discriminant < 0.0 {
+        Ahead::Nothing
+    } else if speed > 0.0 {
+        Ahead::Meeting(2.0 * gap / (speed + discriminant.sqrt()))
+    } else {
+        // Without cancellation, since speed is not positive.
+        Ahead::Meeting((discriminant.sqrt() - speed) / (2.0 * half_acceleration))
+    }
+}
+
+/// The same for a ball in a resting contact, whose course is a polynomial of degree five. Cushions that it touches hold
+/// it: they are part of its course.
+fn curved_cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+    let mut nearest = (Ahead::Nothing, Rail::Left);
+    let mut earliest = horizon;
+    let course = coefficients(segment);
+    for rail in Rail::ALL {
+        let inward = rail.normal();
+        let edge = inward.abs().dot(constants.reach);
+        let mut gap = course.map(|c| c.dot(inward));
+        gap[0] += edge;
+        if gap[0] <= TOUCHING {
+            continue;
+        }
+        let mut slope = [0.0; 5];
+        for power in 1..6 {
+            slope[power - 1] = power as f64 * gap[power];
+        }
+        if let Some(time) = first_crossing(|t| horner(&gap, t), &slope, earliest, 0.0) {
+            earliest = time;
+            nearest = (Ahead::Meeting(time), rail);
+        }
+    }
+    nearest
+}
+
+fn coefficients(segment: &Segment) -> [DVec2; 6] {
+    let [c3, c4, c5] = segment.curve.map_or([DVec2::ZERO; 3], |curve| curve.position);
+    [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
+}
+
+/// When two balls meet within `horizon` seconds of time `now`.
+pub fn balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now: f64, horizon: f64) -> Ahead {
+    if first.curve.is_some() || second.curve.is_some() {
+        return curved_balls_ahead(constants, first, second, now, horizon);
+    }
+    let (t1, t2) = (now - first.start, now - second.start);
+    let d = first.position_after(t1) - second.position_after(t2);
+    let dv = first.velocity_after(t1) - second.velocity_after(t2);
+    let dk = first.half_acceleration - second.half_acceleration;
+    let diameter = 2.0 * constants.radius;
+    let gap = d.length_squared() - diameter * diameter;
+    let c1 = 2.0 * d.dot(dv);
+    let c2 = dv.length_squared() + 2.0 * d.dot(dk);
+    if gap <= 2.0 * diameter * TOUCHING {
+        return touching_balls_ahead(d, dv, dk, diameter, horizon);
+    }
+    // The gap's fall is at most what distance and speeds allow: most pairs end here.
+    let travel = horizon * (dv.length() + horizon * dk.length());
+    if d.length() - diameter > travel {
+        return Ahead::Nothing;
+    }
+    if matches!(
+        (first.motion, second.motion),
+        (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
+    ) {
+        return straight_ahead(d, dv, dk, gap, diameter, horizon);
+    }
+    let c3 = 2.0 * dv.dot(dk);
+    let c4 = dk.length_squared();
+    let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
+    let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
+    first_crossing(value, &derivative, horizon, 0.0).map_or(Ahead::Nothing, Ahead::Meeting)
+}
+
+/// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
+fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64) -> Ahead {
+    let c1 = 2.0 * d.dot(dv);
+    let c2 = dv.length_squared() + 2.0 * d.dot(dk);
+    let separation = c1 / (2.0 * diameter);
+    if separation < -RESTING_SPEED {
+        return Ahead::Meeting(0.0);
+    }
+    if separation <= RESTING_SPEED && c2 / diameter < -PRESSING {
+        return Ahead::Pressed;
+    }
+    // Coefficients of rounding's size would close and open the gap without end.
+    let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
+    let quotient = [c1.max(0.0), clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()];
+    let derivative = [quotient[1], 2.0 * quotient[2], 3.0 * quotient[3]];
+    first_crossing(|t| horner(&quotient, t), &derivative, horizon, 0.0).map_or(Ahead::Nothing, Ahead::Meeting)
+}
+
+/// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
+fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Ahead {
+    let speed = dv.length();
+    let direction = dv / speed;
+    let along = -d.dot(direction);
+    let beside = d.perp_dot(direction);
+    let half_chord_squared = diameter * diameter - beside * beside;
+    if along <= 0.0 || half_chord_squared < 0.0 {
+        return Ahead::Nothing;
+    }
+    // The nearer of the two crossings, written as the product of both over the farther one.
+    let distance = gap / (along + half_chord_squared.sqrt());
+    let half_deceleration = -dk.dot(direction);
+    let discriminant = speed * speed - 4.0 * half_deceleration * distance;
+    if discriminant < 0.0 {
+        return Ahead::Nothing;
+    }
+    let time = 2.0 * distance / (speed + discriminant.sqrt());
+    if time <= horizon { Ahead::Meeting(time) } else { Ahead::Nothing }
+}
+
+/// Two balls of which one at least is in a resting contact. Whether they rest against each other is known to the
+/// contact itself, which then does not ask.
+fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now: f64, horizon: f64) -> Ahead {
+    let (c1, c2) = (shifted(first, now), shifted(second, now));
+    let mut d = [DVec2::ZERO; 6];
+    for power in 0..6 {
+        d[power] = c1[power] - c2[power];
+    }
+    let diameter = 2.0 * constants.radius;
+    let gap = d[0].length_squared() - diameter * diameter;
+    if gap <= 2.0 * diameter * TOUCHING {
+        let separation = d[0].dot(d[1]) / diameter;
+        if separation < -RESTING_SPEED {
+            return Ahead::Meeting(0.0);
+        }
+    }
+    // Coefficients of d·d', half the derivative of the squared distance.
+    let mut derivative = [0.0; MAX_DEGREE];
+    for i in 0..6 {
+        for j in 1..6 {
+            derivative[i + j - 1] += j as f64 * d[i].dot(d[j]);
+        }
+    }
+    let value = |t: f64| {
+        let at = d.iter().rev().fold(DVec2::ZERO, |sum, c| sum * t + *c);
+        at.length_squared() - diameter * diameter
+    };
+    first_crossing(value, &derivative, horizon, 2.0 * diameter * TOUCHING).map_or(Ahead::Nothing, Ahead::Meeting)
+}
+
+/// A segment's coefficients about the time `now`.
+fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
+    let mut c = coefficients(segment);
+    let shift = now - segment.start;
+    if shift != 0.0 {
+        // Repeated synthetic division.
+        for low in 0..5 {
+            for power in (low..5).rev() {
+                let above = c[power + 1];
+                c[power] += shift * above;
+            }
+        }
+    }
+    c
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{physics::BallState, table::Table};
+
+    #[test]
+    fn a_ball_that_leaves_the_cushion_it_touches_does_not_hit_it() {
+        assert_eq!(gap_closes(0.0, -1.0, 0.0), Ahead::Nothing);
+        assert_eq!(gap_closes(0.0, -1.0, 0.5), Ahead::Meeting(2.0));
+        assert_eq!(gap_closes(0.0, 0.0, 0.5), Ahead::Pressed);
+        assert_eq!(gap_closes(-1e-10, 1.0, 0.0), Ahead::Meeting(0.0));
+    }
+
+    #[test]
+    fn a_straight_meeting_takes_the_time_of_the_constant_deceleration() {
+        let constants = Constants::of(&Table::default());
+        let velocity = DVec2::new(0.5, 0.0);
+        let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
+        let (roll, _) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
+        let rest = Segment::at_rest(DVec2::new(0.5, 0.0));
+        let Ahead::Meeting(time) = balls_ahead(&constants, &roll, &rest, 0.0, 10.0) else { panic!("no meeting") };
+        let position = roll.position_after(time);
+        assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn shifting_a_course_in_time_keeps_its_places() {
+        let curve = super::super::segment::Curve {
+            position: [DVec2::new(0.3, -0.2), DVec2::new(-0.1, 0.4), DVec2::new(0.05, 0.01)],
+            spin: [glam::DVec3::ZERO; 3],
+        };
+        let segment = Segment {
+            start: 1.0,
+            velocity: DVec2::new(1.0, 2.0),
+            half_acceleration: DVec2::new(-0.5, 0.1),
+            motion: Motion::Resting,
+            curve: Some(curve),
+            ..Segment::at_rest(DVec2::new(0.1, 0.2))
+        };
+        let c = shifted(&segment, 1.25);
+        let at = c.iter().rev().fold(DVec2::ZERO, |sum, c| sum * 0.5 + *c);
+        assert!(at.distance(segment.position_after(0.75)) < 1e-15);
+    }
+}

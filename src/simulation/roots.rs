@@ -1,0 +1,209 @@
+//! The first time at which a gap closes: roots of small polynomials, found between their extrema.
+
+/// Highest degree that [`first_crossing`] takes: the gap of two balls whose courses have degree five.
+pub const MAX_DEGREE: usize = 10;
+
+/// First `t` in `(0, end]` at which `value` falls from positive to below `-margin`, given the coefficients of its
+/// derivative, lowest first.
+///
+/// The derivative's own roots are found first, by the same method one degree lower; between them `value` is monotone, so
+/// that a sign change is a single root and none can be missed. The root is located to the last bits of `value`'s own
+/// rounding. A value that starts at or below zero is taken to be just above it.
+pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, margin: f64) -> Option<f64> {
+    let mut turns = [0.0; MAX_DEGREE];
+    let count = roots(derivative, end, &mut turns);
+    let mut low = 0.0;
+    for index in 0..=count {
+        let high = if index < count { turns[index] } else { end };
+        if value(high) < -margin {
+            return Some(bisect_newton(&value, |t| horner(derivative, t), low, high));
+        }
+        low = high;
+    }
+    None
+}
+
+/// Value of a polynomial with coefficients lowest first.
+#[inline]
+pub fn horner(coefficients: &[f64], t: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, c| sum.mul_add(t, *c))
+}
+
+/// All roots in the open interval `(0, end)` in ascending order where the polynomial changes sign; returns their number.
+fn roots(coefficients: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize {
+    let mut degree = coefficients.len().saturating_sub(1);
+    while degree > 0 && coefficients[degree] == 0.0 {
+        degree -= 1;
+    }
+    match degree {
+        0 => 0,
+        1 => keep_inside(&[-coefficients[0] / coefficients[1]], end, found),
+        2 => match quadratic(coefficients[2], coefficients[1], coefficients[0]) {
+            Some(pair) => keep_inside(&pair, end, found),
+            None => 0,
+        },
+        _ => roots_between_extrema(&coefficients[..=degree], end, found),
+    }
+}
+
+fn keep_inside(candidates: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize {
+    let mut count = 0;
+    for &t in candidates {
+        if t > 0.0 && t < end {
+            found[count] = t;
+            count += 1;
+        }
+    }
+    count
+}
+
+fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize {
+    let degree = coefficients.len() - 1;
+    // A polynomial whose Bernstein coefficients on the interval share one sign has no root in it.
+    if bernstein_shares_sign(coefficients, end) {
+        return 0;
+    }
+    let mut slope = [0.0; MAX_DEGREE];
+    for power in 1..=degree {
+        slope[power - 1] = power as f64 * coefficients[power];
+    }
+    let slope = &slope[..degree];
+    let mut turns = [0.0; MAX_DEGREE];
+    let turn_count = roots(slope, end, &mut turns);
+    let mut count = 0;
+    let (mut low, mut low_value) = (0.0, coefficients[0]);
+    for index in 0..=turn_count {
+        let high = if index < turn_count { turns[index] } else { end };
+        let high_value = horner(coefficients, high);
+        if (low_value < 0.0) != (high_value < 0.0) {
+            let sign = if high_value < 0.0 { 1.0 } else { -1.0 };
+            found[count] = bisect_newton(|t| sign * horner(coefficients, t), |t| sign * horner(slope, t), low, high);
+            count += 1;
+        }
+        (low, low_value) = (high, high_value);
+    }
+    count
+}
+
+/// Whether all Bernstein coefficients on `[0, end]` have the same strict sign; they bound the polynomial.
+fn bernstein_shares_sign(coefficients: &[f64], end: f64) -> bool {
+    let degree = coefficients.len() - 1;
+    // b_j = sum_i C(j,i)/C(n,i) c_i end^i: scale once, then apply Pascal's differences upwards.
+    let mut b = [0.0; MAX_DEGREE + 1];
+    let mut power = 1.0;
+    let mut binomial = 1.0;
+    for (i, c) in coefficients.iter().enumerate() {
+        b[i] = c * power / binomial;
+        power *= end;
+        binomial = binomial * (degree - i) as f64 / (i + 1) as f64;
+    }
+    for level in 1..=degree {
+        for j in (level..=degree).rev() {
+            b[j] += b[j - 1];
+        }
+    }
+    let b = &b[..=degree];
+    b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0)
+}
+
+/// Real roots of `a t² + b t + c` in ascending order, without cancellation.
+fn quadratic(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let (first, second) = (q / a, if q == 0.0 { 0.0 } else { c / q });
+    Some([first.min(second), first.max(second)])
+}
+
+/// Root of a function that falls from positive at `low` to negative at `high`: Newton's steps, bisection where they
+/// leave the bracket or shrink it too slowly.
+fn bisect_newton(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let mut t = 0.5 * (low + high);
+    let mut last_step = high - low;
+    loop {
+        let f = value(t);
+        if f == 0.0 {
+            return t;
+        }
+        if f > 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        let newton = t - f / slope(t);
+        let step = newton - t;
+        let next = if newton > low && newton < high && step.abs() < 0.5 * last_step.abs() {
+            newton
+        } else {
+            0.5 * (low + high)
+        };
+        last_step = next - t;
+        // Adjacent numbers, or a step below the last bit: nothing is left to gain.
+        if next <= low || next >= high || last_step.abs() <= 0.5 * f64::EPSILON * t {
+            return next.clamp(low, high);
+        }
+        t = next;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn derivative(coefficients: &[f64]) -> Vec<f64> {
+        (1..coefficients.len()).map(|i| i as f64 * coefficients[i]).collect()
+    }
+
+    fn from_roots(roots: &[f64]) -> Vec<f64> {
+        let mut polynomial = vec![1.0];
+        for root in roots {
+            let mut next = vec![0.0; polynomial.len() + 1];
+            for (i, c) in polynomial.iter().enumerate() {
+                next[i + 1] += c;
+                next[i] -= root * c;
+            }
+            polynomial = next;
+        }
+        polynomial
+    }
+
+    #[test]
+    fn two_roots_a_billionth_apart_are_told_from_none() {
+        let touch = from_roots(&[0.5, 0.5 + 1e-7, -1.0, -2.0]);
+        let t = first_crossing(|t| (t - 0.5) * (t - 0.5 - 1e-7), &derivative(&touch), 1.0, 0.0);
+        assert!((t.unwrap() - 0.5).abs() < 1e-12);
+        let miss = |t: f64| (t - 0.5) * (t - 0.5) + 1e-12;
+        assert_eq!(first_crossing(miss, &[-1.0, 2.0], 1.0, 0.0), None);
+    }
+
+    #[test]
+    fn a_root_at_the_very_end_counts_and_one_behind_it_does_not() {
+        let line = |t: f64| 1.0 - t;
+        assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9, 0.0), None);
+        assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9, 0.0).unwrap() - 1.0).abs() < 1e-15);
+    }
+
+    proptest! {
+        #[test]
+        fn the_smallest_of_any_roots_is_found(mut roots in prop::collection::vec(0.01..3.0f64, 4)) {
+            roots.sort_by(f64::total_cmp);
+            prop_assume!(roots.windows(2).all(|w| w[1] - w[0] > 1e-4));
+            let polynomial = from_roots(&roots);
+            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 4.0, 0.0).unwrap();
+            prop_assert!((t - roots[0]).abs() < 1e-8, "{t} {roots:?}");
+        }
+
+        #[test]
+        fn high_degrees_lose_no_root(gaps in prop::collection::vec(0.05..0.15f64, 9)) {
+            let mut roots: Vec<f64> =
+                gaps.iter().scan(0.0, |sum, gap| { *sum += gap; Some(*sum) }).collect();
+            roots.push(-1.0);
+            let polynomial: Vec<f64> = from_roots(&roots).iter().map(|c| -c).collect();
+            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 2.0, 0.0).unwrap();
+            prop_assert!((t - roots[0]).abs() < 1e-5, "{t} {roots:?}");
+        }
+    }
+}

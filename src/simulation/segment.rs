@@ -1,0 +1,199 @@
+//! One stretch of a ball's course between two changes, in closed form.
+
+use glam::{DVec2, DVec3};
+
+use super::Constants;
+use crate::physics::{BallState, Motion, decayed_spin, rolling_spin, slip};
+
+/// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
+const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// A ball's course from `start` on, until something changes it.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    /// Time at which the segment begins, s.
+    pub start: f64,
+    /// Centre at the start, m.
+    pub position: DVec2,
+    /// Velocity at the start, m/s.
+    pub velocity: DVec2,
+    /// Half the acceleration, which is constant but for [`Motion::Resting`], m/s²: `-k` of thesis equation (38).
+    pub half_acceleration: DVec2,
+    /// Angular velocity at the start, rad/s.
+    pub spin: DVec3,
+    /// The equation of motion in force.
+    pub motion: Motion,
+    /// What a resting contact adds to the course.
+    pub curve: Option<Curve>,
+}
+
+/// The part of a resting contact's course that is not a parabola: one step of its integration, as polynomials that meet
+/// the integrated state and its derivatives at both ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Curve {
+    /// Coefficients of `t³`, `t⁴` and `t⁵` in the position, m/s³ and so on.
+    pub position: [DVec2; 3],
+    /// Coefficients of `t`, `t²` and `t³` in the spin, rad/s² and so on.
+    pub spin: [DVec3; 3],
+}
+
+impl Segment {
+    /// A ball that lies still from time zero on.
+    pub const fn at_rest(position: DVec2) -> Self {
+        Self {
+            start: 0.0,
+            position,
+            velocity: DVec2::ZERO,
+            half_acceleration: DVec2::ZERO,
+            spin: DVec3::ZERO,
+            motion: Motion::Stationary,
+            curve: None,
+        }
+    }
+
+    /// The free course that follows from `state` at time `start`, and how long it can last, s: until the slip or the
+    /// speed is used up (thesis equations 25 and 26).
+    pub fn free(constants: &Constants, start: f64, state: &BallState) -> (Self, f64) {
+        let radius = constants.radius;
+        let u = slip(radius, state.velocity, state.spin);
+        let slip_squared = u.length_squared();
+        let speed_squared = state.velocity.length_squared();
+        let mut segment = Self {
+            start,
+            position: state.position,
+            velocity: state.velocity,
+            half_acceleration: DVec2::ZERO,
+            spin: state.spin,
+            motion: Motion::Stationary,
+            curve: None,
+        };
+        let scale = SLIP_ROUNDING * SLIP_ROUNDING;
+        if slip_squared > scale * (speed_squared + radius * radius * state.spin.truncate().length_squared()) {
+            let speed = slip_squared.sqrt();
+            segment.motion = Motion::Sliding;
+            segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
+            (segment, speed / (3.5 * constants.sliding))
+        } else if speed_squared > 0.0 {
+            segment.roll(constants)
+        } else {
+            (segment, f64::INFINITY)
+        }
+    }
+
+    /// Turns the segment into a rolling one with the velocity that it has, and tells how long it can last, s.
+    fn roll(mut self, constants: &Constants) -> (Self, f64) {
+        let speed = self.velocity.length();
+        self.spin = rolling_spin(constants.radius, self.velocity).extend(self.spin.z);
+        self.motion = Motion::Rolling;
+        self.half_acceleration = self.velocity * (-0.5 * constants.rolling / speed);
+        (self, speed / constants.rolling)
+    }
+
+    /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
+    pub fn successor(&self, constants: &Constants, duration: f64) -> (Self, f64) {
+        let next = Self { start: self.start + duration, curve: None, ..*self };
+        let wz = decayed_spin(self.spin.z, constants.spinning, duration);
+        if self.motion == Motion::Sliding {
+            // What the slip leaves is known without its duration, which keeps the rounding small.
+            let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
+            let position = self.position_after(duration);
+            let next = Self { position, velocity, spin: DVec3::new(0.0, 0.0, wz), ..next };
+            if velocity == DVec2::ZERO { (next.halt(), f64::INFINITY) } else { next.roll(constants) }
+        } else {
+            let position = self.position + 0.5 * duration * self.velocity;
+            (Self { position, spin: DVec3::new(0.0, 0.0, wz), ..next }.halt(), f64::INFINITY)
+        }
+    }
+
+    fn halt(self) -> Self {
+        Self { velocity: DVec2::ZERO, half_acceleration: DVec2::ZERO, motion: Motion::Stationary, ..self }
+    }
+
+    /// Centre `t` seconds after the start, m.
+    #[inline]
+    pub fn position_after(&self, t: f64) -> DVec2 {
+        let bend = match &self.curve {
+            None => self.half_acceleration,
+            Some(Curve { position: [c3, c4, c5], .. }) => self.half_acceleration + t * (*c3 + t * (*c4 + t * *c5)),
+        };
+        self.position + t * (self.velocity + t * bend)
+    }
+
+    /// Velocity `t` seconds after the start, m/s.
+    #[inline]
+    pub fn velocity_after(&self, t: f64) -> DVec2 {
+        let bend = match &self.curve {
+            None => 2.0 * self.half_acceleration,
+            Some(Curve { position: [c3, c4, c5], .. }) => {
+                2.0 * self.half_acceleration + t * (3.0 * *c3 + t * (4.0 * *c4 + 5.0 * t * *c5))
+            }
+        };
+        self.velocity + t * bend
+    }
+
+    /// Angular velocity `t` seconds after the start, rad/s.
+    pub fn spin_after(&self, constants: &Constants, t: f64) -> DVec3 {
+        if let Some(Curve { spin: [c1, c2, c3], .. }) = &self.curve {
+            return self.spin + t * (*c1 + t * (*c2 + t * *c3));
+        }
+        // w' = -5/R z×k while sliding (3), z×v'/R while rolling (6).
+        let rate = match self.motion {
+            Motion::Sliding => -5.0,
+            Motion::Rolling => 2.0,
+            Motion::Stationary | Motion::Resting => 0.0,
+        } / constants.radius;
+        let horizontal = self.spin.truncate() + (rate * t) * self.half_acceleration.perp();
+        horizontal.extend(decayed_spin(self.spin.z, constants.spinning, t))
+    }
+
+    /// Position, velocity and spin `t` seconds after the start.
+    pub fn state_after(&self, constants: &Constants, t: f64) -> BallState {
+        BallState {
+            position: self.position_after(t),
+            velocity: self.velocity_after(t),
+            spin: self.spin_after(constants, t),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::Table;
+
+    #[test]
+    fn a_sliding_ball_rolls_exactly_when_its_slip_is_used_up() {
+        let constants = Constants::of(&Table::default());
+        let state =
+            BallState { position: DVec2::ZERO, velocity: DVec2::new(2.0, -1.0), spin: DVec3::new(30.0, -70.0, 20.0) };
+        let (slide, duration) = Segment::free(&constants, 0.0, &state);
+        assert_eq!(slide.motion, Motion::Sliding);
+        let end = slide.state_after(&constants, duration);
+        assert!(slip(constants.radius, end.velocity, end.spin).length() < 1e-14);
+        let (roll, _) = slide.successor(&constants, duration);
+        assert_eq!(roll.motion, Motion::Rolling);
+        assert!(roll.velocity.distance(end.velocity) < 1e-14 && roll.spin.distance(end.spin) < 1e-12);
+    }
+
+    #[test]
+    fn a_rolling_ball_stops_after_v_squared_over_two_a() {
+        let constants = Constants::of(&Table::default());
+        let velocity = DVec2::new(0.3, 0.4);
+        let spin = rolling_spin(constants.radius, velocity).extend(0.0);
+        let (roll, duration) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
+        let (rest, forever) = roll.successor(&constants, duration);
+        assert_eq!((rest.motion, forever), (Motion::Stationary, f64::INFINITY));
+        assert!((rest.position.length() - 0.25 / (2.0 * constants.rolling)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn spin_about_the_vertical_decays_to_zero_and_stays_there() {
+        let constants = Constants::of(&Table::default());
+        let spin = DVec3::new(0.0, 0.0, -1.0);
+        let state = BallState { position: DVec2::ZERO, velocity: DVec2::ZERO, spin };
+        let (rest, _) = Segment::free(&constants, 0.0, &state);
+        assert_eq!(rest.motion, Motion::Stationary);
+        assert!(rest.spin_after(&constants, 0.01).z < 0.0);
+        assert_eq!(rest.spin_after(&constants, 9.0).z, 0.0);
+    }
+}
