@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use glam::DVec2;
+
 use super::action::ACTIONS;
 
 /// A value and its partial derivatives with respect to the actions.
@@ -96,6 +98,51 @@ impl Mul<f64> for Dual {
     type Output = Self;
     fn mul(self, other: f64) -> Self {
         self.chain(self.value * other, other)
+    }
+}
+
+/// A vector in the plane of such numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DualVector {
+    /// Component along x.
+    pub x: Dual,
+    /// Component along y.
+    pub y: Dual,
+}
+
+impl DualVector {
+    /// A vector that does not depend on the actions.
+    pub const fn constant(vector: DVec2) -> Self {
+        Self { x: Dual::constant(vector.x), y: Dual::constant(vector.y) }
+    }
+
+    /// Turned by the angle of the unit vector `by`.
+    pub fn rotated(self, by: DVec2) -> Self {
+        Self { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
+    }
+
+    /// Scalar product.
+    pub fn dot(self, other: Self) -> Dual {
+        self.x * other.x + self.y * other.y
+    }
+
+    /// Component of `other` to the left of this vector, times its length.
+    pub fn perp_dot(self, other: Self) -> Dual {
+        self.x * other.y - self.y * other.x
+    }
+}
+
+impl Sub for DualVector {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y }
+    }
+}
+
+impl Mul<f64> for DualVector {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        Self { x: self.x * other, y: self.y * other }
     }
 }
 

@@ -58,6 +58,21 @@ impl Mlp {
         Self::from_parameters(&self.sizes, self.parameters.to_vec1()?)
     }
 
+    /// This network with another bias in its last layer.
+    ///
+    /// # Errors
+    /// Where `bias` has not one value for each output.
+    pub fn with_output_bias(self, bias: &[f32]) -> Result<Self> {
+        let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
+        let outputs = self.sizes[self.sizes.len() - 1];
+        if bias.len() != outputs {
+            bail!("{outputs} outputs have no bias of {} values", bias.len());
+        }
+        let start = parameters.len() - outputs;
+        parameters[start..].copy_from_slice(bias);
+        Self::from_parameters(&self.sizes, parameters)
+    }
+
     /// Layer sizes, inputs first.
     pub fn sizes(&self) -> &[usize] {
         &self.sizes

@@ -1,6 +1,18 @@
 //! Agents that learn to play: what they see, what they do, and how they get better.
 
-mod adam;
+pub mod action;
+pub mod adam;
+pub mod ddpg;
+mod dual;
+pub mod evaluation;
+pub mod exploration;
+mod features;
 mod matmul;
-mod mlp;
+pub mod mlp;
+pub mod networks;
+pub mod policy;
+pub mod replay;
+pub mod scenes;
 mod tensors;
+pub mod trainer;
+pub mod view;
