@@ -14,15 +14,17 @@ use crate::table::{BALLS, Table};
 /// Most contacts that three balls can have: with each other and with two cushions each.
 pub const MAX_TOUCHES: usize = 9;
 
-/// Speeds below this are none for the question whether something slips, m/s. Snapping them to zero moves a ball by
-/// less than 1e-11 m in ten seconds.
-pub const SLIP_TOLERANCE: f64 = 1e-12;
+/// Speeds below this are none for the question whether something slips, m/s. It is well above the errors of the
+/// integration, so that what sticks is seen to stick; the slip that is cut off would have moved a ball by less than
+/// 1e-10 m.
+pub const SLIP_TOLERANCE: f64 = 1e-10;
 
 /// Sweeps end when no force per mass changes by more than this, m/s²; rounding is 1e-15.
-const CONVERGED: f64 = 2e-15;
+const CONVERGED: f64 = 1e-14;
 
-/// A bound on the sweeps. Convergence is geometric; scenes of three balls need some tens of them.
-const MAX_SWEEPS: usize = 400;
+/// A bound on the sweeps. Convergence is geometric; a ball that sticks to cloth, cushion and another ball at once needs
+/// some hundreds of them, all others a few.
+const MAX_SWEEPS: usize = 2000;
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,6 +95,14 @@ pub struct Forces {
     pub angular: [DVec3; BALLS],
     /// Normal force per ball mass of each contact, m/s².
     pub normal: [f64; MAX_TOUCHES],
+    /// Friction per mass of each contact along `t = z×n` and z, m/s².
+    friction: [DVec2; MAX_TOUCHES],
+    /// Friction per mass of the cloth on balls that do not slip, m/s².
+    cloth: [DVec2; BALLS],
+    /// Rolling resistance per mass on balls that do not move, m/s².
+    resistance: [DVec2; BALLS],
+    /// Angular acceleration by the cloth on balls that do not spin, rad/s².
+    twist: [f64; BALLS],
 }
 
 /// The normal and the slip of a contact along `t = z×n` and along z, m/s (thesis equation 21).
@@ -105,8 +115,18 @@ fn contact_slip(radius: f64, balls: &[BallState; BALLS], touch: &Touch) -> (DVec
 }
 
 /// Accelerations of balls in resting contact. `laws` say what slips; balls without a contact follow their free motion.
-pub fn contact_forces(table: &Table, balls: &[BallState; BALLS], touches: &[Touch], laws: &Laws) -> Forces {
+/// The sweeps start from the forces of a `similar` state with the same contacts and laws, if there is one.
+pub fn contact_forces(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    touches: &[Touch],
+    laws: &Laws,
+    similar: Option<&Forces>,
+) -> Forces {
     let mut sweep = Sweep::new(table, balls, touches, laws);
+    if let Some(similar) = similar {
+        sweep.start_from(similar);
+    }
     for _ in 0..MAX_SWEEPS {
         sweep.change = 0.0;
         for ball in 0..BALLS {
@@ -142,33 +162,23 @@ struct Sweep<'a> {
     touches: &'a [Touch],
     geometry: [Geometry; MAX_TOUCHES],
     forces: Forces,
-    /// Friction per mass of the cloth on balls that do not slip, m/s².
-    cloth: [DVec2; BALLS],
-    /// Rolling resistance per mass on balls that do not move, m/s².
-    resistance: [DVec2; BALLS],
-    /// Angular acceleration by the cloth on balls that do not spin, rad/s².
-    twist: [f64; BALLS],
-    /// Friction per mass of each contact along t and z, m/s².
-    friction: [DVec2; MAX_TOUCHES],
     change: f64,
 }
 
 impl<'a> Sweep<'a> {
     fn new(table: &'a Table, balls: &[BallState; BALLS], touches: &'a [Touch], laws: &'a Laws) -> Self {
         let radius = table.radius;
-        let forces = Forces { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS], normal: [0.0; MAX_TOUCHES] };
-        let mut sweep = Self {
-            table,
-            laws,
-            touches,
-            geometry: [Geometry::default(); MAX_TOUCHES],
-            forces,
+        let forces = Forces {
+            linear: [DVec2::ZERO; BALLS],
+            angular: [DVec3::ZERO; BALLS],
+            normal: [0.0; MAX_TOUCHES],
+            friction: [DVec2::ZERO; MAX_TOUCHES],
             cloth: [DVec2::ZERO; BALLS],
             resistance: [DVec2::ZERO; BALLS],
             twist: [0.0; BALLS],
-            friction: [DVec2::ZERO; MAX_TOUCHES],
-            change: 0.0,
         };
+        let mut sweep =
+            Self { table, laws, touches, geometry: [Geometry::default(); MAX_TOUCHES], forces, change: 0.0 };
         // What slips or rolls has a force of known size and direction: it is applied once.
         for (ball, state) in balls.iter().enumerate() {
             if laws.slips[ball] {
@@ -221,28 +231,33 @@ impl<'a> Sweep<'a> {
             let angular = self.forces.angular[ball];
             let slip_rate = linear + self.table.radius * angular.truncate().perp();
             let limit = self.table.sliding_friction * self.table.gravity;
-            let wanted = (self.cloth[ball] - slip_rate / 3.5).clamp_length_max(limit);
-            let step = wanted - self.cloth[ball];
-            self.cloth[ball] = wanted;
-            self.push_at_cloth(ball, step);
-            self.note(step.length());
+            let wanted = (self.forces.cloth[ball] - slip_rate / 3.5).clamp_length_max(limit);
+            let step = wanted - self.forces.cloth[ball];
+            self.hold(ball, step, DVec2::ZERO, 0.0);
             if !self.laws.moves[ball] {
                 let limit = self.table.rolling_friction * self.table.gravity;
-                let wanted = (self.resistance[ball] - self.forces.linear[ball]).clamp_length_max(limit);
-                let step = wanted - self.resistance[ball];
-                self.resistance[ball] = wanted;
-                self.forces.linear[ball] += step;
-                self.note(step.length());
+                let wanted = (self.forces.resistance[ball] - self.forces.linear[ball]).clamp_length_max(limit);
+                let step = wanted - self.forces.resistance[ball];
+                self.hold(ball, DVec2::ZERO, step, 0.0);
             }
         }
         if !self.laws.spins[ball] {
             let limit = self.spin_limit();
-            let wanted = (self.twist[ball] - self.forces.angular[ball].z).clamp(-limit, limit);
-            let step = wanted - self.twist[ball];
-            self.twist[ball] = wanted;
-            self.forces.angular[ball].z += step;
-            self.note(self.table.radius * step.abs());
+            let wanted = (self.forces.twist[ball] - self.forces.angular[ball].z).clamp(-limit, limit);
+            self.hold(ball, DVec2::ZERO, DVec2::ZERO, wanted - self.forces.twist[ball]);
         }
+    }
+
+    /// Adds to the forces that hold a ball on the cloth.
+    fn hold(&mut self, ball: usize, cloth: DVec2, resistance: DVec2, twist: f64) {
+        self.forces.cloth[ball] += cloth;
+        self.push_at_cloth(ball, cloth);
+        self.forces.resistance[ball] += resistance;
+        self.forces.linear[ball] += resistance;
+        self.forces.twist[ball] += twist;
+        self.forces.angular[ball].z += twist;
+        let largest = cloth.length().max(resistance.length()).max(self.table.radius * twist.abs());
+        self.change = self.change.max(largest);
     }
 
     /// A contact's laws: it stays closed or does not push; its friction is Coulomb's.
@@ -253,33 +268,45 @@ impl<'a> Sweep<'a> {
         let linear = self.forces.linear[first] - second.map_or(DVec2::ZERO, |ball| self.forces.linear[ball]);
         let opening = linear.dot(geometry.n) + geometry.centripetal;
         let normal = (self.forces.normal[index] - opening / share).max(0.0);
-        let step = normal - self.forces.normal[index];
-        self.forces.normal[index] = normal;
-        self.forces.linear[first] += step * geometry.n;
-        if let Some(second) = second {
-            self.forces.linear[second] -= step * geometry.n;
-        }
-        self.note(step.abs());
+        self.press(index, normal - self.forces.normal[index], DVec2::ZERO);
 
         let mu = if second.is_some() { self.table.ball_friction } else { Some(self.table.rail_friction) };
         let wanted = match mu {
             Some(mu) if self.laws.rubs[index] => DVec2::new(geometry.along, geometry.up) * -(mu * normal),
             _ => {
-                let held = self.friction[index] - self.slip_rate(index) / (3.5 * share);
+                let held = self.forces.friction[index] - self.slip_rate(index) / (3.5 * share);
                 mu.map_or(held, |mu| held.clamp_length_max(mu * normal))
             }
         };
         let wanted = if normal > 0.0 { wanted } else { DVec2::ZERO };
-        let step = wanted - self.friction[index];
-        self.friction[index] = wanted;
-        let twist = contact_twist(self.table.radius, step.x, step.y, geometry.t);
-        self.forces.linear[first] += step.x * geometry.t;
+        self.press(index, 0.0, wanted - self.forces.friction[index]);
+    }
+
+    /// Adds to the forces of a contact.
+    fn press(&mut self, index: usize, normal: f64, friction: DVec2) {
+        let Touch { first, second, .. } = self.touches[index];
+        let Geometry { n, t, .. } = self.geometry[index];
+        self.forces.normal[index] += normal;
+        self.forces.friction[index] += friction;
+        let push = normal * n + friction.x * t;
+        let twist = contact_twist(self.table.radius, friction.x, friction.y, t);
+        self.forces.linear[first] += push;
         self.forces.angular[first] -= twist;
         if let Some(second) = second {
-            self.forces.linear[second] -= step.x * geometry.t;
+            self.forces.linear[second] -= push;
             self.forces.angular[second] -= twist;
         }
-        self.note(step.length());
+        self.change = self.change.max(normal.abs()).max(friction.length());
+    }
+
+    /// Takes over the forces of a similar state as a first guess.
+    fn start_from(&mut self, similar: &Forces) {
+        for ball in 0..BALLS {
+            self.hold(ball, similar.cloth[ball], similar.resistance[ball], similar.twist[ball]);
+        }
+        for index in 0..self.touches.len() {
+            self.press(index, similar.normal[index], similar.friction[index]);
+        }
     }
 
     /// Rate of change of a contact's slip along t and z, m/s².
@@ -290,10 +317,6 @@ impl<'a> Sweep<'a> {
         let linear = self.forces.linear[first] - second.map_or(DVec2::ZERO, |ball| self.forces.linear[ball]);
         let angular = self.forces.angular[first] + second.map_or(DVec3::ZERO, |ball| self.forces.angular[ball]);
         DVec2::new(linear.dot(t) - radius * angular.z, radius * angular.truncate().dot(t) + turning)
-    }
-
-    fn note(&mut self, change: f64) {
-        self.change = self.change.max(change);
     }
 }
 
@@ -306,7 +329,7 @@ mod tests {
     fn forces(ball: BallState, touches: &[Touch]) -> Forces {
         let table = Table::preset("thesis").unwrap();
         let balls = [ball, ALONE[0], ALONE[1]];
-        contact_forces(&table, &balls, touches, &Laws::of(table.radius, &balls, touches))
+        contact_forces(&table, &balls, touches, &Laws::of(table.radius, &balls, touches), None)
     }
 
     #[test]

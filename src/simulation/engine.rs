@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
-    predict::{Ahead, balls_ahead, cushion_ahead},
+    predict::{Ahead, balls_ahead, curved_cushion_ahead, cushion_ahead},
     resting::{PAIRS, Resting},
     settling::{settles_on_cushion, settles_together},
 };
@@ -235,7 +235,12 @@ impl<'a, O: Observer> Engine<'a, O> {
     fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
         let (mut rail_after, mut rail) = (f64::INFINITY, Rail::Left);
         if matches!(segment.motion, Motion::Sliding | Motion::Rolling | Motion::Resting) {
-            let (ahead, which) = cushion_ahead(&self.constants, &segment, lasts);
+            let (ahead, which) = match &self.resting {
+                Some(resting) if segment.motion == Motion::Resting => {
+                    curved_cushion_ahead(&self.constants, &segment, lasts, |rail| resting.holds_at(index, rail))
+                }
+                _ => cushion_ahead(&self.constants, &segment, lasts),
+            };
             match ahead {
                 Ahead::Nothing => {}
                 Ahead::Meeting(after) => (rail_after, rail) = (after, which),

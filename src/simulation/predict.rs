@@ -32,11 +32,8 @@ pub enum Ahead {
     Pressed,
 }
 
-/// The first cushion that `segment` meets within `horizon` seconds of its start.
+/// The first cushion that a free `segment` meets within `horizon` seconds of its start.
 pub fn cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
-    if segment.curve.is_some() {
-        return curved_cushion_ahead(constants, segment, horizon);
-    }
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
     let reach = constants.reach;
     let mut nearest = (Ahead::Nothing, Rail::Left);
@@ -90,25 +87,32 @@ fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> Ahead {
     }
 }
 
-/// The same for a ball in a resting contact, whose course is a polynomial of degree five. Cushions that it touches hold
-/// it: they are part of its course.
-fn curved_cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+/// The same for a ball in a resting contact, whose course is a polynomial of degree five. The cushions that hold it, as
+/// `holds` tells, are part of that course.
+pub fn curved_cushion_ahead(
+    constants: &Constants,
+    segment: &Segment,
+    horizon: f64,
+    holds: impl Fn(Rail) -> bool,
+) -> (Ahead, Rail) {
     let mut nearest = (Ahead::Nothing, Rail::Left);
     let mut earliest = horizon;
     let course = coefficients(segment);
-    for rail in Rail::ALL {
+    for rail in Rail::ALL.into_iter().filter(|&rail| !holds(rail)) {
         let inward = rail.normal();
-        let edge = inward.abs().dot(constants.reach);
         let mut gap = course.map(|c| c.dot(inward));
-        gap[0] += edge;
+        gap[0] += inward.abs().dot(constants.reach);
         if gap[0] <= TOUCHING {
-            continue;
+            if gap[1] < -RESTING_SPEED {
+                return (Ahead::Meeting(0.0), rail);
+            }
+            gap[0] += TOUCHING;
         }
         let mut slope = [0.0; 5];
         for power in 1..6 {
             slope[power - 1] = power as f64 * gap[power];
         }
-        if let Some(time) = first_crossing(|t| horner(&gap, t), &slope, earliest, 0.0) {
+        if let Some(time) = first_crossing(|t| horner(&gap, t), &slope, earliest) {
             earliest = time;
             nearest = (Ahead::Meeting(time), rail);
         }
@@ -152,7 +156,7 @@ pub fn balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
-    first_crossing(value, &derivative, horizon, 0.0).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
@@ -169,8 +173,16 @@ fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: 
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
     let quotient = [c1.max(0.0), clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()];
-    let derivative = [quotient[1], 2.0 * quotient[2], 3.0 * quotient[3]];
-    first_crossing(|t| horner(&quotient, t), &derivative, horizon, 0.0).map_or(Ahead::Nothing, Ahead::Meeting)
+    let ahead = if separation > RESTING_SPEED {
+        let derivative = [quotient[1], 2.0 * quotient[2], 3.0 * quotient[3]];
+        first_crossing(|t| horner(&quotient, t), &derivative, horizon)
+    } else {
+        // They stay together for now. They meet when the gap has closed by as much as counts as touching.
+        let margin = 2.0 * diameter * TOUCHING;
+        let derivative = [quotient[0], 2.0 * quotient[1], 3.0 * quotient[2], 4.0 * quotient[3]];
+        first_crossing(|t| margin + t * horner(&quotient, t), &derivative, horizon)
+    };
+    ahead.map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
@@ -204,11 +216,13 @@ fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, 
     }
     let diameter = 2.0 * constants.radius;
     let gap = d[0].length_squared() - diameter * diameter;
+    let mut margin = 0.0;
     if gap <= 2.0 * diameter * TOUCHING {
         let separation = d[0].dot(d[1]) / diameter;
         if separation < -RESTING_SPEED {
             return Ahead::Meeting(0.0);
         }
+        margin = 2.0 * diameter * TOUCHING;
     }
     // Coefficients of d·d', half the derivative of the squared distance.
     let mut derivative = [0.0; MAX_DEGREE];
@@ -219,9 +233,9 @@ fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, 
     }
     let value = |t: f64| {
         let at = d.iter().rev().fold(DVec2::ZERO, |sum, c| sum * t + *c);
-        at.length_squared() - diameter * diameter
+        at.length_squared() - diameter * diameter + margin
     };
-    first_crossing(value, &derivative, horizon, 2.0 * diameter * TOUCHING).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A segment's coefficients about the time `now`.

@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-13;
 const SHORTEST_STEP: f64 = 1e-13;
 
 /// Step that is tried first, s.
-const FIRST_STEP: f64 = 1e-3;
+const FIRST_STEP: f64 = 2e-2;
 
 /// A slip or speed may use up this share of itself in a step, so that its direction stays known.
 const STOPPING_SHARE: f64 = 0.9;
@@ -99,7 +99,7 @@ impl Resting {
         let mut touches = Touches::of(constants, &begin);
         settle(table, &mut begin, touches.as_slice());
         let mut laws = Laws::of(table.radius, &begin, touches.as_slice());
-        let mut first = contact_forces(table, &begin, touches.as_slice(), &laws);
+        let mut first = contact_forces(table, &begin, touches.as_slice(), &laws, None);
         // A contact that does not push holds nothing: it is no part of the step.
         let pushing: Vec<Touch> = touches
             .as_slice()
@@ -114,7 +114,7 @@ impl Resting {
             touches.count = pushing.len();
             touches.list[..pushing.len()].copy_from_slice(&pushing);
             laws = Laws::of(table.radius, &begin, touches.as_slice());
-            first = contact_forces(table, &begin, touches.as_slice(), &laws);
+            first = contact_forces(table, &begin, touches.as_slice(), &laws, None);
         }
         let mut members = [false; BALLS];
         for touch in touches.as_slice() {
@@ -130,7 +130,7 @@ impl Resting {
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let mut step = self.longest_step(table.radius).min(FIRST_STEP.max(SHORTEST_STEP));
+        let mut step = self.longest_step(table.radius).min(FIRST_STEP);
         loop {
             let (end, error) = self.dormand_prince(table, step);
             if error <= 1.0 || step <= SHORTEST_STEP {
@@ -140,7 +140,7 @@ impl Resting {
             }
             step = (step * (0.9 * error.powf(-0.2)).max(0.1)).max(SHORTEST_STEP);
         }
-        self.last = contact_forces(table, &self.end, self.touches.as_slice(), &self.laws);
+        self.last = contact_forces(table, &self.end, self.touches.as_slice(), &self.laws, Some(&self.first));
         settle(table, &mut self.end, self.touches.as_slice());
     }
 
@@ -183,6 +183,12 @@ impl Resting {
         self.touches.as_slice().iter().any(|touch| (touch.first, touch.second) == (pair.0, Some(pair.1)))
     }
 
+    /// Whether this cushion holds the ball.
+    pub fn holds_at(&self, ball: usize, rail: Rail) -> bool {
+        let held = Touch { first: ball, second: None, rail_normal: rail.normal() };
+        self.touches.as_slice().contains(&held)
+    }
+
     /// Half the acceleration at the start of the step, and the rest of a ball's course as polynomials.
     pub fn course(&self, ball: usize) -> (DVec2, Curve) {
         let h = self.step;
@@ -205,10 +211,11 @@ impl Resting {
     fn dormand_prince(&self, table: &Table, h: f64) -> ([BallState; BALLS], f64) {
         let mut slopes = [[BallState::at_rest(DVec2::ZERO); BALLS]; 7];
         slopes[0] = slope(&self.begin, &self.first);
+        let mut forces = self.first;
         let mut balls = self.begin;
         for stage in 1..7 {
             balls = self.combine(&slopes, &A[stage - 1], h);
-            let forces = contact_forces(table, &balls, self.touches.as_slice(), &self.laws);
+            forces = contact_forces(table, &balls, self.touches.as_slice(), &self.laws, Some(&forces));
             slopes[stage] = slope(&balls, &forces);
         }
         let mut error = 0.0_f64;
@@ -248,6 +255,20 @@ fn slope(balls: &[BallState; BALLS], forces: &Forces) -> [BallState; BALLS] {
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
 /// spinning has stopped exactly.
 fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
+    let laws = Laws::of(table.radius, balls, &[]);
+    for (ball, state) in balls.iter_mut().enumerate() {
+        if !laws.moves[ball] && !laws.slips[ball] {
+            state.velocity = DVec2::ZERO;
+        }
+        if !laws.slips[ball] {
+            // What is left of the slip ends as sliding does.
+            state.velocity -= slip(table.radius, state.velocity, state.spin) * (2.0 / 7.0);
+            state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
+        }
+        if !laws.spins[ball] {
+            state.spin.z = 0.0;
+        }
+    }
     // Corrections of one contact open another by less each time; three balls need a few rounds.
     for _ in 0..8 {
         for touch in touches {
@@ -263,18 +284,6 @@ fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
                     balls[second].position += 0.5 * gap * n;
                 }
             }
-        }
-    }
-    let laws = Laws::of(table.radius, balls, &[]);
-    for (ball, state) in balls.iter_mut().enumerate() {
-        if !laws.moves[ball] && !laws.slips[ball] {
-            state.velocity = DVec2::ZERO;
-        }
-        if !laws.slips[ball] {
-            state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
-        }
-        if !laws.spins[ball] {
-            state.spin.z = 0.0;
         }
     }
 }

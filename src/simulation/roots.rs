@@ -3,19 +3,19 @@
 /// Highest degree that [`first_crossing`] takes: the gap of two balls whose courses have degree five.
 pub const MAX_DEGREE: usize = 10;
 
-/// First `t` in `(0, end]` at which `value` falls from positive to below `-margin`, given the coefficients of its
-/// derivative, lowest first.
+/// First `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative,
+/// lowest first.
 ///
 /// The derivative's own roots are found first, by the same method one degree lower; between them `value` is monotone, so
 /// that a sign change is a single root and none can be missed. The root is located to the last bits of `value`'s own
 /// rounding. A value that starts at or below zero is taken to be just above it.
-pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, margin: f64) -> Option<f64> {
+pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) -> Option<f64> {
     let mut turns = [0.0; MAX_DEGREE];
     let count = roots(derivative, end, &mut turns);
     let mut low = 0.0;
     for index in 0..=count {
         let high = if index < count { turns[index] } else { end };
-        if value(high) < -margin {
+        if value(high) < 0.0 {
             return Some(bisect_newton(&value, |t| horner(derivative, t), low, high));
         }
         low = high;
@@ -173,17 +173,17 @@ mod tests {
     #[test]
     fn two_roots_a_billionth_apart_are_told_from_none() {
         let touch = from_roots(&[0.5, 0.5 + 1e-7, -1.0, -2.0]);
-        let t = first_crossing(|t| (t - 0.5) * (t - 0.5 - 1e-7), &derivative(&touch), 1.0, 0.0);
+        let t = first_crossing(|t| (t - 0.5) * (t - 0.5 - 1e-7), &derivative(&touch), 1.0);
         assert!((t.unwrap() - 0.5).abs() < 1e-12);
         let miss = |t: f64| (t - 0.5) * (t - 0.5) + 1e-12;
-        assert_eq!(first_crossing(miss, &[-1.0, 2.0], 1.0, 0.0), None);
+        assert_eq!(first_crossing(miss, &[-1.0, 2.0], 1.0), None);
     }
 
     #[test]
     fn a_root_at_the_very_end_counts_and_one_behind_it_does_not() {
         let line = |t: f64| 1.0 - t;
-        assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9, 0.0), None);
-        assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9, 0.0).unwrap() - 1.0).abs() < 1e-15);
+        assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9), None);
+        assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9).unwrap() - 1.0).abs() < 1e-15);
     }
 
     proptest! {
@@ -192,7 +192,7 @@ mod tests {
             roots.sort_by(f64::total_cmp);
             prop_assume!(roots.windows(2).all(|w| w[1] - w[0] > 1e-4));
             let polynomial = from_roots(&roots);
-            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 4.0, 0.0).unwrap();
+            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 4.0).unwrap();
             prop_assert!((t - roots[0]).abs() < 1e-8, "{t} {roots:?}");
         }
 
@@ -202,7 +202,7 @@ mod tests {
                 gaps.iter().scan(0.0, |sum, gap| { *sum += gap; Some(*sum) }).collect();
             roots.push(-1.0);
             let polynomial: Vec<f64> = from_roots(&roots).iter().map(|c| -c).collect();
-            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 2.0, 0.0).unwrap();
+            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 2.0).unwrap();
             prop_assert!((t - roots[0]).abs() < 1e-5, "{t} {roots:?}");
         }
     }

@@ -13,8 +13,8 @@ use crate::physics::{BallState, Motion};
 /// Error in speed that ending a chatter early may make, m/s: 1e-12 m after ten seconds.
 const NEGLIGIBLE: f64 = 1e-13;
 
-/// Below this speed a chatter ends even where a slip is about to end with it, m/s. The ball then rises less than
-/// 1e-18 m from what it touches.
+/// Below this speed a chatter ends whatever presses the ball, m/s: a slip about to end, or another ball behind it. What
+/// is lost moves a ball by less than 1e-9 m.
 const SLOWEST_BOUNCE: f64 = 1e-10;
 
 /// Speeds above this never settle, m/s: the test costs nothing where it matters.
@@ -51,12 +51,15 @@ pub fn settles_together(constants: &Constants, first: &BallState, second: &BallS
 
 /// `slide` is the time in which the slip, and so the direction of its friction, is used up.
 fn settles(speed: f64, pull: f64, restitution: f64, slide: f64) -> bool {
+    if speed <= SLOWEST_BOUNCE {
+        return true;
+    }
     if pull <= 0.0 {
         return false;
     }
     let chatter = 2.0 * speed / (pull * (1.0 - restitution));
     let turned = (chatter / slide).min(1.0);
-    speed * turned <= NEGLIGIBLE || speed <= SLOWEST_BOUNCE
+    speed * turned <= NEGLIGIBLE
 }
 
 #[cfg(test)]
