@@ -23,6 +23,9 @@ const SPEEDS: [f64; 2] = [0.3, 6.0];
 /// Elevation of the cue, rad: the thesis' 10°, with the tip at the ball's centre (a = b = 0).
 const ELEVATION: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
+/// These choices in words, for the note in a policy's file: weights fit one meaning of the actions only.
+pub const ACTION_SPACE: &str = "phi from offset -0.1 to 1 diameters, V 0.3 to 6 m/s, a = b = 0, theta = 10 degrees";
+
 /// Ball diameters between the aiming line and the first ball's centre, for the first action.
 pub fn offset(action: f32) -> f64 {
     scaled(OFFSETS, action)

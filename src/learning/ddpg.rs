@@ -4,73 +4,18 @@
 //! no part in the critic's target, for a shot is a whole episode and nothing follows it; they are the averaged weights
 //! that play, are evaluated and are shipped.
 
-use candle_core::{Device, Result, Tensor, Var, bail};
+use candle_core::{Device, Result, Tensor, bail};
 use candle_nn::ops::sigmoid;
 use rand::Rng;
-use serde::{Deserialize, Serialize};
 
 use super::{
     action::{ACTIONS, Action},
     adam::{Adam, soft_update},
-    exploration::Exploration,
+    hyperparameters::Hyperparameters,
+    mlp::Wanted,
     networks::Networks,
     scenes::Scenes,
 };
-
-/// What can be tuned. The defaults trained the bundled policy.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Hyperparameters {
-    /// Actions that the actor proposes for a view. One alone averages between success windows and misses all; several,
-    /// started apart, each climb their own window, and the critic chooses.
-    pub heads: usize,
-    /// Units of the actor's hidden layers.
-    pub actor_layers: Vec<usize>,
-    /// Units of the critic's hidden layers.
-    pub critic_layers: Vec<usize>,
-    /// Adam's step for the critic at the start; it falls to nothing over the run along half a cosine.
-    pub critic_learning_rate: f64,
-    /// The same for the actor: slower, so that it follows a critic that has settled.
-    pub actor_learning_rate: f64,
-    /// Largest norm of a gradient.
-    pub gradient_clip: f64,
-    /// Part of the way that the target networks go at every update. The thesis' 0.001.
-    pub target_rate: f64,
-    /// Experiences in a critic update.
-    pub batch: usize,
-    /// Views among them for which the actor is updated too: every head costs a pass through the critic.
-    pub actor_batch: usize,
-    /// New shots before every update.
-    pub shots_per_update: usize,
-    /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
-    /// left behind.
-    pub replay: usize,
-    /// Weight of the logit beside the probability in what the actor climbs: without it there is no slope where the
-    /// critic is certain of a miss.
-    pub logit_weight: f64,
-    /// How far the behaviour strays from the actor's proposals.
-    pub exploration: Exploration,
-}
-
-impl Default for Hyperparameters {
-    fn default() -> Self {
-        Self {
-            heads: 4,
-            actor_layers: vec![256, 256, 256],
-            critic_layers: vec![256, 256, 256],
-            critic_learning_rate: 1e-3,
-            actor_learning_rate: 3e-4,
-            gradient_clip: 1.0,
-            target_rate: 1e-3,
-            batch: 512,
-            actor_batch: 128,
-            shots_per_update: 256,
-            replay: 1 << 17,
-            logit_weight: 0.02,
-            exploration: Exploration { noise: vec![0.03, 0.12, 0.3], uniform: 0.2 },
-        }
-    }
-}
 
 /// What an update reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,11 +29,11 @@ pub struct Losses {
 /// The agent: networks, their averaged copies, and the optimisers' state.
 #[derive(Debug)]
 pub struct Ddpg {
-    hyper: Hyperparameters,
-    online: Networks,
-    target: Networks,
-    actor_optimiser: Adam,
-    critic_optimiser: Adam,
+    pub(super) hyper: Hyperparameters,
+    pub(super) online: Networks,
+    pub(super) target: Networks,
+    pub(super) actor_optimiser: Adam,
+    pub(super) critic_optimiser: Adam,
 }
 
 impl Ddpg {
@@ -142,41 +87,53 @@ impl Ddpg {
 
     /// One step down the cross entropy between the critic's probabilities and what happened.
     fn update_critic(&mut self, scenes: &Scenes, actions: &[Action], successes: &[f32], pace: f64) -> Result<f64> {
-        let actions = Tensor::from_slice(actions.as_flattened(), (actions.len(), ACTIONS), &Device::Cpu)?;
-        let successes = Tensor::from_slice(successes, (successes.len(), 1), &Device::Cpu)?;
+        let count = actions.len();
+        let actions = Tensor::from_slice(actions.as_flattened(), (count, ACTIONS), &Device::Cpu)?;
+        let successes = Tensor::from_slice(successes, (count, 1), &Device::Cpu)?;
         let critic = &self.online.critic;
-        let logits = critic.forward(&scenes.with_actions(&actions)?)?;
-        let loss = cross_entropy(&logits, &successes)?;
-        let gradient = gradient_of(&loss, critic.parameters())?;
+        let record = critic.record(&scenes.with_actions(&actions)?, Wanted::Parameters)?;
+        let logits = record.outputs();
+        // The gradient of the mean cross entropy along a logit: what was expected minus what happened.
+        let errors = ((sigmoid(logits)? - &successes)? / count as f64)?;
         let rate = pace * self.hyper.critic_learning_rate;
-        self.critic_optimiser.step(critic.parameters(), &gradient, rate, self.hyper.gradient_clip)?;
-        Ok(f64::from(loss.to_scalar::<f32>()?))
+        let (_, gradient) = record.backward(&errors)?;
+        self.critic_optimiser.step(critic.parameters(), &wanted(gradient)?, rate, self.hyper.gradient_clip)?;
+        mean_cross_entropy(logits, &successes)
     }
 
     /// One step up the deterministic policy gradient: every head climbs the critic from its own action.
     fn update_actor(&mut self, scenes: &Scenes, pace: f64) -> Result<f64> {
-        let actor = &self.online.actor;
-        let actions = self.online.propose(scenes)?;
-        let logits = self.online.critic.forward_frozen(&scenes.with_actions(&actions)?)?;
-        let climbed = (sigmoid(&logits)? + (&logits * self.hyper.logit_weight)?)?;
-        let loss = climbed.mean_all()?.neg()?;
-        let gradient = gradient_of(&loss, actor.parameters())?;
+        let Networks { actor, critic } = &self.online;
+        let proposed = actor.record(scenes.states(), Wanted::Parameters)?;
+        let actions = proposed.outputs().tanh()?.reshape(((), ACTIONS))?;
+        let (inputs, join) = scenes.record_actions(&actions)?;
+        let judged = critic.record(&inputs, Wanted::Inputs)?;
+        let success = sigmoid(judged.outputs())?;
+
+        // Along a logit, the probability s rises with s (1 - s) and the logit itself with 1.
+        let slope = ((&success * (1.0 - &success)?)? + self.hyper.logit_weight)?;
+        let (along_inputs, _) = judged.backward(&(slope / -(success.elem_count() as f64))?)?;
+        let along_actions = join.backward(&wanted(along_inputs)?)?;
+        // The slope of the hyperbolic tangent is 1 - tanh².
+        let along_outputs = (along_actions * (1.0 - actions.sqr()?)?)?.reshape(proposed.outputs().shape())?;
+        let (_, gradient) = proposed.backward(&along_outputs)?;
+
         let rate = pace * self.hyper.actor_learning_rate;
-        self.actor_optimiser.step(actor.parameters(), &gradient, rate, self.hyper.gradient_clip)?;
-        Ok(f64::from(loss.to_scalar::<f32>()?))
+        self.actor_optimiser.step(actor.parameters(), &wanted(gradient)?, rate, self.hyper.gradient_clip)?;
+        Ok(-f64::from(success.mean_all()?.to_scalar::<f32>()?))
     }
 }
 
 /// Mean cross entropy of success probabilities, given as logits, against what happened. candle-nn's own gives NaN once
 /// a probability rounds to 0 or 1.
-fn cross_entropy(logits: &Tensor, successes: &Tensor) -> Result<Tensor> {
+fn mean_cross_entropy(logits: &Tensor, successes: &Tensor) -> Result<f64> {
     let softplus = (logits.relu()? + (logits.abs()?.neg()?.exp()? + 1.0)?.log()?)?;
-    (softplus - (logits * successes)?)?.mean_all()
+    Ok(f64::from((softplus - (logits * successes)?)?.mean_all()?.to_scalar::<f32>()?))
 }
 
-fn gradient_of(loss: &Tensor, parameters: &Var) -> Result<Tensor> {
-    match loss.backward()?.remove(parameters) {
+fn wanted(gradient: Option<Tensor>) -> Result<Tensor> {
+    match gradient {
         Some(gradient) => Ok(gradient),
-        None => bail!("the loss does not depend on the parameters"),
+        None => bail!("this gradient was not recorded"),
     }
 }

@@ -82,8 +82,9 @@ impl Neg for Dual {
 impl Mul for Dual {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        let slope = std::array::from_fn(|action| self.value * other.slope[action] + other.value * self.slope[action]);
-        Self { value: self.value * other.value, slope }
+        let value = self.value * other.value;
+        // The product rule.
+        Self { value, slope: (self.chain(0.0, other.value) + other.chain(0.0, self.value)).slope }
     }
 }
 

@@ -63,8 +63,11 @@ pub fn push_state_features(table: &Table, view: &View, out: &mut Vec<f32>) {
 /// would need many units to find this rotation by itself, and points are missed by a degree.
 pub fn action_features(table: &Table, view: &View, action: Action) -> [Dual; ACTION_FEATURES] {
     let mut features = [Dual::constant(0.0); ACTION_FEATURES];
-    let mut slots = features.iter_mut();
-    let mut push = |feature: Dual| *slots.next().expect("a test counts the features") = feature;
+    let mut filled = 0;
+    let mut push = |feature: Dual| {
+        features[filled] = feature;
+        filled += 1;
+    };
 
     let offset = Dual { value: offset(action[0]), slope: [OFFSET_SLOPE, 0.0] };
     let speed = Dual::action(1, f64::from(action[1]));
@@ -110,6 +113,7 @@ pub fn action_features(table: &Table, view: &View, action: Action) -> [Dual; ACT
     // How far the cue ball can go along the tangent; its slope is left out, for it jumps in the corners.
     let tangent = DVec2::new(-normal.y.value, normal.x.value);
     push(Dual::constant(free_path(table, view.first, tangent) / table.length));
+    debug_assert_eq!(filled, ACTION_FEATURES);
     features
 }
 

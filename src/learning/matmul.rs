@@ -6,6 +6,11 @@
 //! carries the choice of instructions. Every element is summed over the inner index in ascending order with fused
 //! multiply-adds, so results do not depend on the vector width.
 
+#![expect(
+    clippy::inline_always,
+    reason = "code reaches the wide instructions only by being inlined into the function that pulp compiles for them"
+)]
+
 use pulp::{Arch, Simd, WithSimd};
 
 /// Rows of the output that are computed together. With 4 vectors a row this fills 24 of 32 registers.

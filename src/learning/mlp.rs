@@ -91,7 +91,7 @@ impl Mlp {
         self.apply(inputs, self.parameters.as_tensor())
     }
 
-    /// As [`Mlp::forward`], with parameters that count as constants.
+    /// As [`Mlp::forward`], without gradients for the parameters.
     ///
     /// # Errors
     /// Where the inputs have another shape.
@@ -99,14 +99,62 @@ impl Mlp {
         self.apply(inputs, &self.parameters.as_detached_tensor())
     }
 
+    /// As [`Mlp::forward`], but outside candle's automatic differentiation: the record gives the gradients when asked.
+    ///
+    /// # Errors
+    /// Where the inputs have another shape.
+    pub fn record(&self, inputs: &Tensor, wanted: Wanted) -> Result<Record> {
+        let pass = Pass { sizes: self.sizes.clone(), hidden: OnceLock::new(), wanted: Some(wanted) };
+        let (inputs, parameters) = (inputs.detach(), self.parameters.as_detached_tensor());
+        let outputs = inputs.apply_op2_no_bwd(&parameters, &pass)?;
+        Ok(Record { pass, inputs, parameters, outputs })
+    }
+
     fn apply(&self, inputs: &Tensor, parameters: &Tensor) -> Result<Tensor> {
-        let pass = Pass {
-            sizes: self.sizes.clone(),
-            hidden: OnceLock::new(),
-            for_inputs: inputs.track_op(),
-            for_parameters: parameters.track_op(),
+        let wanted = match (inputs.track_op(), parameters.track_op()) {
+            (true, true) => Some(Wanted::Both),
+            (true, false) => Some(Wanted::Inputs),
+            (false, true) => Some(Wanted::Parameters),
+            (false, false) => None,
         };
-        inputs.apply_op2(parameters, pass)
+        inputs.apply_op2(parameters, Pass { sizes: self.sizes.clone(), hidden: OnceLock::new(), wanted })
+    }
+}
+
+/// What gradients are wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// For the inputs only.
+    Inputs,
+    /// For the parameters only.
+    Parameters,
+    /// For both.
+    Both,
+}
+
+/// A forward pass that remembers what its backward pass needs.
+///
+/// candle's own backward pass through the same operation adds every gradient to a tensor of zeros, on a pool of
+/// spinning threads from 65,536 values on; that takes as long as the matrix products.
+pub struct Record {
+    pass: Pass,
+    inputs: Tensor,
+    parameters: Tensor,
+    outputs: Tensor,
+}
+
+impl Record {
+    /// What the network said.
+    pub const fn outputs(&self) -> &Tensor {
+        &self.outputs
+    }
+
+    /// The gradients for the inputs and the parameters, where wanted, from that for the outputs.
+    ///
+    /// # Errors
+    /// Where `gradient` has another shape than the outputs.
+    pub fn backward(&self, gradient: &Tensor) -> Result<(Option<Tensor>, Option<Tensor>)> {
+        self.pass.bwd(&self.inputs, &self.parameters, &self.outputs, gradient)
     }
 }
 
@@ -119,8 +167,17 @@ struct Pass {
     sizes: Vec<usize>,
     /// Outputs of the hidden layers, kept by the forward pass for the backward pass.
     hidden: OnceLock<Vec<Vec<f32>>>,
-    for_inputs: bool,
-    for_parameters: bool,
+    wanted: Option<Wanted>,
+}
+
+impl Pass {
+    fn for_inputs(&self) -> bool {
+        matches!(self.wanted, Some(Wanted::Inputs | Wanted::Both))
+    }
+
+    fn for_parameters(&self) -> bool {
+        matches!(self.wanted, Some(Wanted::Parameters | Wanted::Both))
+    }
 }
 
 /// A layer's weights and bias inside the flat parameters.
@@ -157,7 +214,7 @@ impl CustomOp2 for Pass {
             outputs.push(next);
         }
         let Some(last) = outputs.pop() else { bail!("a network needs at least two layer sizes") };
-        if self.for_inputs || self.for_parameters {
+        if self.wanted.is_some() {
             self.hidden.get_or_init(|| outputs);
         }
         Ok((CpuStorage::F32(last), Shape::from((rows, self.sizes[self.sizes.len() - 1]))))
@@ -178,7 +235,7 @@ impl CustomOp2 for Pass {
         let (rows, mut end) = (input_layout.dims()[0], parameters.len());
         // The gradient with respect to the outputs of the layer that is being worked on.
         let mut errors: Vec<f32> = gradient.flatten_all()?.to_vec1()?;
-        let mut parameter_gradient = vec![0.0; if self.for_parameters { end } else { 0 }];
+        let mut parameter_gradient = vec![0.0; if self.for_parameters() { end } else { 0 }];
         let mut input_gradient = None;
         let layers: Vec<_> = layers(&self.sizes, parameters).collect();
         for (index, (weights, bias)) in layers.into_iter().enumerate().rev() {
@@ -186,7 +243,7 @@ impl CustomOp2 for Pass {
             let from = if index == 0 { inputs } else { &hidden[index - 1] };
             let delta = Matrix::new(&errors, rows, after);
             let start = end - (before * after + bias.len());
-            if self.for_parameters {
+            if self.for_parameters() {
                 let (weight_part, bias_part) = parameter_gradient[start..end].split_at_mut(before * after);
                 weight_part.copy_from_slice(&product(Matrix::new(from, rows, before).transposed(), delta));
                 for row in errors.chunks_exact(after) {
@@ -197,7 +254,7 @@ impl CustomOp2 for Pass {
             }
             end = start;
             if index == 0 {
-                if self.for_inputs {
+                if self.for_inputs() {
                     let values = product(delta, weights.transposed());
                     input_gradient = Some(Tensor::from_vec(values, (rows, before), &Device::Cpu)?);
                 }
@@ -209,7 +266,7 @@ impl CustomOp2 for Pass {
                 errors = previous;
             }
         }
-        let parameter_gradient = if self.for_parameters {
+        let parameter_gradient = if self.for_parameters() {
             let count = parameter_gradient.len();
             Some(Tensor::from_vec(parameter_gradient, count, &Device::Cpu)?)
         } else {
@@ -284,11 +341,21 @@ mod tests {
     }
 
     #[test]
-    fn frozen_parameters_get_no_gradient_but_the_inputs_do() {
+    fn a_record_gives_the_gradients_that_are_wanted_and_no_others() {
         let (mlp, inputs) = network_and_inputs();
-        let gradients = mlp.forward_frozen(&inputs).unwrap().sum_all().unwrap().backward().unwrap();
-        assert!(gradients.get(mlp.parameters()).is_none());
-        assert_eq!(gradients.get(&inputs).unwrap().dtype(), DType::F32);
+        let outputs = mlp.forward(&inputs).unwrap();
+        let gradients = outputs.sum_all().unwrap().backward().unwrap();
+        let ones = outputs.ones_like().unwrap();
+        for wanted in [Wanted::Inputs, Wanted::Parameters, Wanted::Both] {
+            let record = mlp.record(&inputs, wanted).unwrap();
+            let (for_inputs, for_parameters) = record.backward(&ones).unwrap();
+            assert_eq!(for_inputs.is_some(), wanted != Wanted::Parameters);
+            assert_eq!(for_parameters.is_some(), wanted != Wanted::Inputs);
+            for (ours, variable) in [(for_inputs, &inputs), (for_parameters, mlp.parameters())] {
+                let theirs = gradients.get(variable).unwrap();
+                assert!(ours.is_none_or(|ours| largest_difference(&ours, theirs) == 0.0));
+            }
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use rand::Rng;
 
 use super::{
     action::{ACTIONS, Action, aim_at},
-    ddpg::Hyperparameters,
+    hyperparameters::Hyperparameters,
     mlp::Mlp,
     scenes::{ACTOR_INPUTS, CRITIC_INPUTS, Scenes},
 };

@@ -30,6 +30,23 @@ impl ReplayBuffer {
         Self { experiences: Vec::new(), capacity: capacity.max(1), next: 0 }
     }
 
+    /// A buffer with the content that [`ReplayBuffer::experiences`] and [`ReplayBuffer::next`] gave.
+    pub fn restore(capacity: usize, mut experiences: Vec<Experience>, next: usize) -> Self {
+        let capacity = capacity.max(1);
+        experiences.truncate(capacity);
+        Self { experiences, capacity, next: next % capacity }
+    }
+
+    /// What is held, in the order of the ring.
+    pub fn experiences(&self) -> &[Experience] {
+        &self.experiences
+    }
+
+    /// Where the next shot goes once the buffer is full.
+    pub const fn next(&self) -> usize {
+        self.next
+    }
+
     /// Adds a shot.
     pub fn push(&mut self, experience: Experience) {
         if self.experiences.len() < self.capacity {

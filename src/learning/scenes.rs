@@ -68,13 +68,47 @@ impl Scenes {
     pub fn with_actions(&self, actions: &Tensor) -> Result<Tensor> {
         actions.apply_op1(Join { scenes: self.clone(), slopes: OnceLock::new(), differentiate: actions.track_op() })
     }
+
+    /// As [`Scenes::with_actions`], but outside candle's automatic differentiation, with the operation that takes
+    /// gradients back from the critic's input to the actions.
+    ///
+    /// # Errors
+    /// As [`Scenes::with_actions`].
+    pub fn record_actions(&self, actions: &Tensor) -> Result<(Tensor, Join)> {
+        let join = Join { scenes: self.clone(), slopes: OnceLock::new(), differentiate: true };
+        Ok((actions.apply_op1_no_bwd(&join)?, join))
+    }
 }
 
-struct Join {
+/// The operation that appends actions to views.
+pub struct Join {
     scenes: Scenes,
     /// Slopes of the action features along the actions, kept by the forward pass for the backward pass.
     slopes: OnceLock<Vec<[[f32; ACTIONS]; ACTION_FEATURES]>>,
     differentiate: bool,
+}
+
+impl Join {
+    /// The gradient for the actions from that for the critic's input.
+    ///
+    /// # Errors
+    /// Where the operation has not run forward.
+    pub fn backward(&self, gradient: &Tensor) -> Result<Tensor> {
+        let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
+        let (storage, layout) = gradient.storage_and_layout();
+        let gradient = stored_values(&storage, layout)?;
+        let mut out: Vec<Action> = Vec::with_capacity(slopes.len());
+        for (slopes, row) in slopes.iter().zip(gradient.chunks_exact(CRITIC_INPUTS)) {
+            let mut sum = [0.0; ACTIONS];
+            for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
+                for (sum, slope) in sum.iter_mut().zip(slope) {
+                    *sum += slope * error;
+                }
+            }
+            out.push(sum);
+        }
+        Tensor::from_vec(out.into_flattened(), (slopes.len(), ACTIONS), &Device::Cpu)
+    }
 }
 
 impl CustomOp1 for Join {
@@ -108,21 +142,8 @@ impl CustomOp1 for Join {
         Ok((CpuStorage::F32(out), Shape::from((rows, CRITIC_INPUTS))))
     }
 
-    fn bwd(&self, actions: &Tensor, _inputs: &Tensor, gradient: &Tensor) -> Result<Option<Tensor>> {
-        let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
-        let (storage, layout) = gradient.storage_and_layout();
-        let gradient = stored_values(&storage, layout)?;
-        let mut out: Vec<Action> = Vec::with_capacity(slopes.len());
-        for (slopes, row) in slopes.iter().zip(gradient.chunks_exact(CRITIC_INPUTS)) {
-            let mut sum = [0.0; ACTIONS];
-            for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
-                for (sum, slope) in sum.iter_mut().zip(slope) {
-                    *sum += slope * error;
-                }
-            }
-            out.push(sum);
-        }
-        Tensor::from_vec(out.into_flattened(), actions.shape(), &Device::Cpu).map(Some)
+    fn bwd(&self, _actions: &Tensor, _inputs: &Tensor, gradient: &Tensor) -> Result<Option<Tensor>> {
+        self.backward(gradient).map(Some)
     }
 }
 

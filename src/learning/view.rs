@@ -18,7 +18,7 @@ pub struct View {
     /// Centre of the other object ball, m.
     pub second: DVec2,
     /// Which axes were mirrored: -1 or 1 each.
-    mirror: DVec2,
+    pub(super) mirror: DVec2,
 }
 
 /// Number of views of a layout: either object ball first, passed on either side.
