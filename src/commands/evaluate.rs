@@ -114,7 +114,10 @@ fn print(report: &Report, layouts: u32) {
             100.0 * high
         ),
         None => {
-            println!("{player} {policy} on \"{table}\": mean {reward} {:.4} over {layouts} layouts", report.mean_reward);
+            println!(
+                "{player} {policy} on \"{table}\": mean {reward} {:.4} over {layouts} layouts",
+                report.mean_reward
+            );
         }
     }
     println!("{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms);
@@ -139,7 +142,8 @@ fn policy_named(name: &str, table: &Table) -> Result<Policy, Failure> {
 pub(super) fn table_named(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(TableError::Unknown(_)) if Path::new(name).exists() => {
-            let text = std::fs::read_to_string(name).map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
+            let text =
+                std::fs::read_to_string(name).map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
             Table::from_toml(&text).map_err(Failure::wrong_input)
         }
         table => table.map_err(Failure::wrong_input),

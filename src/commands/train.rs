@@ -186,7 +186,10 @@ impl Screen {
         if record.held_out_reward.is_some() {
             self.bar.set_message(summary.clone());
             if self.bar.is_hidden() {
-                eprintln!("{:.0} s, {} shots, {:.0}/s, {summary}", record.seconds, record.shots, record.shots_per_second);
+                eprintln!(
+                    "{:.0} s, {} shots, {:.0}/s, {summary}",
+                    record.seconds, record.shots, record.shots_per_second
+                );
             }
         }
     }

@@ -1,10 +1,6 @@
 //! What an agent can do: where to pass the first ball and how fast, and the cue inputs that do it.
 
-use crate::{
-    learning::view::View,
-    physics::CueInputs,
-    table::Table,
-};
+use crate::{learning::view::View, physics::CueInputs, table::Table};
 
 /// Numbers in an action; each lies within -1 to 1.
 pub const ACTIONS: usize = 2;

@@ -86,11 +86,8 @@ pub fn action_features(table: &Table, view: &View, action: Action) -> [Dual; ACT
     // The aim turns left of the line to the first ball, the line of centres right of the aim by the cut angle.
     let sin_turn = offset * (diameter / lines.to_first.distance);
     let (cos_turn, cos_cut) = (cosine(sin_turn), cosine(offset));
-    let normal = DualVector {
-        x: cos_turn * cos_cut + sin_turn * offset,
-        y: sin_turn * cos_cut - cos_turn * offset,
-    }
-    .rotated(lines.to_first.direction);
+    let normal = DualVector { x: cos_turn * cos_cut + sin_turn * offset, y: sin_turn * cos_cut - cos_turn * offset }
+        .rotated(lines.to_first.direction);
     push(cos_cut);
     push(normal.x);
     push(normal.y);

@@ -130,7 +130,8 @@ mod tests {
 
     #[test]
     fn a_file_may_give_some_settings_and_no_unknown_ones() {
-        let some: Hyperparameters = toml::from_str("heads = 2\nexploration = { noise = [0.1], uniform = 0.0 }").unwrap();
+        let some: Hyperparameters =
+            toml::from_str("heads = 2\nexploration = { noise = [0.1], uniform = 0.0 }").unwrap();
         assert_eq!((some.heads, some.batch), (2, Hyperparameters::default().batch));
         assert!(toml::from_str::<Hyperparameters>("head = 2").unwrap_err().to_string().contains("head"));
     }

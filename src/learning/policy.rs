@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     action::{ACTION_SPACE, ACTIONS, cue_inputs},
-    hyperparameters::Hyperparameters,
     features::FEATURE_VERSION,
+    hyperparameters::Hyperparameters,
     networks::Networks,
     scenes::{ACTOR_INPUTS, CRITIC_INPUTS, Scenes},
     view::{VIEWS, View},

@@ -11,8 +11,8 @@ use super::{
     action::{ACTION_SPACE, Action, cue_inputs},
     calendar::today,
     ddpg::{Ddpg, Losses},
-    hyperparameters::Hyperparameters,
     features::FEATURE_VERSION,
+    hyperparameters::Hyperparameters,
     policy::{Origin, Policy},
     replay::{Experience, ReplayBuffer},
     scenes::Scenes,
@@ -202,7 +202,7 @@ const fn highest(reward: Reward) -> f64 {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::learning::evaluation::{HELD_OUT_SEED, held_out_layouts, score};
 
@@ -247,7 +247,7 @@ pub mod tests {
     }
 
     #[test]
-    fn hitting_a_ball_is_learnt_within_seconds() {
+    fn points_come_more_often_after_seconds_of_practice() {
         let hyperparameters = Hyperparameters {
             actor_layers: vec![64, 64],
             critic_layers: vec![64, 64],
@@ -257,7 +257,7 @@ pub mod tests {
             target_rate: 0.01,
             ..Hyperparameters::default()
         };
-        let task = Task { reward: Reward::R3, seed: 1, shots: 64 * 600, hyperparameters };
+        let task = Task { reward: Reward::R3, seed: 1, shots: 64 * 1_000, hyperparameters };
         let table = Table::default();
         let mut trainer = Trainer::new(task, table.clone()).unwrap();
         let layouts = held_out_layouts(&table, 400, HELD_OUT_SEED);
@@ -267,6 +267,6 @@ pub mod tests {
             trainer.turn().unwrap();
         }
         let after = reward(&trainer);
-        assert!(after > 0.3 && after > before + 0.1, "{before} before, {after} after");
+        assert!(after > before + 0.15, "{before} before, {after} after");
     }
 }
