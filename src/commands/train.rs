@@ -51,7 +51,7 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", default_value_t = 20_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
     /// Stop after this many minutes, finished or not.
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     minutes: Option<f64>,
     /// Hyper-parameters that differ from the defaults, as a TOML file.
     #[arg(long, value_name = "FILE")]

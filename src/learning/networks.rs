@@ -47,30 +47,26 @@ impl Networks {
         Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()? })
     }
 
-    /// The heads' actions, one row each, the heads of a view one after the other. Gradients flow to the actor.
-    ///
-    /// # Errors
-    /// Whatever candle reports.
-    pub fn propose(&self, scenes: &Scenes) -> Result<Tensor> {
-        self.actor.forward(scenes.states())?.tanh()?.reshape(((), ACTIONS))
-    }
-
-    /// The heads' actions, without gradients.
+    /// The heads' actions, the heads of a view one after the other.
     ///
     /// # Errors
     /// Whatever candle reports.
     pub fn actions(&self, scenes: &Scenes) -> Result<Vec<Action>> {
-        actions_of(&self.actor.forward_frozen(scenes.states())?.tanh()?)
+        actions_of(&self.propose(scenes)?)
     }
 
-    /// The heads' actions and the critic's logit of success for each, without gradients.
+    /// The heads' actions and the critic's logit of success for each.
     ///
     /// # Errors
     /// Whatever candle reports.
     pub fn judge(&self, scenes: &Scenes) -> Result<(Vec<Action>, Vec<f32>)> {
-        let actions = self.actor.forward_frozen(scenes.states())?.tanh()?.reshape(((), ACTIONS))?;
+        let actions = self.propose(scenes)?;
         let logits = self.critic.forward_frozen(&scenes.with_actions(&actions)?)?;
         Ok((actions_of(&actions)?, logits.flatten_all()?.to_vec1()?))
+    }
+
+    fn propose(&self, scenes: &Scenes) -> Result<Tensor> {
+        self.actor.forward_frozen(scenes.states())?.tanh()?.reshape(((), ACTIONS))
     }
 }
 

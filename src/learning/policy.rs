@@ -220,6 +220,7 @@ impl Policy {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::learning::evaluation::held_out_layouts;
     use candle_core::{Device, Tensor};
     use glam::DVec2;
     use rand::SeedableRng;
@@ -254,6 +255,15 @@ mod tests {
                 proposal.cue.validate().unwrap();
             }
         }
+    }
+
+    #[test]
+    fn the_bundled_policy_alone_scores_on_most_layouts() {
+        let table = Table::default();
+        let layouts = held_out_layouts(&table, 1_000, 77);
+        let (policy, rule) = (bundled(), Reward::R3);
+        let mean = layouts.iter().map(|layout| rule.of(&table, layout, &policy.propose(&table, layout))).sum::<f64>();
+        assert!(mean > 0.9 * layouts.len() as f64, "{mean} points on {} layouts", layouts.len());
     }
 
     #[test]

@@ -34,6 +34,9 @@ pub enum RunError {
     /// The folder already holds a run.
     #[error("{0} already holds a run; go on with it by --resume {0}, or choose another folder by --run")]
     Occupied(String),
+    /// The folder holds no run.
+    #[error("{0} holds no run to go on with: it has no checkpoint.safetensors")]
+    Missing(String),
     /// A file of the run cannot be read or written.
     #[error("{path}: {reason}")]
     File {
@@ -97,6 +100,9 @@ impl Run {
     pub fn resume(folder: &Path) -> Result<(Self, Trainer), RunError> {
         let run = Self { folder: folder.to_owned() };
         let path = run.checkpoint_path();
+        if !path.exists() {
+            return Err(RunError::Missing(folder.display().to_string()));
+        }
         let bytes = std::fs::read(&path).map_err(file(&path))?;
         let damaged = |reason| RunError::Checkpoint { path: path.display().to_string(), reason };
         Ok((run, snapshot::read(&bytes).map_err(damaged)?))

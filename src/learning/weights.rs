@@ -17,8 +17,8 @@ pub enum WeightsError {
     /// Not a safetensors file, or a damaged one.
     #[error("it is not a whole safetensors file ({0})")]
     Format(#[from] SafeTensorError),
-    /// A safetensors file that another program wrote.
-    #[error("it was not written by carom (it has no readable \"carom\" entry in its metadata)")]
+    /// A safetensors file with another content.
+    #[error("its metadata has no \"carom\" entry of the right kind")]
     Foreign,
     /// An array is missing or of another type or shape than it must be.
     #[error("its array \"{name}\" is not {expected}")]
