@@ -12,8 +12,8 @@ use super::{
     action::{ACTIONS, Action},
     adam::{Adam, soft_update},
     hyperparameters::Hyperparameters,
-    mlp::Wanted,
     networks::Networks,
+    pass::Wanted,
     scenes::Scenes,
 };
 

@@ -17,7 +17,9 @@ mod matmul;
 pub mod metrics;
 pub mod mlp;
 pub mod networks;
+pub mod pass;
 pub mod policy;
+pub mod policy_file;
 pub mod replay;
 pub mod run;
 pub mod scenes;
@@ -28,4 +30,5 @@ pub mod view;
 pub mod weights;
 
 pub use calendar::timestamp;
-pub use policy::{Policy, PolicyError, Proposal};
+pub use policy::{Policy, Proposal};
+pub use policy_file::PolicyError;

@@ -80,7 +80,7 @@ pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
     })
 }
 
-/// The trainer that [`write`] was given.
+/// The trainer that [`write()`] was given.
 ///
 /// # Errors
 /// Where the bytes are damaged or from a version with other features or actions.
