@@ -102,17 +102,7 @@ pub fn curved_cushion_ahead(
         let inward = rail.normal();
         let mut gap = course.map(|c| c.dot(inward));
         gap[0] += inward.abs().dot(constants.reach);
-        if gap[0] <= TOUCHING {
-            if gap[1] < -RESTING_SPEED {
-                return (Ahead::Meeting(0.0), rail);
-            }
-            gap[0] += TOUCHING;
-        }
-        let mut slope = [0.0; 5];
-        for power in 1..6 {
-            slope[power - 1] = power as f64 * gap[power];
-        }
-        if let Some(time) = first_crossing(|t| horner(&gap, t), &slope, earliest) {
+        if let Ahead::Meeting(time) = polynomial_closes(&gap, gap[0] <= TOUCHING, 1.0, earliest) {
             earliest = time;
             nearest = (Ahead::Meeting(time), rail);
         }
@@ -172,17 +162,12 @@ fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: 
     }
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
-    let quotient = [c1.max(0.0), clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()];
-    let ahead = if separation > RESTING_SPEED {
-        let derivative = [quotient[1], 2.0 * quotient[2], 3.0 * quotient[3]];
-        first_crossing(|t| horner(&quotient, t), &derivative, horizon)
-    } else {
-        // They stay together for now. They meet when the gap has closed by as much as counts as touching.
-        let margin = 2.0 * diameter * TOUCHING;
-        let derivative = [quotient[0], 2.0 * quotient[1], 3.0 * quotient[2], 4.0 * quotient[3]];
-        first_crossing(|t| margin + t * horner(&quotient, t), &derivative, horizon)
-    };
-    ahead.map_or(Ahead::Nothing, Ahead::Meeting)
+    polynomial_closes(
+        &[0.0, c1.max(0.0), clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
+        true,
+        2.0 * diameter,
+        horizon,
+    )
 }
 
 /// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
@@ -215,27 +200,43 @@ fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, 
         d[power] = c1[power] - c2[power];
     }
     let diameter = 2.0 * constants.radius;
-    let gap = d[0].length_squared() - diameter * diameter;
-    let mut margin = 0.0;
-    if gap <= 2.0 * diameter * TOUCHING {
-        let separation = d[0].dot(d[1]) / diameter;
-        if separation < -RESTING_SPEED {
+    let mut gap = [0.0; MAX_DEGREE + 1];
+    for i in 0..6 {
+        for j in 0..6 {
+            gap[i + j] += d[i].dot(d[j]);
+        }
+    }
+    gap[0] -= diameter * diameter;
+    let touching = gap[0] <= 2.0 * diameter * TOUCHING;
+    polynomial_closes(&gap, touching, 2.0 * diameter, horizon)
+}
+
+/// When the gap with these coefficients, in units of `scale` times metres, closes. That of balls which touch is divided by
+/// the time, whose root at zero is the contact that is already known; where they stay together for now, they meet again
+/// when the gap has closed by more than counts as touching.
+fn polynomial_closes(gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Ahead {
+    let mut work = [0.0; MAX_DEGREE + 1];
+    let mut count = gap.len();
+    work[..count].copy_from_slice(gap);
+    if touching {
+        let opening = gap[1] / scale;
+        if opening < -RESTING_SPEED {
             return Ahead::Meeting(0.0);
         }
-        margin = 2.0 * diameter * TOUCHING;
-    }
-    // Coefficients of d·d', half the derivative of the squared distance.
-    let mut derivative = [0.0; MAX_DEGREE];
-    for i in 0..6 {
-        for j in 1..6 {
-            derivative[i + j - 1] += j as f64 * d[i].dot(d[j]);
+        if opening > RESTING_SPEED {
+            work.copy_within(1.., 0);
+            count -= 1;
+        } else {
+            work[0] = scale * TOUCHING;
+            work[1] = 0.0;
         }
     }
-    let value = |t: f64| {
-        let at = d.iter().rev().fold(DVec2::ZERO, |sum, c| sum * t + *c);
-        at.length_squared() - diameter * diameter + margin
-    };
-    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+    let work = &work[..count];
+    let mut slope = [0.0; MAX_DEGREE];
+    for power in 1..count {
+        slope[power - 1] = power as f64 * work[power];
+    }
+    first_crossing(|t| horner(work, t), &slope[..count - 1], horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A segment's coefficients about the time `now`.

@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 
 use super::{
     Constants, Rail,
-    predict::{RESTING_SPEED, TOUCHING},
-    segment::Curve,
+    predict::TOUCHING,
+    segment::{Curve, STILL},
 };
 use crate::{
     physics::{BallState, Forces, Laws, MAX_TOUCHES, Touch, contact_forces, rolling_spin, slip},
@@ -27,6 +27,10 @@ const FIRST_STEP: f64 = 2e-2;
 
 /// A slip or speed may use up this share of itself in a step, so that its direction stays known.
 const STOPPING_SHARE: f64 = 0.9;
+
+/// Contacts that open more slowly than this and are pressed stay closed, m/s: they would close again within 1e-8 s, without
+/// end where two of them feed each other.
+const SLOWEST_OPENING: f64 = 1e-9;
 
 /// Pairs of balls, in the order used everywhere.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -81,7 +85,7 @@ impl Touches {
     }
 
     fn add(&mut self, touch: Touch, balls: &[BallState; BALLS]) {
-        if touch.opening_speed(balls).abs() <= RESTING_SPEED && self.count < MAX_TOUCHES {
+        if touch.opening_speed(balls).abs() <= SLOWEST_OPENING && self.count < MAX_TOUCHES {
             self.list[self.count] = touch;
             self.count += 1;
         }
@@ -255,10 +259,11 @@ fn slope(balls: &[BallState; BALLS], forces: &Forces) -> [BallState; BALLS] {
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
 /// spinning has stopped exactly.
 fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
-    let laws = Laws::of(table.radius, balls, &[]);
+    let laws = Laws::of(table.radius, balls, touches);
     for (ball, state) in balls.iter_mut().enumerate() {
-        if !laws.moves[ball] && !laws.slips[ball] {
+        if state.velocity.length().max(table.radius * state.spin.truncate().length()) < STILL {
             state.velocity = DVec2::ZERO;
+            state.spin = DVec3::new(0.0, 0.0, state.spin.z);
         }
         if !laws.slips[ball] {
             // What is left of the slip ends as sliding does.
@@ -267,6 +272,12 @@ fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
         }
         if !laws.spins[ball] {
             state.spin.z = 0.0;
+        }
+    }
+    for (touch, rubs) in touches.iter().zip(laws.rubs) {
+        let never_slips = touch.second.is_some() && table.ball_friction.is_none();
+        if !rubs || never_slips {
+            touch.stop_slip(table.radius, balls);
         }
     }
     // Corrections of one contact open another by less each time; three balls need a few rounds.
