@@ -259,7 +259,7 @@ fn slope(balls: &[BallState; BALLS], forces: &Forces) -> [BallState; BALLS] {
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
 /// spinning has stopped exactly.
 fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
-    let laws = Laws::of(table.radius, balls, &[]);
+    let laws = Laws::of(table.radius, balls, touches);
     for (ball, state) in balls.iter_mut().enumerate() {
         if state.velocity.length().max(table.radius * state.spin.truncate().length()) < STILL {
             state.velocity = DVec2::ZERO;
@@ -272,6 +272,12 @@ fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
         }
         if !laws.spins[ball] {
             state.spin.z = 0.0;
+        }
+    }
+    for (touch, rubs) in touches.iter().zip(laws.rubs) {
+        let never_slips = touch.second.is_some() && table.ball_friction.is_none();
+        if !rubs || never_slips {
+            touch.stop_slip(table.radius, balls);
         }
     }
     // Corrections of one contact open another by less each time; three balls need a few rounds.

@@ -1,0 +1,51 @@
+//! Today's date, for the notes in files and the names of runs.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Today in UTC as `2026-11-20`; 1970-01-01 where the clock is wrong.
+pub fn today() -> String {
+    let (year, month, day) = date(seconds() / 86_400);
+    format!("{year:04}-{month:02}-{day:02}")
+}
+
+/// Now in UTC as `20261120-143005`, which sorts by time and is a file name everywhere.
+pub fn timestamp() -> String {
+    let seconds = seconds();
+    let (year, month, day) = date(seconds / 86_400);
+    let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
+    format!("{year:04}{month:02}{day:02}-{hour:02}{minute:02}{second:02}")
+}
+
+fn seconds() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
+}
+
+/// Year, month and day of the Gregorian calendar, `days` after 1970-01-01 (Hinnant, "chrono-compatible low-level date
+/// algorithms").
+const fn date(days: u64) -> (u64, u64, u64) {
+    // Years are counted from March, so that the leap day comes last, in eras of 400 years from the year 0 on.
+    let days = days + 719_468;
+    let (era, day_of_era) = (days / 146_097, days % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let month_from_march = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
+    let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
+    (era * 400 + year_of_era + if month <= 2 { 1 } else { 0 }, month, day)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_right_around_leap_days() {
+        assert_eq!(date(0), (1970, 1, 1));
+        assert_eq!(date(11_016), (2000, 2, 29));
+        assert_eq!(date(11_017), (2000, 3, 1));
+        assert_eq!(date(20_777), (2026, 11, 20));
+        assert_eq!(date(47_541), (2100, 3, 1));
+        assert_eq!(today().len(), 10);
+        assert_eq!(timestamp().len(), 15);
+    }
+}

@@ -1,0 +1,168 @@
+//! Numbers that carry their slopes along the two actions (forward-mode differentiation).
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use glam::DVec2;
+
+use super::action::ACTIONS;
+
+/// A value and its partial derivatives with respect to the actions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual {
+    /// The value.
+    pub value: f64,
+    /// Its slope along each action.
+    pub slope: [f64; ACTIONS],
+}
+
+impl Dual {
+    /// A number that does not depend on the actions.
+    pub const fn constant(value: f64) -> Self {
+        Self { value, slope: [0.0; ACTIONS] }
+    }
+
+    /// The action number `index` itself.
+    pub fn action(index: usize, value: f64) -> Self {
+        Self { value, slope: std::array::from_fn(|other| f64::from(u8::from(other == index))) }
+    }
+
+    /// A function of this number, given its value and derivative here.
+    fn chain(self, value: f64, derivative: f64) -> Self {
+        Self { value, slope: self.slope.map(|slope| derivative * slope) }
+    }
+
+    /// Square root.
+    pub fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, 0.5 / root)
+    }
+
+    /// One divided by this number.
+    pub fn recip(self) -> Self {
+        let inverse = self.value.recip();
+        self.chain(inverse, -inverse * inverse)
+    }
+
+    /// Sine and cosine.
+    pub fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.chain(sin, cos), self.chain(cos, -sin))
+    }
+
+    /// This number, or `limit` where it is larger.
+    pub fn at_most(self, limit: f64) -> Self {
+        if self.value > limit { Self::constant(limit) } else { self }
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            slope: std::array::from_fn(|action| self.slope[action] + other.slope[action]),
+        }
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.chain(-self.value, -1.0)
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        // The product rule.
+        Self { value, slope: (self.chain(0.0, other.value) + other.chain(0.0, self.value)).slope }
+    }
+}
+
+impl Add<f64> for Dual {
+    type Output = Self;
+    fn add(self, other: f64) -> Self {
+        Self { value: self.value + other, ..self }
+    }
+}
+
+impl Mul<f64> for Dual {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        self.chain(self.value * other, other)
+    }
+}
+
+/// A vector in the plane of such numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DualVector {
+    /// Component along x.
+    pub x: Dual,
+    /// Component along y.
+    pub y: Dual,
+}
+
+impl DualVector {
+    /// A vector that does not depend on the actions.
+    pub const fn constant(vector: DVec2) -> Self {
+        Self { x: Dual::constant(vector.x), y: Dual::constant(vector.y) }
+    }
+
+    /// Turned by the angle of the unit vector `by`.
+    pub fn rotated(self, by: DVec2) -> Self {
+        Self { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
+    }
+
+    /// Scalar product.
+    pub fn dot(self, other: Self) -> Dual {
+        self.x * other.x + self.y * other.y
+    }
+
+    /// Component of `other` to the left of this vector, times its length.
+    pub fn perp_dot(self, other: Self) -> Dual {
+        self.x * other.y - self.y * other.x
+    }
+}
+
+impl Sub for DualVector {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y }
+    }
+}
+
+impl Mul<f64> for DualVector {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        Self { x: self.x * other, y: self.y * other }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_agree_with_finite_differences() {
+        let function = |x: Dual, y: Dual| {
+            let (sin, cos) = (x * y).sin_cos();
+            (x * x + y * 3.0 + 1.0).sqrt() * (sin - cos) + -(y + 2.0).recip() + x.at_most(0.1)
+        };
+        let value = |x, y| function(Dual::constant(x), Dual::constant(y)).value;
+        let (x, y, step) = (0.7, 0.4, 1e-6);
+        let dual = function(Dual::action(0, x), Dual::action(1, y));
+        let along_x = (value(x + step, y) - value(x - step, y)) / (2.0 * step);
+        let along_y = (value(x, y + step) - value(x, y - step)) / (2.0 * step);
+        assert_eq!(dual.value, value(x, y));
+        assert!((dual.slope[0] - along_x).abs() < 1e-8 && (dual.slope[1] - along_y).abs() < 1e-8);
+    }
+}

@@ -1,0 +1,103 @@
+//! How well a player does on layouts that nobody has trained on.
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Serialize;
+
+use super::policy::Policy;
+use crate::{
+    game::Reward,
+    table::{Layout, Table},
+};
+
+/// Seed of the layouts that training measures itself on.
+pub const HELD_OUT_SEED: u64 = 2026;
+
+/// `count` layouts drawn from `seed`.
+pub fn held_out_layouts(table: &Table, count: usize, seed: u64) -> Vec<Layout> {
+    // Jumped ahead by 2^192 numbers: no training run of the same seed reaches these layouts.
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    rng.long_jump();
+    (0..count).map(|_| Layout::random(table, &mut rng)).collect()
+}
+
+/// A share of successes and the interval in which the true one lies with 95 % confidence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SuccessRate {
+    /// Layouts tried.
+    pub layouts: usize,
+    /// Successes among them.
+    pub successes: usize,
+    /// Their share.
+    pub rate: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl SuccessRate {
+    /// The share of `successes` among `layouts`, with Wilson's score interval: unlike the textbook's it stays within
+    /// 0 to 1 and holds near its ends.
+    pub fn new(successes: usize, layouts: usize) -> Self {
+        const Z: f64 = 1.959_963_984_540_054;
+        if layouts == 0 {
+            return Self { layouts, successes, rate: 0.0, low: 0.0, high: 1.0 };
+        }
+        let (n, rate) = (layouts as f64, successes as f64 / layouts as f64);
+        let centre = rate + Z * Z / (2.0 * n);
+        let spread = Z * (rate * (1.0 - rate) / n + Z * Z / (4.0 * n * n)).sqrt();
+        let scale = 1.0 + Z * Z / n;
+        let bound = |value: f64| (value / scale).clamp(0.0, 1.0);
+        Self { layouts, successes, rate, low: bound(centre - spread), high: bound(centre + spread) }
+    }
+}
+
+/// What a policy earned on a set of layouts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Score {
+    /// Mean reward of its first choice.
+    pub mean_reward: f64,
+    /// Share of layouts in which any of its proposals earns at least one: what a perfect choice would reach.
+    pub reach: f64,
+}
+
+/// Plays one shot on every layout.
+pub fn score(policy: &Policy, table: &Table, reward: Reward, layouts: &[Layout]) -> Score {
+    let (mut total, mut reached) = (0.0, 0usize);
+    // Small batches stay in the processor's cache.
+    for layouts in layouts.chunks(64) {
+        for (layout, proposals) in layouts.iter().zip(policy.proposals_for(table, layouts)) {
+            let first = reward.of(table, layout, &proposals[0].cue);
+            total += first;
+            let made = |earned: f64| earned >= 1.0;
+            let rest = || proposals[1..].iter().any(|proposal| made(reward.of(table, layout, &proposal.cue)));
+            reached += usize::from(made(first) || rest());
+        }
+    }
+    let count = layouts.len().max(1) as f64;
+    Score { mean_reward: total / count, reach: reached as f64 / count }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wilsons_interval_matches_published_values_and_stays_within_nought_to_one() {
+        // Newcombe 1998, table I: 81 of 263 gives 0.2553 to 0.3662, 0 of 20 gives 0 to 0.1611.
+        let rate = SuccessRate::new(81, 263);
+        assert!((rate.low - 0.2553).abs() < 5e-5 && (rate.high - 0.3662).abs() < 5e-5, "{rate:?}");
+        let none = SuccessRate::new(0, 20);
+        assert!(none.low == 0.0 && (none.high - 0.1611).abs() < 5e-5, "{none:?}");
+        assert_eq!((SuccessRate::new(0, 0).low, SuccessRate::new(0, 0).high), (0.0, 1.0));
+    }
+
+    #[test]
+    fn held_out_layouts_repeat_and_differ_from_what_the_same_seed_trains_on() {
+        let table = Table::default();
+        let layouts = held_out_layouts(&table, 3, 1);
+        assert_eq!(layouts, held_out_layouts(&table, 3, 1));
+        assert_ne!(layouts[0], Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(1)));
+    }
+}

@@ -1,0 +1,63 @@
+//! Behaviour while learning: the actor's action with noise, so that the critic sees what lies around it.
+
+use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
+
+use super::action::{ACTIONS, Action};
+
+/// How far the agent strays from its own choice.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Exploration {
+    /// Standard deviations of the noise, in units of half an action's range; each shot draws one of them. Small ones
+    /// show the critic the edges of a success window, large ones other windows.
+    pub noise: Vec<f32>,
+    /// Share of shots that are drawn uniformly from all actions.
+    pub uniform: f64,
+}
+
+impl Exploration {
+    /// What the agent does in place of `choice`.
+    pub fn stray(&self, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
+        if self.noise.is_empty() || rng.random_bool(self.uniform.clamp(0.0, 1.0)) {
+            return std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
+        }
+        let scale = self.noise[rng.random_range(0..self.noise.len())];
+        let [first, second] = normal_pair(rng);
+        let noise: [f32; ACTIONS] = [first, second];
+        std::array::from_fn(|index| (choice[index] + scale * noise[index]).clamp(-1.0, 1.0))
+    }
+}
+
+/// Two independent standard normal numbers (Box and Muller).
+fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f32; 2] {
+    // 1 - u lies above 0, where the logarithm is finite.
+    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
+    let (sin, cos) = (std::f64::consts::TAU * rng.random::<f64>()).sin_cos();
+    [(radius * cos) as f32, (radius * sin) as f32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn noise_has_the_promised_spread_and_stays_in_range() {
+        let exploration = Exploration { noise: vec![0.1], uniform: 0.0 };
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+        let strayed: Vec<Action> = (0..10_000).map(|_| exploration.stray([0.5, 1.0], &mut rng)).collect();
+        let mean = strayed.iter().map(|action| action[0]).sum::<f32>() / 10_000.0;
+        let variance = strayed.iter().map(|action| (action[0] - mean).powi(2)).sum::<f32>() / 10_000.0;
+        assert!((mean - 0.5).abs() < 0.004 && (variance.sqrt() - 0.1).abs() < 0.004);
+        assert!(strayed.iter().all(|action| action[1] <= 1.0));
+    }
+
+    #[test]
+    fn uniform_shots_fill_the_range() {
+        let exploration = Exploration { noise: vec![0.0], uniform: 1.0 };
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+        let low = (0..1000).filter(|_| exploration.stray([0.9, 0.9], &mut rng)[0] < 0.0).count();
+        assert!((400..600).contains(&low), "{low}");
+    }
+}

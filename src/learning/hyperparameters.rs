@@ -1,0 +1,138 @@
+//! What can be tuned in the agent, with the reason for every choice.
+
+use serde::{Deserialize, Serialize};
+
+use super::exploration::Exploration;
+
+/// What can be tuned. The defaults trained the bundled policy.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Hyperparameters {
+    /// Actions that the actor proposes for a view. One alone averages between success windows and misses all; several,
+    /// started apart, each climb their own window, and the critic chooses.
+    pub heads: usize,
+    /// Units of the actor's hidden layers.
+    pub actor_layers: Vec<usize>,
+    /// Units of the critic's hidden layers.
+    pub critic_layers: Vec<usize>,
+    /// Adam's step for the critic at the start; it falls to nothing over the run along half a cosine.
+    pub critic_learning_rate: f64,
+    /// The same for the actor: slower, so that it follows a critic that has settled.
+    pub actor_learning_rate: f64,
+    /// Largest norm of a gradient.
+    pub gradient_clip: f64,
+    /// Part of the way that the target networks go at every update. The thesis' 0.001.
+    pub target_rate: f64,
+    /// Experiences in a critic update.
+    pub batch: usize,
+    /// Views among them for which the actor is updated too: every head costs a pass through the critic.
+    pub actor_batch: usize,
+    /// New shots before every update.
+    pub shots_per_update: usize,
+    /// Share of them that are played near the critic's favourite among all heads in all views of a layout; the others
+    /// near any head's action in any view.
+    pub critic_chooses: f64,
+    /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
+    /// left behind.
+    pub replay: usize,
+    /// Weight of the logit beside the probability in what the actor climbs: without it there is no slope where the
+    /// critic is certain of a miss.
+    pub logit_weight: f64,
+    /// How far the behaviour strays from the actor's proposals.
+    pub exploration: Exploration,
+}
+
+impl Default for Hyperparameters {
+    fn default() -> Self {
+        Self {
+            heads: 4,
+            actor_layers: vec![256, 256, 256],
+            critic_layers: vec![384, 384, 384],
+            critic_learning_rate: 1.5e-3,
+            actor_learning_rate: 4e-4,
+            gradient_clip: 1.0,
+            target_rate: 1e-3,
+            batch: 512,
+            actor_batch: 96,
+            shots_per_update: 192,
+            critic_chooses: 0.3,
+            replay: 1 << 17,
+            logit_weight: 0.02,
+            exploration: Exploration { noise: vec![0.015, 0.05, 0.2], uniform: 0.1 },
+        }
+    }
+}
+
+/// A setting outside its range.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("{name} = {value} is outside its range; accepted is {accepted}")]
+pub struct HyperparameterError {
+    name: &'static str,
+    value: f64,
+    accepted: &'static str,
+}
+
+impl Hyperparameters {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// The first one that is outside its range.
+    pub fn validate(&self) -> Result<(), HyperparameterError> {
+        let check = |name, value: f64, accept: bool, accepted| {
+            if accept { Ok(()) } else { Err(HyperparameterError { name, value, accepted }) }
+        };
+        let count = |name, value: usize| check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216");
+        let share = |name, value: f64| check(name, value, (0.0..=1.0).contains(&value), "0 to 1");
+        let positive = |name, value: f64| check(name, value, value > 0.0 && value <= 1e3, "above 0 and at most 1000");
+        for (name, layers) in [("actor_layers", &self.actor_layers), ("critic_layers", &self.critic_layers)] {
+            check(name, layers.len() as f64, layers.len() <= 16, "at most 16 layers")?;
+            for units in layers {
+                check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer")?;
+            }
+        }
+        check("heads", self.heads as f64, (1..=256).contains(&self.heads), "1 to 256")?;
+        count("batch", self.batch)?;
+        count("actor_batch", self.actor_batch)?;
+        count("shots_per_update", self.shots_per_update)?;
+        count("replay", self.replay)?;
+        positive("critic_learning_rate", self.critic_learning_rate)?;
+        positive("actor_learning_rate", self.actor_learning_rate)?;
+        positive("gradient_clip", self.gradient_clip)?;
+        share("target_rate", self.target_rate)?;
+        share("critic_chooses", self.critic_chooses)?;
+        share("logit_weight", self.logit_weight)?;
+        share("exploration.uniform", self.exploration.uniform)?;
+        for scale in &self.exploration.noise {
+            share("exploration.noise", f64::from(*scale))?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_valid_and_nonsense_is_named() {
+        let good = Hyperparameters::default();
+        good.validate().unwrap();
+        let refuse = |change: &dyn Fn(&mut Hyperparameters)| {
+            let mut hyper = good.clone();
+            change(&mut hyper);
+            hyper.validate().unwrap_err().to_string()
+        };
+        assert!(refuse(&|hyper| hyper.heads = 0).contains("heads = 0"));
+        assert!(refuse(&|hyper| hyper.critic_layers[1] = 0).contains("critic_layers"));
+        assert!(refuse(&|hyper| hyper.critic_learning_rate = f64::NAN).contains("NaN"));
+        assert!(refuse(&|hyper| hyper.exploration.noise.push(-1.0)).contains("-1"));
+    }
+
+    #[test]
+    fn a_file_may_give_some_settings_and_no_unknown_ones() {
+        let some: Hyperparameters =
+            toml::from_str("heads = 2\nexploration = { noise = [0.1], uniform = 0.0 }").unwrap();
+        assert_eq!((some.heads, some.batch), (2, Hyperparameters::default().batch));
+        assert!(toml::from_str::<Hyperparameters>("head = 2").unwrap_err().to_string().contains("head"));
+    }
+}

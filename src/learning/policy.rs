@@ -1,0 +1,151 @@
+//! A trained agent as a player: shots for a layout out of one pass through its networks, without the simulator.
+
+use std::sync::Arc;
+
+use candle_core::Result;
+
+use super::{
+    action::cue_inputs,
+    networks::Networks,
+    policy_file::Origin,
+    scenes::Scenes,
+    view::{VIEWS, View},
+};
+use crate::{
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// A shot that a policy proposes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proposal {
+    /// The stroke.
+    pub cue: CueInputs,
+    /// The critic's probability of success, 0 to 1.
+    pub success: f64,
+}
+
+/// Trained networks, ready to play. Cheap to clone and to share between threads.
+#[derive(Clone, Debug)]
+pub struct Policy {
+    pub(super) networks: Networks,
+    pub(super) origin: Origin,
+}
+
+impl Policy {
+    /// A policy that plays with `networks`.
+    pub(super) const fn new(networks: Networks, origin: Origin) -> Self {
+        Self { networks, origin }
+    }
+
+    /// Where this policy comes from.
+    pub const fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// The stroke that the critic likes best.
+    ///
+    /// # Panics
+    /// Never: the networks' sizes are checked when they are loaded, and candle refuses nothing else.
+    pub fn propose(&self, table: &Table, layout: &Layout) -> CueInputs {
+        self.proposals(table, layout)[0].cue
+    }
+
+    /// Every head's stroke for either object ball on either side, the critic's favourite first. There is at least one.
+    ///
+    /// # Panics
+    /// Never, as [`Policy::propose`].
+    pub fn proposals(&self, table: &Table, layout: &Layout) -> Vec<Proposal> {
+        let mut all = self.proposals_for(table, std::slice::from_ref(layout));
+        all.pop().expect("a layout has proposals")
+    }
+
+    /// [`Policy::proposals`] for many layouts in one pass.
+    ///
+    /// # Panics
+    /// Never, as [`Policy::propose`].
+    pub fn proposals_for(&self, table: &Table, layouts: &[Layout]) -> Vec<Vec<Proposal>> {
+        self.judge(table, layouts).expect("the sizes of the networks were checked when they were loaded")
+    }
+
+    fn judge(&self, table: &Table, layouts: &[Layout]) -> Result<Vec<Vec<Proposal>>> {
+        if layouts.is_empty() {
+            return Ok(Vec::new());
+        }
+        let views = layouts.iter().flat_map(View::all).collect();
+        let scenes = Scenes::new(&Arc::new(table.clone()), views)?;
+        let (actions, logits) = self.networks.judge(&scenes)?;
+        let heads = actions.len() / scenes.views().len();
+        let mut proposals = actions.iter().zip(&logits).enumerate().map(|(row, (action, logit))| {
+            let success = 1.0 / (1.0 + (-f64::from(*logit)).exp());
+            // What is not a number must neither win nor upset the order.
+            let success = if success.is_nan() { 0.0 } else { success };
+            Proposal { cue: cue_inputs(table, &scenes.views()[row / heads], *action), success }
+        });
+        Ok((0..layouts.len())
+            .map(|_| {
+                let mut own: Vec<Proposal> = proposals.by_ref().take(VIEWS * heads).collect();
+                own.sort_by(|a, b| b.success.total_cmp(&a.success));
+                own
+            })
+            .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{game::Reward, learning::evaluation::held_out_layouts};
+    use glam::DVec2;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    fn bundled() -> Policy {
+        Policy::bundled("match").unwrap().unwrap()
+    }
+
+    #[test]
+    fn proposals_are_valid_strokes_ordered_by_their_chance() {
+        let table = Table::default();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
+        let layouts: Vec<_> = (0..20).map(|_| Layout::random(&table, &mut rng)).collect();
+        let policy = bundled();
+        for (layout, together) in layouts.iter().zip(policy.proposals_for(&table, &layouts)) {
+            let proposals = policy.proposals(&table, layout);
+            assert_eq!(proposals, together, "a layout's proposals do not depend on its neighbours");
+            assert_eq!(proposals[0].cue, policy.propose(&table, layout));
+            assert!(proposals.is_sorted_by(|a, b| a.success >= b.success));
+            for proposal in proposals {
+                proposal.cue.validate().unwrap();
+            }
+        }
+    }
+
+    #[test]
+    fn the_bundled_policy_alone_scores_on_most_layouts() {
+        let table = Table::default();
+        let layouts = held_out_layouts(&table, 1_000, 77);
+        let (policy, rule) = (bundled(), Reward::R3);
+        let mean = layouts.iter().map(|layout| rule.of(&table, layout, &policy.propose(&table, layout))).sum::<f64>();
+        assert!(mean > 0.9 * layouts.len() as f64, "{mean} points on {} layouts", layouts.len());
+    }
+
+    #[test]
+    fn layouts_that_make_no_sense_still_give_strokes() {
+        let policy = bundled();
+        let table = Table::default();
+        for layout in [[DVec2::NAN; 3], [DVec2::ZERO; 3], [DVec2::INFINITY; 3]] {
+            let proposals = policy.proposals(&table, &Layout::new(layout));
+            assert!(proposals.iter().all(|proposal| proposal.success >= 0.0));
+        }
+    }
+
+    #[test]
+    fn a_mirrored_layout_gets_the_mirrored_stroke() {
+        let (policy, table) = (bundled(), Table::default());
+        let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(12));
+        let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
+        let (cue, other) = (policy.propose(&table, &layout), policy.propose(&table, &mirrored));
+        assert!((cue.phi + other.phi).abs() < 1e-9 && cue.speed == other.speed);
+    }
+}

@@ -1,0 +1,194 @@
+//! Policies as files: what they say about themselves, and the checks before one is trusted.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    action::{ACTION_SPACE, ACTIONS},
+    features::FEATURE_VERSION,
+    hyperparameters::Hyperparameters,
+    networks::Networks,
+    policy::Policy,
+    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    weights::{Reader, WeightsError, Writer},
+};
+use crate::{game::Reward, storage::write_atomic};
+
+/// The bundled policies: the table's name and the file.
+const BUNDLED: [(&str, &[u8]); 1] = [("match", include_bytes!("../../models/match-r3.safetensors"))];
+
+/// Where a policy comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Origin {
+    /// Name of the table that it was trained on.
+    pub table: String,
+    /// What it was rewarded for.
+    pub reward: Reward,
+    /// What its actions mean ([`ACTION_SPACE`]).
+    pub actions: String,
+    /// What its networks are told ([`FEATURE_VERSION`]).
+    pub features: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Shots that it practised.
+    pub shots: u64,
+    /// Day on which it was written, UTC, as 2026-11-20.
+    pub date: String,
+    /// Version of carom that trained it.
+    pub version: String,
+    /// Mean reward of its first choice on the run's held-out layouts.
+    pub held_out_reward: f64,
+    /// Settings of the run.
+    pub hyperparameters: Hyperparameters,
+}
+
+/// Why a policy cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum PolicyError {
+    /// The file cannot be read.
+    #[error("the policy file {path} cannot be read: {reason}")]
+    Read {
+        /// Its path.
+        path: String,
+        /// What the system says.
+        reason: std::io::Error,
+    },
+    /// The file's content is not a policy.
+    #[error("{origin} is not a policy that carom can use: {reason}; train one with `carom train`")]
+    Content {
+        /// Path, or which bundled policy.
+        origin: String,
+        /// What is wrong.
+        reason: WeightsError,
+    },
+    /// The policy speaks of other features or actions.
+    #[error("{origin} has {what} \"{found}\", this version of carom needs \"{expected}\"; train it again")]
+    Version {
+        /// Path, or which bundled policy.
+        origin: String,
+        /// What differs.
+        what: &'static str,
+        /// What the file has.
+        found: String,
+        /// What is needed.
+        expected: &'static str,
+    },
+}
+
+impl Policy {
+    /// The policy that comes with the program for the table called `table`, if there is one.
+    ///
+    /// # Errors
+    /// Where the bundled file is damaged, which a test rules out.
+    pub fn bundled(table: &str) -> Option<Result<Self, PolicyError>> {
+        let (name, bytes) = BUNDLED.into_iter().find(|(name, _)| *name == table)?;
+        Some(Self::from_bytes(bytes, &format!("the bundled policy for \"{name}\"")))
+    }
+
+    /// Reads a policy from a file.
+    ///
+    /// # Errors
+    /// Where the file is missing, damaged, from another program, or for other features or actions.
+    pub fn load(path: &Path) -> Result<Self, PolicyError> {
+        let origin = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
+        Self::from_bytes(&bytes, &origin)
+    }
+
+    fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
+        let content = |reason| PolicyError::Content { origin: name.to_owned(), reason };
+        let reader = Reader::new(bytes).map_err(content)?;
+        let origin: Origin = reader.note().map_err(content)?;
+        let version = |what, found: &String, expected| {
+            let same = found == expected;
+            let error = || PolicyError::Version { origin: name.to_owned(), what, found: found.clone(), expected };
+            if same { Ok(()) } else { Err(error()) }
+        };
+        version("features", &origin.features, FEATURE_VERSION)?;
+        version("actions", &origin.actions, ACTION_SPACE)?;
+        let network = |name, inputs, outputs: &dyn Fn(usize) -> bool, expected: &str| {
+            let network = reader.network(name, inputs)?;
+            let last = network.sizes()[network.sizes().len() - 1];
+            let wrong = || WeightsError::Array { name: name.to_owned(), expected: expected.to_owned() };
+            if outputs(last) { Ok(network) } else { Err(wrong()) }
+        };
+        let heads = |outputs: usize| outputs.is_multiple_of(ACTIONS);
+        let actor = network("actor", ACTOR_INPUTS, &heads, "a network with two outputs a head").map_err(content)?;
+        let one = |outputs| outputs == 1;
+        let critic = network("critic", CRITIC_INPUTS, &one, "a network with one output").map_err(content)?;
+        Ok(Self { networks: Networks { actor, critic }, origin })
+    }
+
+    /// Writes the policy to a file, whole or not at all.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn save(&self, path: &Path) -> std::io::Result<()> {
+        write_atomic(path, &self.to_bytes().map_err(std::io::Error::other)?)
+    }
+
+    fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
+        let mut writer = Writer::default();
+        for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
+            writer.add_network(name, network)?;
+        }
+        writer.finish(&self.origin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{Layout, Table};
+    use candle_core::{Device, Tensor};
+
+    fn bundled() -> Policy {
+        Policy::bundled("match").unwrap().unwrap()
+    }
+
+    fn is_shared<T: Send + Sync>(_: &T) {}
+
+    #[test]
+    fn the_bundled_policy_reads_and_says_what_it_is_for() {
+        let policy = bundled();
+        is_shared(&policy);
+        assert_eq!((policy.origin().table.as_str(), policy.origin().reward), ("match", Reward::R3));
+        assert!(Policy::bundled("thesis").is_none());
+    }
+
+    #[test]
+    fn a_saved_policy_plays_the_same_and_damage_is_reported() {
+        let (policy, table) = (bundled(), Table::default());
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("policy.safetensors");
+        policy.save(&path).unwrap();
+        let layout = Layout::opening(&table);
+        assert_eq!(Policy::load(&path).unwrap().proposals(&table, &layout), policy.proposals(&table, &layout));
+
+        let bytes = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+        let message = Policy::load(&path).unwrap_err().to_string();
+        assert!(message.contains("policy.safetensors") && message.contains("carom train"), "{message}");
+        let missing = Policy::load(&folder.path().join("none")).unwrap_err().to_string();
+        assert!(missing.contains("none") && missing.contains("cannot be read"), "{missing}");
+    }
+
+    #[test]
+    fn other_features_and_wrong_sizes_are_refused_by_name() {
+        let refuse = |change: &dyn Fn(&mut Policy)| {
+            let mut policy = bundled();
+            change(&mut policy);
+            Policy::from_bytes(&policy.to_bytes().unwrap(), "it").unwrap_err().to_string()
+        };
+        assert!(refuse(&|policy| policy.origin.features = "raw-0".into()).contains("raw-0"));
+        assert!(refuse(&|policy| policy.origin.actions = "full".into()).contains("full"));
+        assert!(refuse(&|policy| policy.networks.critic = policy.networks.actor.clone()).contains("critic"));
+        let poisoned = refuse(&|policy| {
+            let parameters = policy.networks.critic.parameters();
+            let nan = Tensor::full(f32::NAN, parameters.shape(), &Device::Cpu).unwrap();
+            parameters.set(&nan).unwrap();
+        });
+        assert!(poisoned.contains("finite"), "{poisoned}");
+    }
+}

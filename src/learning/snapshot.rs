@@ -1,0 +1,171 @@
+//! A trainer as a file: everything that the next turn depends on, so that a run that goes on is the run that never
+//! stopped.
+
+use glam::DVec2;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    action::{ACTION_SPACE, ACTIONS},
+    adam::Adam,
+    ddpg::Ddpg,
+    features::FEATURE_VERSION,
+    mlp::Mlp,
+    networks::Networks,
+    replay::{Experience, ReplayBuffer},
+    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    trainer::{Task, Trainer},
+    view::View,
+    weights::{Reader, WeightsError, Writer},
+};
+use crate::table::Table;
+
+/// What a snapshot holds beside arrays.
+#[derive(Debug, Serialize, Deserialize)]
+struct Note {
+    task: Task,
+    table: Table,
+    features: String,
+    actions: String,
+    shots: u64,
+    updates: u64,
+    rng: Xoshiro256PlusPlus,
+    actor_steps: u32,
+    critic_steps: u32,
+    replay_next: usize,
+}
+
+/// Numbers of a view in a snapshot.
+const VIEW_NUMBERS: usize = 8;
+
+/// The trainer's state as the bytes of a safetensors file.
+///
+/// # Errors
+/// Whatever candle or safetensors reports.
+pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
+    let (agent, replay) = (&trainer.agent, &trainer.replay);
+    let mut writer = Writer::default();
+    for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
+        writer.add_network(&format!("{name}.actor"), &networks.actor)?;
+        writer.add_network(&format!("{name}.critic"), &networks.critic)?;
+    }
+    let mut steps = [0; 2];
+    let optimisers = [("actor", &agent.actor_optimiser), ("critic", &agent.critic_optimiser)];
+    for (steps, (name, optimiser)) in steps.iter_mut().zip(optimisers) {
+        let (moments, taken) = optimiser.state();
+        *steps = taken;
+        for (order, moment) in moments.iter().enumerate() {
+            let values: Vec<f32> = moment.to_vec1()?;
+            writer.add(format!("{name}.moment.{order}"), &[values.len()], &values);
+        }
+    }
+    let held = replay.experiences();
+    let views: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.view)).collect();
+    let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
+    let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
+    writer.add_f64("replay.views", &[held.len(), VIEW_NUMBERS], &views);
+    writer.add("replay.actions", &[held.len(), ACTIONS], &actions);
+    writer.add("replay.successes", &[held.len()], &successes);
+    writer.finish(&Note {
+        task: trainer.task.clone(),
+        table: Table::clone(&trainer.table),
+        features: FEATURE_VERSION.to_owned(),
+        actions: ACTION_SPACE.to_owned(),
+        shots: trainer.shots,
+        updates: trainer.updates,
+        rng: trainer.rng.clone(),
+        actor_steps: steps[0],
+        critic_steps: steps[1],
+        replay_next: replay.next(),
+    })
+}
+
+/// The trainer that [`write()`] was given.
+///
+/// # Errors
+/// Where the bytes are damaged or from a version with other features or actions.
+pub fn read(bytes: &[u8]) -> Result<Trainer, WeightsError> {
+    let reader = Reader::new(bytes)?;
+    let note: Note = reader.note()?;
+    if note.features != FEATURE_VERSION || note.actions != ACTION_SPACE {
+        return Err(WeightsError::Foreign);
+    }
+    let networks = |name: &str| -> Result<Networks, WeightsError> {
+        Ok(Networks {
+            actor: reader.network(&format!("{name}.actor"), ACTOR_INPUTS)?,
+            critic: reader.network(&format!("{name}.critic"), CRITIC_INPUTS)?,
+        })
+    };
+    let (online, target) = (networks("online")?, networks("target")?);
+    let optimiser = |name: &str, network: &Mlp, steps| -> Result<Adam, WeightsError> {
+        let moment = |order: usize| -> Result<Vec<f32>, WeightsError> {
+            let name = format!("{name}.moment.{order}");
+            let (_, values) = reader.array(&name)?;
+            let expected = network.parameters().elem_count();
+            let wrong = || WeightsError::Array { name, expected: format!("{expected} values") };
+            if values.len() == expected { Ok(values) } else { Err(wrong()) }
+        };
+        Ok(Adam::from_state([moment(0)?, moment(1)?], steps)?)
+    };
+    let agent = Ddpg {
+        actor_optimiser: optimiser("actor", &online.actor, note.actor_steps)?,
+        critic_optimiser: optimiser("critic", &online.critic, note.critic_steps)?,
+        hyper: note.task.hyperparameters.clone(),
+        online,
+        target,
+    };
+    let replay = ReplayBuffer::restore(note.task.hyperparameters.replay, experiences(&reader)?, note.replay_next);
+    let Note { task, table, rng, shots, updates, .. } = note;
+    Ok(Trainer { task, table: table.into(), agent, replay, rng, shots, updates })
+}
+
+fn view_numbers(view: &View) -> [f64; VIEW_NUMBERS] {
+    let View { cue, first, second, mirror } = *view;
+    [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
+}
+
+fn experiences(reader: &Reader<'_>) -> Result<Vec<Experience>, WeightsError> {
+    let views = reader.array_f64("replay.views")?;
+    let ((_, actions), (_, successes)) = (reader.array("replay.actions")?, reader.array("replay.successes")?);
+    let (views, actions) = (views.as_chunks::<VIEW_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
+    if views.len() != successes.len() || actions.len() != successes.len() {
+        let expected = format!("{} shots", successes.len());
+        return Err(WeightsError::Array { name: "replay.views".to_owned(), expected });
+    }
+    let shots = views.iter().zip(actions).zip(successes);
+    Ok(shots
+        .map(|((v, action), success)| {
+            let pair = |index: usize| DVec2::new(v[index], v[index + 1]);
+            let view = View { cue: pair(0), first: pair(2), second: pair(4), mirror: pair(6) };
+            Experience { view, action: *action, success }
+        })
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::trainer::tests::small_task;
+
+    #[test]
+    fn a_run_that_goes_on_is_bit_for_bit_the_run_that_never_stopped() {
+        let mut whole = Trainer::new(small_task(), Table::default()).unwrap();
+        let mut parts = Trainer::new(small_task(), Table::default()).unwrap();
+        for _ in 0..5 {
+            whole.turn().unwrap();
+            parts.turn().unwrap();
+        }
+        let mut parts = read(&write(&parts).unwrap()).unwrap();
+        for _ in 0..5 {
+            assert_eq!(whole.turn().unwrap(), parts.turn().unwrap());
+        }
+        assert_eq!(write(&whole).unwrap(), write(&parts).unwrap());
+    }
+
+    #[test]
+    fn a_damaged_snapshot_is_refused() {
+        let bytes = write(&Trainer::new(small_task(), Table::default()).unwrap()).unwrap();
+        assert!(read(&bytes[..bytes.len() - 1]).is_err());
+        assert!(read(b"").is_err());
+    }
+}

@@ -1,0 +1,152 @@
+//! The layout as an agent sees it: which object ball to meet first, on which side, mirrored so that all look alike.
+
+use glam::DVec2;
+
+use crate::table::{Layout, Table};
+
+/// One way to look at a layout: a first object ball, and the side of it on which the cue ball shall pass.
+///
+/// A shot without english plays the same in a mirror. So the layout is mirrored until the cue ball always passes on
+/// the *left* of the first ball and lies in the right half of the table (x >= 0): an agent then learns one kind of
+/// shot instead of eight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Centre of the cue ball in the mirrored frame, m.
+    pub cue: DVec2,
+    /// Centre of the object ball that is met first, m.
+    pub first: DVec2,
+    /// Centre of the other object ball, m.
+    pub second: DVec2,
+    /// Which axes were mirrored: -1 or 1 each.
+    pub(super) mirror: DVec2,
+}
+
+/// Number of views of a layout: either object ball first, passed on either side.
+pub const VIEWS: usize = 4;
+
+impl View {
+    /// The view number `index` (below [`VIEWS`]) of a layout.
+    pub fn new(layout: &Layout, index: usize) -> Self {
+        let [cue, one, two] = layout.balls;
+        let (first, second) = if index & 1 == 0 { (one, two) } else { (two, one) };
+        let x = if cue.x < 0.0 { -1.0 } else { 1.0 };
+        // Mirroring one axis swaps the sides; mirroring both, a half turn, does not.
+        let mirror = if index & 2 == 0 { DVec2::new(x, x) } else { DVec2::new(x, -x) };
+        Self { cue: mirror * cue, first: mirror * first, second: mirror * second, mirror }
+    }
+
+    /// All views of a layout.
+    pub fn all(layout: &Layout) -> [Self; VIEWS] {
+        std::array::from_fn(|index| Self::new(layout, index))
+    }
+
+    /// A direction of this view as an angle on the table, rad.
+    pub fn angle_on_table(&self, direction: DVec2) -> f64 {
+        (self.mirror * direction).to_angle()
+    }
+
+    /// The lines from ball to ball.
+    pub fn lines(&self, table: &Table) -> Lines {
+        Lines {
+            to_first: Line::between(self.cue, self.first, table),
+            to_second: Line::between(self.cue, self.second, table),
+            onward: Line::between(self.first, self.second, table),
+        }
+    }
+
+    /// Images of the second ball in the four cushions: where a ball that rebounds from a cushion like light from a
+    /// mirror must aim to meet it.
+    pub fn images(&self, table: &Table) -> [DVec2; 4] {
+        let DVec2 { x, y } = self.second;
+        let edge = 2.0 * table.reach();
+        [DVec2::new(edge.x - x, y), DVec2::new(-edge.x - x, y), DVec2::new(x, edge.y - y), DVec2::new(x, -edge.y - y)]
+    }
+}
+
+/// The three lines between the balls of a view.
+#[derive(Clone, Copy, Debug)]
+pub struct Lines {
+    /// From the cue ball to the first object ball.
+    pub to_first: Line,
+    /// From the cue ball to the second.
+    pub to_second: Line,
+    /// From the first object ball to the second.
+    pub onward: Line,
+}
+
+/// A distance and a direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    /// Length, m; at least one ball diameter.
+    pub distance: f64,
+    /// Unit vector.
+    pub direction: DVec2,
+}
+
+impl Line {
+    fn between(from: DVec2, to: DVec2, table: &Table) -> Self {
+        let span = to - from;
+        let distance = span.length().max(2.0 * table.radius);
+        Self { distance, direction: span / distance }
+    }
+}
+
+/// How far a ball at `from` travels along the unit vector `direction` until it meets a cushion, m.
+pub fn free_path(table: &Table, from: DVec2, direction: DVec2) -> f64 {
+    let along = |position: f64, slope: f64, reach: f64| {
+        if slope == 0.0 { f64::INFINITY } else { ((reach.copysign(slope) - position) / slope).max(0.0) }
+    };
+    let reach = table.reach();
+    along(from.x, direction.x, reach.x).min(along(from.y, direction.y, reach.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn the_cue_ball_always_lies_on_the_right_and_distances_stay() {
+        let table = Table::default();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+        for _ in 0..100 {
+            let layout = Layout::random(&table, &mut rng);
+            for view in View::all(&layout) {
+                assert!(view.cue.x >= 0.0);
+                assert!((view.first.distance(view.second) - layout.balls[1].distance(layout.balls[2])).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn mirrored_layouts_have_the_same_views() {
+        let table = Table::default();
+        let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(4));
+        for mirror in [DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)] {
+            let mirrored = Layout::new(layout.balls.map(|ball| mirror * ball));
+            for view in View::all(&layout) {
+                let same = |other: &View| (other.cue, other.first, other.second) == (view.cue, view.first, view.second);
+                assert!(View::all(&mirrored).iter().any(same));
+            }
+        }
+    }
+
+    #[test]
+    fn a_direction_returns_to_the_table() {
+        let layout = Layout::new([DVec2::new(-0.5, 0.1), DVec2::new(0.5, 0.2), DVec2::new(0.2, -0.4)]);
+        for view in View::all(&layout) {
+            let first = if view.mirror * view.first == layout.balls[1] { layout.balls[1] } else { layout.balls[2] };
+            let angle = view.angle_on_table(view.first - view.cue);
+            assert!((angle - (first - layout.balls[0]).to_angle()).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_free_path_ends_at_the_nearest_cushion() {
+        let table = Table::default();
+        assert_eq!(free_path(&table, DVec2::ZERO, DVec2::X), table.half_length());
+        assert_eq!(free_path(&table, DVec2::ZERO, DVec2::NEG_Y), table.half_width());
+        assert_eq!(free_path(&table, table.reach(), DVec2::X), 0.0);
+    }
+}

@@ -1,0 +1,225 @@
+//! Named arrays and a JSON note in a safetensors file: what policies and checkpoints are made of.
+
+use std::collections::HashMap;
+
+use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
+use serde::{Serialize, de::DeserializeOwned};
+
+use super::mlp::Mlp;
+
+/// The one metadata key. All notes stand in one JSON text, because the order of several keys in a file is random and
+/// equal runs would give unequal files.
+const NOTE: &str = "carom";
+
+/// Why the content of a weights file cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum WeightsError {
+    /// Not a safetensors file, or a damaged one.
+    #[error("it is not a whole safetensors file ({0})")]
+    Format(#[from] SafeTensorError),
+    /// A safetensors file with another content.
+    #[error("its metadata has no \"carom\" entry of the right kind")]
+    Foreign,
+    /// An array is missing or of another type or shape than it must be.
+    #[error("its array \"{name}\" is not {expected}")]
+    Array {
+        /// The array's name.
+        name: String,
+        /// What it must be.
+        expected: String,
+    },
+    /// candle refuses.
+    #[error("candle refuses its networks ({0})")]
+    Network(#[from] candle_core::Error),
+    /// A weight is NaN or infinite.
+    #[error("its array \"{0}\" holds a value that is not a finite number")]
+    NotFinite(String),
+}
+
+/// Arrays to be written.
+#[derive(Debug, Default)]
+pub struct Writer {
+    arrays: Vec<(String, Dtype, Vec<usize>, Vec<u8>)>,
+}
+
+impl Writer {
+    /// Adds an array of `f32`.
+    pub fn add(&mut self, name: impl Into<String>, shape: &[usize], values: &[f32]) {
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.arrays.push((name.into(), Dtype::F32, shape.to_vec(), bytes));
+    }
+
+    /// Adds an array of `f64`.
+    pub fn add_f64(&mut self, name: impl Into<String>, shape: &[usize], values: &[f64]) {
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.arrays.push((name.into(), Dtype::F64, shape.to_vec(), bytes));
+    }
+
+    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn add_network(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        let parameters: Vec<f32> = network.parameters().to_vec1()?;
+        let mut rest = parameters.as_slice();
+        for (layer, pair) in network.sizes().windows(2).enumerate() {
+            let (weight, after) = rest.split_at(pair[0] * pair[1]);
+            let (bias, after) = after.split_at(pair[1]);
+            self.add(format!("{name}.{layer}.weight"), pair, weight);
+            self.add(format!("{name}.{layer}.bias"), &pair[1..], bias);
+            rest = after;
+        }
+        Ok(())
+    }
+
+    /// The file's bytes, with a note that a [`Reader`] gives back.
+    ///
+    /// # Errors
+    /// Whatever safetensors reports.
+    pub fn finish(&self, note: &impl Serialize) -> Result<Vec<u8>, WeightsError> {
+        let note = serde_json::to_string(note).map_err(SafeTensorError::from)?;
+        let views = self.arrays.iter().map(|(name, dtype, shape, bytes)| {
+            TensorView::new(*dtype, shape.clone(), bytes).map(|view| (name.as_str(), view))
+        });
+        let views = views.collect::<Result<Vec<_>, _>>()?;
+        Ok(safetensors::serialize(views, Some(HashMap::from([(NOTE.to_owned(), note)])))?)
+    }
+}
+
+/// The arrays and the note of a file.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    arrays: SafeTensors<'a>,
+    note: String,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads what a [`Writer`] wrote.
+    ///
+    /// # Errors
+    /// [`WeightsError::Format`] or [`WeightsError::Foreign`].
+    pub fn new(bytes: &'a [u8]) -> Result<Self, WeightsError> {
+        let (_, metadata) = SafeTensors::read_metadata(bytes)?;
+        let note = metadata.metadata().as_ref().and_then(|entries| entries.get(NOTE)).ok_or(WeightsError::Foreign)?;
+        Ok(Self { arrays: SafeTensors::deserialize(bytes)?, note: note.clone() })
+    }
+
+    /// The note.
+    ///
+    /// # Errors
+    /// [`WeightsError::Foreign`] where it does not read as `T`.
+    pub fn note<T: DeserializeOwned>(&self) -> Result<T, WeightsError> {
+        serde_json::from_str(&self.note).map_err(|_| WeightsError::Foreign)
+    }
+
+    /// An array of `f32`, its shape and values.
+    ///
+    /// # Errors
+    /// [`WeightsError::Array`] or [`WeightsError::NotFinite`].
+    pub fn array(&self, name: &str) -> Result<(Vec<usize>, Vec<f32>), WeightsError> {
+        let array = self.typed(name, Dtype::F32, "an array of 32-bit numbers")?;
+        let (values, _) = array.data().as_chunks::<4>();
+        let values: Vec<f32> = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        if values.iter().all(|value| value.is_finite()) {
+            Ok((array.shape().to_vec(), values))
+        } else {
+            Err(WeightsError::NotFinite(name.to_owned()))
+        }
+    }
+
+    /// The values of an array of `f64`.
+    ///
+    /// # Errors
+    /// [`WeightsError::Array`].
+    pub fn array_f64(&self, name: &str) -> Result<Vec<f64>, WeightsError> {
+        let array = self.typed(name, Dtype::F64, "an array of 64-bit numbers")?;
+        let (values, _) = array.data().as_chunks::<8>();
+        Ok(values.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
+    }
+
+    fn typed(&self, name: &str, dtype: Dtype, expected: &str) -> Result<TensorView<'a>, WeightsError> {
+        match self.arrays.tensor(name) {
+            Ok(array) if array.dtype() == dtype => Ok(array),
+            _ => Err(WeightsError::Array { name: name.to_owned(), expected: expected.to_owned() }),
+        }
+    }
+
+    /// The network that [`Writer::add_network`] wrote, whose first layer takes `inputs` values.
+    ///
+    /// # Errors
+    /// Where a layer is missing or does not fit the one before.
+    pub fn network(&self, name: &str, inputs: usize) -> Result<Mlp, WeightsError> {
+        let (mut sizes, mut parameters) = (vec![inputs], Vec::new());
+        for layer in 0.. {
+            let weight_name = format!("{name}.{layer}.weight");
+            if layer > 0 && self.arrays.tensor(&weight_name).is_err() {
+                break;
+            }
+            let before = sizes[layer];
+            let wrong = |name: String, expected: String| Err(WeightsError::Array { name, expected });
+            let (shape, weight) = self.array(&weight_name)?;
+            let &[rows, outputs] = shape.as_slice() else {
+                return wrong(weight_name, format!("a matrix of {before} rows"));
+            };
+            if rows != before || outputs == 0 {
+                return wrong(weight_name, format!("a matrix of {before} rows"));
+            }
+            let bias_name = format!("{name}.{layer}.bias");
+            let (shape, bias) = self.array(&bias_name)?;
+            if shape != [outputs] {
+                return wrong(bias_name, format!("{outputs} values"));
+            }
+            parameters.extend(weight);
+            parameters.extend(bias);
+            sizes.push(outputs);
+        }
+        Ok(Mlp::from_parameters(&sizes, parameters)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    fn file(values: &[f32]) -> Vec<u8> {
+        let mut writer = Writer::default();
+        let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
+        writer.add_network("actor", &mlp).unwrap();
+        writer.add("extra", &[values.len()], values);
+        writer.add_f64("exact", &[1], &[0.1]);
+        writer.finish(&"a note").unwrap()
+    }
+
+    #[test]
+    fn networks_arrays_and_the_note_come_back() {
+        let bytes = file(&[1.0, 2.0]);
+        let reader = Reader::new(&bytes).unwrap();
+        assert_eq!(reader.note::<String>().unwrap(), "a note");
+        assert_eq!(reader.array("extra").unwrap(), (vec![2], vec![1.0, 2.0]));
+        assert_eq!(reader.array_f64("exact").unwrap(), [0.1]);
+        let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
+        let read = reader.network("actor", 3).unwrap();
+        assert_eq!(read.sizes(), mlp.sizes());
+        let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
+        assert_eq!(values(&read), values(&mlp));
+        assert_eq!(bytes, file(&[1.0, 2.0]), "equal content gives equal files");
+    }
+
+    #[test]
+    fn damaged_and_foreign_files_are_refused_with_a_reason() {
+        let bytes = file(&[f32::NAN]);
+        let reader = Reader::new(&bytes).unwrap();
+        assert!(matches!(reader.array("extra"), Err(WeightsError::NotFinite(_))));
+        assert!(reader.array("exact").unwrap_err().to_string().contains("32-bit"));
+        assert!(reader.network("actor", 5).unwrap_err().to_string().contains("5 rows"));
+        assert!(reader.network("critic", 3).unwrap_err().to_string().contains("critic.0.weight"));
+        assert!(matches!(reader.note::<usize>(), Err(WeightsError::Foreign)));
+        for cut in [0, 7, 20, bytes.len() - 1] {
+            assert!(Reader::new(&bytes[..cut]).is_err(), "cut at {cut}");
+        }
+        let foreign = safetensors::serialize(Vec::<(String, TensorView)>::new(), None).unwrap();
+        assert!(matches!(Reader::new(&foreign), Err(WeightsError::Foreign)));
+    }
+}
