@@ -1,11 +1,11 @@
 //! What the player sees: keys go through the real app, and its pictures are compared at both sizes.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use carom::{
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{Answer, App, Depth, Effect, Glyphs, Job, Look, Office, Shot},
+    terminal::{Answer, App, Depth, Effect, Effort, Glyphs, Job, Look, Office, Shot},
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
@@ -63,11 +63,15 @@ impl Player {
     }
 
     /// The coach answers with [`SHOT`].
-    fn answer(mut self) -> Self {
+    fn answer(self) -> Self {
+        self.answer_with(true, None)
+    }
+
+    fn answer_with(mut self, solved: bool, effort: Option<Effort>) -> Self {
         let job = self.asked.take().expect("the coach was asked");
         let cue = CueInputs::parse(SHOT).unwrap();
-        let shot = Shot::new(&job.table, &job.layout, cue, true, "policy").unwrap();
-        self.app.receive(Answer { id: job.id, shot: Ok(Arc::new(shot)) });
+        let shot = Shot::new(&job.table, &job.layout, cue, solved, "policy").unwrap();
+        self.app.receive(Answer { id: job.id, shot: Ok(Arc::new(shot)), effort });
         self
     }
 
@@ -148,6 +152,23 @@ fn a_shot_is_recommended() {
     for part in ["makes the point", "-0.200 R, 6.2 mm right", "82.60°", "V0", "ω0", "hits yellow"] {
         assert!(text.contains(part), "{part}\n{text}");
     }
+}
+
+#[test]
+fn a_shot_without_a_point_is_said_to_be_one() {
+    let effort = Effort { simulations: 4321, elapsed: Duration::from_secs(2) };
+    let player = Player::new().press("Enter").answer_with(false, Some(effort));
+    check("no_point", &player);
+    assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
+}
+
+#[test]
+fn what_the_coach_refuses_is_said_in_its_words() {
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.take().unwrap();
+    let shot = Err("the weights file is corrupt".to_owned());
+    player.app.receive(Answer { id: job.id, shot, effort: None });
+    assert!(player.text(80, 24).contains("the weights file is corrupt"));
 }
 
 #[test]

@@ -35,7 +35,7 @@ pub use app::{App, Effect, Mode};
 pub use geometry::Mapping;
 pub use keymap::{Action, When};
 pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, Job, Office};
+pub use recommender::{Answer, Effort, Job, Office};
 pub use shot::Shot;
 
 /// Why the terminal program cannot run.

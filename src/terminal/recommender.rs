@@ -35,6 +35,15 @@ pub struct Job {
     pub cancel: Arc<AtomicBool>,
 }
 
+/// What an answer has cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Shots that were simulated.
+    pub simulations: u64,
+    /// How long the coach thought.
+    pub elapsed: Duration,
+}
+
 /// The coach's answer.
 #[derive(Clone, Debug)]
 pub struct Answer {
@@ -42,6 +51,8 @@ pub struct Answer {
     pub id: u64,
     /// The shot, or a sentence that says why there is none.
     pub shot: Result<Arc<Shot>, String>,
+    /// What it has cost, where that is to be told.
+    pub effort: Option<Effort>,
 }
 
 /// The coach, made when it is first asked: reading its networks must not delay the first picture.
@@ -53,17 +64,22 @@ pub struct Office {
 impl Office {
     /// Answers a question on this thread. A panic becomes a sentence.
     pub fn answer(&self, job: &Job) -> Answer {
-        let shot = catch_unwind(AssertUnwindSafe(|| self.shot(job)))
+        let found = catch_unwind(AssertUnwindSafe(|| self.shot(job)))
             .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
-        Answer { id: job.id, shot: shot.map(Arc::new) }
+        match found {
+            Ok((shot, effort)) => Answer { id: job.id, shot: Ok(Arc::new(shot)), effort: Some(effort) },
+            Err(sentence) => Answer { id: job.id, shot: Err(sentence), effort: None },
+        }
     }
 
-    fn shot(&self, job: &Job) -> Result<Shot, String> {
+    fn shot(&self, job: &Job) -> Result<(Shot, Effort), String> {
         let coach = self.coach.get_or_init(|| Coach::new(job.table.clone()).map_err(|error| error.to_string()));
         let coach = coach.as_ref().map_err(Clone::clone)?;
         let request = Request { budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel), ..Request::default() };
         let found = coach.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
+        let effort = Effort { simulations: found.simulations, elapsed: found.elapsed };
         Shot::new(&job.table, &job.layout, found.cue, found.solved, found.source.to_string())
+            .map(|shot| (shot, effort))
             .map_err(|error| error.to_string())
     }
 }

@@ -43,11 +43,11 @@ pub fn run(app: App) -> io::Result<()> {
     })?;
     let mut runner = Runner { app, session, jobs };
     let end = runner.until_the_end(&news);
-    runner.session.leave()?;
+    let left = runner.session.leave();
     match end? {
-        // The parent is to see that a signal ended the program.
+        // The parent is to see that a signal ended the program, even where the terminal is gone already.
         Some(signal) => emulate_default_handler(signal),
-        None => Ok(()),
+        None => left,
     }
 }
 
