@@ -11,8 +11,6 @@ use clap::{Parser, Subcommand};
 
 pub use failure::Failure;
 
-use crate::table::Table;
-
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
 #[command(version, about, long_about = None)]
@@ -39,9 +37,7 @@ impl Cli {
     /// A [`Failure`] with its sentence and exit code.
     pub fn run(self) -> Result<(), Failure> {
         match self.command {
-            None => Table::preset(&self.table)
-                .map_err(Failure::wrong_input)
-                .and_then(|table| crate::terminal::run(table, None).map_err(Failure::wrong_input)),
+            None => crate::terminal::run(input::table_named(&self.table)?, None).map_err(Failure::wrong_input),
             Some(Command::Simulate(args)) => simulate::run(&args),
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),

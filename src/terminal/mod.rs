@@ -21,7 +21,6 @@ mod session;
 mod sgr;
 mod shot;
 mod sprites;
-mod standin;
 mod status;
 mod theme;
 mod widgets;

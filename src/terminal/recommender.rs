@@ -11,11 +11,11 @@ use std::{
     time::Duration,
 };
 
-use super::{
-    shot::Shot,
-    standin::{Coach, Request},
+use super::shot::Shot;
+use crate::{
+    coach::{Coach, Request},
+    table::{Layout, Table},
 };
-use crate::table::{Layout, Table};
 
 /// Longest time that the coach may think, s. Its goal is well under 100 ms; only layouts that are very hard use it up.
 const BUDGET: Duration = Duration::from_secs(2);
