@@ -8,6 +8,7 @@ use carom::{
     terminal::{Answer, App, Depth, Effect, Effort, Glyphs, Job, Look, Office, Shot},
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
 
 const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
@@ -272,6 +273,29 @@ fn every_size_can_be_drawn() {
         }
     }
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn no_series_of_keys_breaks_the_program(keys in prop::collection::vec(0..KEYS.len(), 1..60), width in 60_u16..200) {
+        let mut player = Player::new();
+        for key in keys {
+            player = player.press(KEYS[key]).wait(0.2);
+            if player.asked.is_some() && key % 3 > 0 {
+                player = player.answer();
+            }
+        }
+        prop_assert!(player.app.layout().validate(player.app.table()).is_ok());
+        player.picture(width, 40);
+    }
+}
+
+/// What a player may press at any time, but for leaving.
+const KEYS: &[&str] = &[
+    "Left", "S-Left", "C-Left", "Up", "S-Up", "Right", "S-Right", "Down", "S-Down", "h", "J", "+", "-", "Tab", "1",
+    "2", "3", "Enter", "Enter", "Enter", "Esc", "Space", ",", ".", "0", "End", "n", "u", "U", "o", "r", "g", "?", "x",
+];
 
 #[test]
 fn the_balls_have_their_colours_where_they_lie() {
