@@ -56,7 +56,7 @@ pub fn across_word(a: f64) -> &'static str {
     match a {
         _ if a > 0.0 => "left",
         _ if a < 0.0 => "right",
-        _ => "centre",
+        _ => "mid",
     }
 }
 
@@ -65,7 +65,7 @@ pub fn height_word(b: f64) -> &'static str {
     match b {
         _ if b > 0.0 => "above",
         _ if b < 0.0 => "below",
-        _ => "centre",
+        _ => "mid",
     }
 }
 

@@ -191,7 +191,10 @@ impl App {
 
 fn news(shot: &Shot, effort: Option<Effort>) -> Message {
     let contact = shot.contact_words().map_or(String::new(), |words| format!("; {words}"));
-    let took = effort.map_or(String::new(), |effort| format!(", {} ms", effort.elapsed.as_millis()));
+    let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
+        0 => ", under 1 ms".to_owned(),
+        milliseconds => format!(", {milliseconds} ms"),
+    });
     if shot.solved {
         return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
     }

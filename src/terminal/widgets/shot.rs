@@ -53,13 +53,16 @@ type Row = (&'static str, String, String);
 
 fn wide_rows(shot: &Shot, radius: f64, look: Look) -> Vec<Row> {
     let cue = &shot.cue;
-    let offset = |value: f64| fixed((1000.0 * radius * value).abs(), 1);
+    let offset = |value: f64, word: &str| match value {
+        0.0 => "R, at the centre".to_owned(),
+        _ => format!("R, {} mm {word}", fixed((1000.0 * radius * value).abs(), 1)),
+    };
     let degree = look.pick("°", " deg");
     let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
     let value = |text: String| format!("{text:>7}");
     vec![
-        ("a", value(fixed(cue.a, 3)), format!("R, {} mm {}", offset(cue.a), across_word(cue.a))),
-        ("b", value(fixed(cue.b, 3)), format!("R, {} mm {}", offset(cue.b), height_word(cue.b))),
+        ("a", value(fixed(cue.a, 3)), offset(cue.a, across_word(cue.a))),
+        ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
         (look.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
         (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + degree), "from the x axis".into()),
         ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
