@@ -13,7 +13,9 @@ fn main() -> ExitCode {
     match Cli::parse().run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("carom: {failure}");
+            if !failure.is_silent() {
+                eprintln!("carom: {failure}");
+            }
             ExitCode::from(failure.code())
         }
     }

@@ -4,7 +4,7 @@ use std::{path::Path, time::Instant};
 
 use serde::Serialize;
 
-use super::Failure;
+use super::{Failure, input::table_named};
 use crate::{
     game::Reward,
     learning::{
@@ -12,7 +12,7 @@ use crate::{
         evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
     },
     physics::CueInputs,
-    table::{Layout, Table, TableError},
+    table::{Layout, Table},
 };
 
 /// Measure a policy on layouts that it has not practised: the share on which its shot succeeds, with the 95 % confidence
@@ -136,18 +136,6 @@ fn policy_named(name: &str, table: &Table) -> Result<Policy, Failure> {
         Policy::load(Path::new(name))
     };
     policy.map_err(|error: PolicyError| Failure::failed(error))
-}
-
-/// A bundled table, or the one in the TOML file at the path `name`.
-pub(super) fn table_named(name: &str) -> Result<Table, Failure> {
-    match Table::preset(name) {
-        Err(TableError::Unknown(_)) if Path::new(name).exists() => {
-            let text =
-                std::fs::read_to_string(name).map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
-            Table::from_toml(&text).map_err(Failure::wrong_input)
-        }
-        table => table.map_err(Failure::wrong_input),
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! How a command ends when it cannot do what was asked: one sentence and an exit code.
 
-use std::fmt::Display;
+use std::{fmt::Display, io};
 
 /// A sentence for the user and the process' exit code.
 #[derive(Debug, thiserror::Error)]
@@ -24,5 +24,21 @@ impl Failure {
     /// The process' exit code.
     pub const fn code(&self) -> u8 {
         self.code
+    }
+
+    /// Whether there is nothing to say: whoever read the output has seen enough.
+    pub fn is_silent(&self) -> bool {
+        self.message.is_empty()
+    }
+}
+
+impl From<io::Error> for Failure {
+    /// An error in writing the output. A closed pipe (`carom simulate | head`) is no failure of ours.
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self { message: String::new(), code: 0 }
+        } else {
+            Self::failed(format_args!("the output cannot be written: {error}"))
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod evaluate;
 mod failure;
+mod input;
 mod recommend;
 mod simulate;
 mod train;

@@ -1,11 +1,121 @@
-//! `carom simulate`: Simulate one shot, or a file of them.
+//! `carom simulate`: one shot as a list of events, or a file of shots.
 
-use super::Failure;
+use std::io::{self, Write};
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Failure,
+    input::{ByTable, answer_lines, layout, table_named},
+};
+use crate::{
+    physics::CueInputs,
+    simulation::{Event, Recording},
+    table::{Layout, Table},
+};
 
 /// Simulate one shot, or a file of them.
 #[derive(Debug, clap::Args)]
-pub struct Args {}
+pub struct Args {
+    /// The table: "match", "thesis" or the path of a TOML file.
+    #[arg(long, default_value = "match")]
+    table: String,
+    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
+    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
+    #[arg(long, allow_hyphen_values = true)]
+    layout: Option<String>,
+    /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s.
+    #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
+    shot: Option<String>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    /// JSON Lines of shots with `preset`, `layout` and `cue`; "-" reads the standard input.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["layout", "shot", "table"])]
+    batch: Option<String>,
+}
 
-pub(super) fn run(_args: &Args) -> Result<(), Failure> {
+/// One line of a batch.
+#[derive(Deserialize)]
+struct Question {
+    preset: String,
+    layout: Layout,
+    cue: CueInputs,
+}
+
+/// The answer in JSON.
+#[derive(Serialize)]
+struct Answer {
+    events: Vec<Event>,
+    #[serde(rename = "final")]
+    end: Layout,
+    duration: f64,
+}
+
+impl Answer {
+    fn of(recording: &Recording) -> Self {
+        Self { events: recording.events().to_vec(), end: recording.final_layout(), duration: recording.duration() }
+    }
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(file) = &args.batch {
+        let mut tables = ByTable::new(Ok);
+        return answer_lines(file, |question: Question| {
+            Ok(Answer::of(&play(tables.get(&question.preset)?, &question.layout, &question.cue)?))
+        });
+    }
+    let table = table_named(&args.table)?;
+    let layout = layout(args.layout.as_deref(), &table)?;
+    // clap demands a shot where there is no batch.
+    let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
+    let recording = play(&table, &layout, &cue)?;
+    if cue.validate_tip(table.miscue_limit).is_err() {
+        eprintln!(
+            "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
+            cue.tip_offset_squared(),
+            table.name,
+            table.miscue_limit
+        );
+    }
+    let mut out = io::stdout().lock();
+    if args.json {
+        serde_json::to_writer(&mut out, &Answer::of(&recording)).map_err(io::Error::from)?;
+        writeln!(out)?;
+    } else {
+        describe(&mut out, &recording)?;
+    }
+    Ok(())
+}
+
+fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording, Failure> {
+    Recording::new(table, layout, cue).map_err(Failure::wrong_input)
+}
+
+/// The shot for people to read.
+fn describe(out: &mut impl Write, recording: &Recording) -> io::Result<()> {
+    let impulse = recording.impulse();
+    let (v, w) = (impulse.velocity, impulse.spin);
+    writeln!(out, "impulse: V0 = ({:.3}, {:.3}, 0) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v.x, v.y, w.x, w.y, w.z)?;
+    writeln!(out, "{:>12}  {:<18}  {:<5}  {:<6}  cue ball", "t, s", "event", "balls", "rail")?;
+    for event in recording.events() {
+        let (first, second) = event.kind.balls();
+        let balls = second.map_or_else(|| first.to_string(), |second| format!("{first} {second}"));
+        let rail = event.kind.rail().map_or("", crate::simulation::Rail::name);
+        let cue_ball = recording.state(0, event.time);
+        writeln!(
+            out,
+            "{:>12.9}  {:<18}  {balls:<5}  {rail:<6}  ({:.4}, {:.4}) m at {:.3} m/s",
+            event.time,
+            event.kind.name(),
+            cue_ball.position.x,
+            cue_ball.position.y,
+            cue_ball.velocity.length()
+        )?;
+    }
+    writeln!(out, "all still after {:.6} s:", recording.duration())?;
+    for (ball, position) in recording.final_layout().balls.iter().enumerate() {
+        writeln!(out, "  ball {ball} at ({:.6}, {:.6}) m", position.x, position.y)?;
+    }
     Ok(())
 }

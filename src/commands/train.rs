@@ -18,7 +18,7 @@ use signal_hook::{
     flag,
 };
 
-use super::{Failure, evaluate::table_named};
+use super::{Failure, input::table_named};
 use crate::{
     game::Reward,
     learning::{

@@ -4,4 +4,4 @@ mod reward;
 mod rules;
 
 pub use reward::{Reward, UnknownReward};
-pub use rules::{Rule, Tally, UnknownRule, scores};
+pub use rules::{Referee, Rule, Tally, UnknownRule, scores};

@@ -116,20 +116,24 @@ impl Tally {
 }
 
 /// Watches a shot just until the point is made or can no longer be made.
-struct Referee(Tally);
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Referee {
+    /// What the cue ball has done.
+    pub tally: Tally,
+}
 
 impl Observer for Referee {
     fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.0.note(&event);
-        if self.0.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        self.tally.note(&event);
+        if self.tally.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
 /// Whether a shot makes a point. The layout and the stroke are taken as they are.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
-    let mut referee = Referee(Tally::default());
+    let mut referee = Referee::default();
     simulate(table, layout, &strike(table, cue), &mut referee);
-    referee.0.is_point(rule)
+    referee.tally.is_point(rule)
 }
 
 #[cfg(test)]

@@ -23,6 +23,16 @@ impl Rail {
     /// All four, in a fixed order.
     pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
 
+    /// The name used in JSON and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Bottom => "bottom",
+            Self::Top => "top",
+        }
+    }
+
     /// Unit vector from the cushion into the table.
     pub const fn normal(self) -> DVec2 {
         match self {

@@ -1,0 +1,103 @@
+//! What subcommands read alike: tables, layouts and files of JSON Lines.
+
+use std::{
+    collections::HashMap,
+    fs::File,
+    io::{self, BufRead, BufReader, Write},
+    path::Path,
+};
+
+use serde::{Serialize, de::DeserializeOwned};
+
+use super::Failure;
+use crate::table::{Layout, Table, TableError};
+
+/// A bundled table, or the one in the TOML file at the path `name`.
+pub fn table_named(name: &str) -> Result<Table, Failure> {
+    match Table::preset(name) {
+        Err(TableError::Unknown(_)) if Path::new(name).exists() => {
+            let text =
+                std::fs::read_to_string(name).map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
+            Table::from_toml(&text).map_err(Failure::wrong_input)
+        }
+        table => table.map_err(Failure::wrong_input),
+    }
+}
+
+/// The layout that `text` describes, or the opening position; checked.
+pub fn layout(text: Option<&str>, table: &Table) -> Result<Layout, Failure> {
+    let layout = match text {
+        None => Layout::opening(table),
+        Some(text) => Layout::parse(text, table).map_err(Failure::wrong_input)?,
+    };
+    layout.validate(table).map_err(Failure::wrong_input)?;
+    Ok(layout)
+}
+
+/// What a line that is refused gets instead of an answer.
+#[derive(Serialize)]
+struct Refusal {
+    error: String,
+}
+
+/// Answers every line of JSON Lines in `file` (`-` is the standard input) on the standard output, in order. A line that
+/// is refused gets an `error` and the rest go on; the command then ends as wrong input.
+pub fn answer_lines<Q: DeserializeOwned, A: Serialize>(
+    file: &str,
+    mut answer: impl FnMut(Q) -> Result<A, Failure>,
+) -> Result<(), Failure> {
+    let reader: Box<dyn BufRead> = if file == "-" {
+        Box::new(io::stdin().lock())
+    } else {
+        let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
+        Box::new(BufReader::new(File::open(file).map_err(unreadable)?))
+    };
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let (mut lines, mut refused) = (0_usize, 0_usize);
+    for line in reader.lines() {
+        let line = line.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
+        if line.trim().is_empty() {
+            continue;
+        }
+        lines += 1;
+        let question = serde_json::from_str(&line)
+            .map_err(|error| Failure::wrong_input(format_args!("line {lines} is not a valid JSON question: {error}")));
+        match question.and_then(&mut answer) {
+            Ok(answer) => serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?,
+            Err(failure) => {
+                refused += 1;
+                serde_json::to_writer(&mut out, &Refusal { error: failure.to_string() }).map_err(io::Error::from)?;
+            }
+        }
+        writeln!(out)?;
+    }
+    out.flush()?;
+    if refused > 0 {
+        return Err(Failure::wrong_input(format_args!(
+            "{refused} of {lines} lines were refused; each says why in its \"error\""
+        )));
+    }
+    Ok(())
+}
+
+/// Something that is made once for every table's name.
+pub struct ByTable<T, F> {
+    make: F,
+    made: HashMap<String, T>,
+}
+
+impl<T, F: Fn(Table) -> Result<T, Failure>> ByTable<T, F> {
+    /// Makes with `make`.
+    pub fn new(make: F) -> Self {
+        Self { make, made: HashMap::new() }
+    }
+
+    /// What belongs to the table called `name`.
+    pub fn get(&mut self, name: &str) -> Result<&T, Failure> {
+        if !self.made.contains_key(name) {
+            let made = (self.make)(table_named(name)?)?;
+            self.made.insert(name.to_owned(), made);
+        }
+        Ok(&self.made[name])
+    }
+}
