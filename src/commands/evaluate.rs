@@ -1,12 +1,17 @@
-//! `carom evaluate`: measure a policy on held-out layouts.
+//! `carom evaluate`: measure the recommender or a policy on held-out layouts.
 
-use std::{path::Path, time::Instant};
+use std::{
+    io::Write,
+    path::Path,
+    time::{Duration, Instant},
+};
 
 use serde::Serialize;
 
-use super::{Failure, input::table_named};
+use super::{Failure, input::table_named, recommend::coach_for};
 use crate::{
-    game::Reward,
+    coach::Request,
+    game::{Reward, Rule, scores},
     learning::{
         Policy, PolicyError,
         evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
@@ -15,8 +20,8 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Measure a policy on layouts that it has not practised: the share on which its shot succeeds, with the 95 % confidence
-/// interval.
+/// Measure the recommender, or with --policy-only the networks alone, on layouts that nobody has practised: the share on
+/// which the shot succeeds, with the 95 % confidence interval.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Number of layouts.
@@ -34,9 +39,15 @@ pub struct Args {
     /// Play the networks' own shot: one pass, no simulator call.
     #[arg(long)]
     policy_only: bool,
-    /// What counts as a success: r1 or r3. Of the others, which have no success, the mean is given.
-    #[arg(long, default_value_t = Reward::R3)]
+    /// With --policy-only, what counts as a success: r1 or r3. Of the others, which have no success, the mean is given.
+    #[arg(long, default_value_t = Reward::R3, requires = "policy_only")]
     reward: Reward,
+    /// Of the recommender, what counts as a point: straight, one-cushion or three-cushion.
+    #[arg(long, default_value_t = Rule::StraightRail, conflicts_with = "policy_only")]
+    rule: Rule,
+    /// Time that the recommender has for a layout, ms.
+    #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
+    budget_ms: u64,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -48,7 +59,8 @@ struct Report {
     player: &'static str,
     policy: String,
     table: String,
-    reward: Reward,
+    /// The reward or the rule.
+    measure: &'static str,
     seed: u64,
     mean_reward: f64,
     /// Of rewards that are 0 or 1.
@@ -57,27 +69,86 @@ struct Report {
     /// Decisions a second; judging the shots is not counted.
     layouts_per_second: f64,
     slowest_ms: f64,
+    /// Of the recommender.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulations_per_layout: Option<f64>,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let table = table_named(&args.table)?;
-    let policy = policy_named(&args.policy, &table)?;
-    let trained_on = &policy.origin().table;
-    if *trained_on != table.name {
-        eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
-    }
-    // The player is all that differs between what can be measured.
-    let report = measure(args, &table, "policy", &mut |layout| policy.propose(&table, layout));
-    if args.json {
-        println!("{}", serde_json::to_string(&report).map_err(Failure::failed)?);
+    // The player and the judge are all that differs between what can be measured.
+    let report = if args.policy_only {
+        let policy = policy_named(&args.policy, &table)?;
+        let trained_on = &policy.origin().table;
+        if *trained_on != table.name {
+            eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
+        }
+        let judge = Judge::Reward(args.reward);
+        measure(args, &table, "policy", judge, &mut |layout| policy.propose(&table, layout))
     } else {
-        print(&report, args.layouts);
+        let coach = coach_for(table.clone(), &args.policy)?;
+        let budget = Duration::from_millis(args.budget_ms);
+        let request = Request { rule: args.rule, budget, seed: args.seed, ..Request::default() };
+        let mut simulations = 0;
+        let judge = Judge::Rule(args.rule);
+        let mut report = measure(args, &table, "recommender", judge, &mut |layout| {
+            coach.recommend(layout, &request).map_or(NO_SHOT, |advice| {
+                simulations += advice.simulations;
+                advice.cue
+            })
+        });
+        report.simulations_per_layout = Some(simulations as f64 / f64::from(args.layouts));
+        report
+    };
+    if args.json {
+        let mut out = std::io::stdout().lock();
+        serde_json::to_writer(&mut out, &report).map_err(std::io::Error::from)?;
+        writeln!(out)?;
+    } else {
+        print(&mut std::io::stdout().lock(), &report, args.layouts)?;
     }
     Ok(())
 }
 
+/// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
+const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
+
+/// What a shot is measured by.
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Judge {
+    Reward(Reward),
+    Rule(Rule),
+}
+
+impl Judge {
+    fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
+        match self {
+            Self::Reward(reward) => reward.of(table, layout, cue),
+            Self::Rule(rule) => f64::from(u8::from(scores(rule, table, layout, cue))),
+        }
+    }
+
+    fn is_binary(self) -> bool {
+        matches!(self, Self::Rule(_) | Self::Reward(Reward::R1 | Reward::R3))
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Reward(reward) => reward.name(),
+            Self::Rule(rule) => rule.name(),
+        }
+    }
+}
+
 /// Lets `player` decide on every layout and plays what it decides.
-fn measure(args: &Args, table: &Table, name: &'static str, player: &mut dyn FnMut(&Layout) -> CueInputs) -> Report {
+fn measure(
+    args: &Args,
+    table: &Table,
+    name: &'static str,
+    judge: Judge,
+    player: &mut dyn FnMut(&Layout) -> CueInputs,
+) -> Report {
     let (mut total, mut successes, mut seconds, mut slowest) = (0.0, 0, 0.0, 0.0_f64);
     for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
         let start = Instant::now();
@@ -85,42 +156,46 @@ fn measure(args: &Args, table: &Table, name: &'static str, player: &mut dyn FnMu
         let taken = start.elapsed().as_secs_f64();
         seconds += taken;
         slowest = slowest.max(taken);
-        let reward = args.reward.of(table, &layout, &cue);
+        let reward = judge.of(table, &layout, &cue);
         total += reward;
         successes += usize::from(reward >= 1.0);
     }
     let count = args.layouts as usize;
-    let is_binary = matches!(args.reward, Reward::R1 | Reward::R3);
     Report {
         player: name,
         policy: args.policy.clone(),
         table: table.name.clone(),
-        reward: args.reward,
+        measure: judge.name(),
         seed: args.seed,
         mean_reward: total / count as f64,
-        success: is_binary.then(|| SuccessRate::new(successes, count)),
+        success: judge.is_binary().then(|| SuccessRate::new(successes, count)),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * slowest,
+        simulations_per_layout: None,
     }
 }
 
-fn print(report: &Report, layouts: u32) {
-    let Report { player, policy, table, reward, .. } = report;
+fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result<()> {
+    let Report { player, policy, table, measure, .. } = report;
     match report.success {
-        Some(SuccessRate { rate, low, high, .. }) => println!(
-            "{player} {policy} on \"{table}\": {reward} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
+        Some(SuccessRate { rate, low, high, .. }) => writeln!(
+            out,
+            "{player} {policy} on \"{table}\": {measure} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
             100.0 * rate,
             100.0 * low,
             100.0 * high
-        ),
-        None => {
-            println!(
-                "{player} {policy} on \"{table}\": mean {reward} {:.4} over {layouts} layouts",
-                report.mean_reward
-            );
-        }
+        )?,
+        None => writeln!(
+            out,
+            "{player} {policy} on \"{table}\": mean {measure} {:.4} over {layouts} layouts",
+            report.mean_reward
+        )?,
     }
-    println!("{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms);
+    write!(out, "{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms)?;
+    match report.simulations_per_layout {
+        Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout"),
+        None => writeln!(out),
+    }
 }
 
 /// The bundled policy for `table`, or the one in the file.
@@ -156,7 +231,7 @@ mod tests {
     #[test]
     fn a_player_is_measured_with_its_interval() {
         let table = Table::default();
-        let args = args(&["--layouts", "50", "--reward", "r1"]);
+        let args = args(&["--layouts", "50"]);
         let mut at_the_first_ball = |layout: &Layout| CueInputs {
             a: 0.0,
             b: 0.0,
@@ -164,7 +239,7 @@ mod tests {
             phi: (layout.balls[1] - layout.balls[0]).to_angle(),
             speed: 4.0,
         };
-        let report = measure(&args, &table, "straight", &mut at_the_first_ball);
+        let report = measure(&args, &table, "straight", Judge::Reward(Reward::R1), &mut at_the_first_ball);
         let success = report.success.unwrap();
         assert_eq!((report.mean_reward, success.successes, success.layouts), (1.0, 50, 50));
         assert!(success.low > 0.9 && report.layouts_per_second > 0.0);

@@ -121,7 +121,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The coach for `table` with the bundled policy, or with that of a file.
-fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
+pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     let coach = Coach::new(table).map_err(Failure::failed)?;
     if policy == "bundled" {
         return Ok(coach);
