@@ -6,11 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{
-    Constants, Rail,
-    predict::TOUCHING,
-    segment::{Curve, STILL},
-};
+use super::{Constants, Rail, predict::TOUCHING, segment::Curve};
 use crate::{
     physics::{BallState, Forces, Laws, MAX_TOUCHES, Touch, contact_forces, rolling_spin, slip},
     table::{BALLS, Table},
@@ -261,10 +257,6 @@ fn slope(balls: &[BallState; BALLS], forces: &Forces) -> [BallState; BALLS] {
 fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
     let laws = Laws::of(table.radius, balls, touches);
     for (ball, state) in balls.iter_mut().enumerate() {
-        if state.velocity.length().max(table.radius * state.spin.truncate().length()) < STILL {
-            state.velocity = DVec2::ZERO;
-            state.spin = DVec3::new(0.0, 0.0, state.spin.z);
-        }
         if !laws.slips[ball] {
             // What is left of the slip ends as sliding does.
             state.velocity -= slip(table.radius, state.velocity, state.spin) * (2.0 / 7.0);

@@ -8,9 +8,22 @@ use crate::physics::{BallState, Motion, decayed_spin, rolling_spin, slip};
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A ball whose velocity and spin are both below this many m/s (R times rad/s) is at rest. Friction stops it within
-/// 2e-6 s and 1e-13 m; until then, such balls could hit each other thousands of times.
-pub const STILL: f64 = 1e-7;
+/// Balls whose velocity and spin are both below this many m/s (R times rad/s), alone or against each other, are at rest.
+/// Friction stops them within 2e-6 s and 1e-13 m; until then, they could hit each other thousands of times.
+const STILL: f64 = 1e-7;
+
+/// Brings balls to rest if all of them are as good as that.
+pub fn still(radius: f64, balls: &mut [&mut BallState]) {
+    let is_still = |ball: &&mut BallState| {
+        ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < STILL * STILL
+    };
+    if balls.iter().all(is_still) {
+        for ball in balls {
+            ball.velocity = DVec2::ZERO;
+            ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);
+        }
+    }
+}
 
 /// A ball's course from `start` on, until something changes it.
 #[derive(Clone, Copy, Debug)]
@@ -72,10 +85,6 @@ impl Segment {
             curve: None,
         };
         let spin_squared = radius * radius * state.spin.truncate().length_squared();
-        if speed_squared.max(spin_squared) < STILL * STILL {
-            segment.spin = DVec3::new(0.0, 0.0, state.spin.z);
-            return (segment.halt(), f64::INFINITY);
-        }
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
