@@ -85,14 +85,12 @@ impl Tally {
     pub fn note(&mut self, event: &Event) {
         match event.kind {
             EventKind::BallRail(0, _) => self.cushions += 1,
-            EventKind::BallBall(0, ball) => {
-                if !self.met[ball - 1] {
-                    self.met[ball - 1] = true;
-                    if self.met == [true, true] {
-                        self.cushions_before_second = self.cushions;
-                    } else {
-                        self.cushions_before_first = self.cushions;
-                    }
+            EventKind::BallBall(0, ball) if !self.met[ball - 1] => {
+                self.met[ball - 1] = true;
+                if self.met_both() {
+                    self.cushions_before_second = self.cushions;
+                } else {
+                    self.cushions_before_first = self.cushions;
                 }
             }
             _ => {}

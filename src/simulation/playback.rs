@@ -68,20 +68,20 @@ impl Recording {
 
     /// A ball's position, velocity and spin at time `t`, s; at rest before the stroke and after the end.
     pub fn state(&self, ball: usize, t: f64) -> BallState {
-        let segment = self.segment(ball, t);
-        segment.state_after(&self.constants, (t - segment.start).max(0.0))
+        let (segment, after) = self.segment(ball, t);
+        segment.state_after(&self.constants, after)
     }
 
     /// Which equation of motion a ball follows at time `t`, s.
     pub fn motion(&self, ball: usize, t: f64) -> Motion {
-        self.segment(ball, t).motion
+        self.segment(ball, t).0.motion
     }
 
     /// The balls' centres at time `t`, m.
     pub fn positions(&self, t: f64) -> [DVec2; BALLS] {
         std::array::from_fn(|ball| {
-            let segment = self.segment(ball, t);
-            segment.position_after((t - segment.start).max(0.0))
+            let (segment, after) = self.segment(ball, t);
+            segment.position_after(after)
         })
     }
 
@@ -95,10 +95,13 @@ impl Recording {
         &self.segments[ball]
     }
 
-    fn segment(&self, ball: usize, t: f64) -> &Segment {
+    /// The segment that holds at time `t`, and how long it has then lasted, s.
+    fn segment(&self, ball: usize, t: f64) -> (&Segment, f64) {
+        let t = t.clamp(0.0, self.duration);
         let segments = &self.segments[ball];
-        let after = segments.partition_point(|segment| segment.start <= t);
-        &segments[after.saturating_sub(1)]
+        let begun = segments.partition_point(|segment| segment.start <= t);
+        let segment = &segments[begun.saturating_sub(1)];
+        (segment, t - segment.start)
     }
 }
 

@@ -214,7 +214,7 @@ impl Resting {
         let mut forces = self.first;
         let mut balls = self.begin;
         for stage in 1..7 {
-            balls = self.combine(&slopes, &A[stage - 1], h);
+            balls = self.combine(&slopes, A[stage - 1], h);
             forces = contact_forces(table, &balls, self.touches.as_slice(), &self.laws, Some(&forces));
             slopes[stage] = slope(&balls, &forces);
         }

@@ -3,6 +3,9 @@
 /// Highest degree that [`first_crossing`] takes: the gap of two balls whose courses have degree five.
 pub const MAX_DEGREE: usize = 10;
 
+/// Room for the roots of such a polynomial and the end of the interval.
+const MAX_ROOTS: usize = MAX_DEGREE + 1;
+
 /// First `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative,
 /// lowest first.
 ///
@@ -10,11 +13,11 @@ pub const MAX_DEGREE: usize = 10;
 /// that a sign change is a single root and none can be missed. The root is located to the last bits of `value`'s own
 /// rounding. A value that starts at or below zero is taken to be just above it.
 pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) -> Option<f64> {
-    let mut turns = [0.0; MAX_DEGREE];
+    let mut turns = [0.0; MAX_ROOTS];
     let count = roots(derivative, end, &mut turns);
+    turns[count] = end;
     let mut low = 0.0;
-    for index in 0..=count {
-        let high = if index < count { turns[index] } else { end };
+    for &high in &turns[..=count] {
         if value(high) < 0.0 {
             return Some(bisect_newton(&value, |t| horner(derivative, t), low, high));
         }
@@ -30,7 +33,7 @@ pub fn horner(coefficients: &[f64], t: f64) -> f64 {
 }
 
 /// All roots in the open interval `(0, end)` in ascending order where the polynomial changes sign; returns their number.
-fn roots(coefficients: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize {
+fn roots(coefficients: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
     let mut degree = coefficients.len().saturating_sub(1);
     while degree > 0 && coefficients[degree] == 0.0 {
         degree -= 1;
@@ -46,7 +49,7 @@ fn roots(coefficients: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize
     }
 }
 
-fn keep_inside(candidates: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize {
+fn keep_inside(candidates: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
     let mut count = 0;
     for &t in candidates {
         if t > 0.0 && t < end {
@@ -57,7 +60,7 @@ fn keep_inside(candidates: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> u
     count
 }
 
-fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_DEGREE]) -> usize {
+fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
     let degree = coefficients.len() - 1;
     // A polynomial whose Bernstein coefficients on the interval share one sign has no root in it.
     if bernstein_shares_sign(coefficients, end) {
@@ -68,12 +71,12 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_D
         slope[power - 1] = power as f64 * coefficients[power];
     }
     let slope = &slope[..degree];
-    let mut turns = [0.0; MAX_DEGREE];
+    let mut turns = [0.0; MAX_ROOTS];
     let turn_count = roots(slope, end, &mut turns);
+    turns[turn_count] = end;
     let mut count = 0;
     let (mut low, mut low_value) = (0.0, coefficients[0]);
-    for index in 0..=turn_count {
-        let high = if index < turn_count { turns[index] } else { end };
+    for &high in &turns[..=turn_count] {
         let high_value = horner(coefficients, high);
         if (low_value < 0.0) != (high_value < 0.0) {
             let sign = if high_value < 0.0 { 1.0 } else { -1.0 };

@@ -1,0 +1,187 @@
+//! What must hold for every shot: energy, momentum, no overlap, mirror symmetry, the same bits on every run.
+
+use carom::{
+    physics::{BallState, CueInputs, collide_balls, collide_rail},
+    simulation::{EventKind, Recording},
+    table::{Layout, PRESETS, Table},
+};
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// Rounding of sums of squares of a few m/s.
+const ROUNDING: f64 = 1e-12;
+
+fn tables() -> impl Strategy<Value = Table> {
+    prop::sample::select(PRESETS.to_vec()).prop_map(|name| Table::preset(name).unwrap())
+}
+
+/// Strokes over the whole of what is accepted, leaning to the rim of the ball and to extreme speeds.
+fn cues() -> impl Strategy<Value = CueInputs> {
+    let share = prop_oneof![3 => 0.0..0.5, 1 => 0.5..0.999_f64];
+    let speed = prop_oneof![5 => 0.3..7.0, 1 => 1e-4..0.3, 1 => 7.0..40.0_f64];
+    let theta = prop_oneof![3 => 0.0..0.3, 1 => 0.3..1.5_f64];
+    (share, -3.2..3.2_f64, theta, -3.2..3.2_f64, speed).prop_map(|(share, around, theta, phi, speed)| CueInputs {
+        a: share * around.cos(),
+        b: share * around.sin(),
+        theta,
+        phi,
+        speed,
+    })
+}
+
+fn shots() -> impl Strategy<Value = (Table, Layout, CueInputs)> {
+    (tables(), any::<u64>(), cues()).prop_map(|(table, seed, cue)| {
+        let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
+        (table, layout, cue)
+    })
+}
+
+fn energy(recording: &Recording, radius: f64, t: f64) -> f64 {
+    (0..3).map(|ball| recording.state(ball, t).specific_energy(radius)).sum()
+}
+
+/// Checks at a time that no balls overlap and all are on the table, to within a billionth of a metre.
+fn check_places(table: &Table, recording: &Recording, t: f64) -> Result<(), TestCaseError> {
+    let places = recording.positions(t);
+    for (index, place) in places.iter().enumerate() {
+        prop_assert!(place.is_finite());
+        prop_assert!((place.abs() - table.reach()).max_element() < 1e-9, "ball {index} is outside at {t} s");
+        for other in &places[..index] {
+            prop_assert!(place.distance(*other) > 2.0 * table.radius - 1e-9, "balls overlap at {t} s");
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn energy_never_grows((table, layout, cue) in shots()) {
+        let recording = Recording::new(&table, &layout, &cue).unwrap();
+        let mut last = energy(&recording, table.radius, 0.0);
+        let slack = ROUNDING * (1.0 + last);
+        for event in recording.events() {
+            let now = energy(&recording, table.radius, event.time);
+            prop_assert!(now <= last + slack, "{event:?}: {last} becomes {now}");
+            last = now;
+        }
+        prop_assert_eq!(recording.final_layout().balls, recording.positions(f64::INFINITY));
+    }
+
+    #[test]
+    fn balls_stay_apart_and_on_the_table_between_events_too((table, layout, cue) in shots()) {
+        let recording = Recording::new(&table, &layout, &cue).unwrap();
+        let mut last = 0.0;
+        for event in recording.events() {
+            for share in [0.25, 0.5, 0.75, 1.0] {
+                check_places(&table, &recording, last + share * (event.time - last))?;
+            }
+            last = event.time;
+        }
+    }
+
+    #[test]
+    fn a_mirrored_shot_runs_mirrored((table, layout, cue) in shots()) {
+        let recording = Recording::new(&table, &layout, &cue).unwrap();
+        let flip = DVec2::new(1.0, -1.0);
+        let mirrored_layout = Layout::new(layout.balls.map(|ball| ball * flip));
+        // Mirroring exchanges left and right: the side of the tip, and the sense of phi.
+        let mirrored_cue = CueInputs { a: -cue.a, phi: -cue.phi, ..cue };
+        let mirrored = Recording::new(&table, &mirrored_layout, &mirrored_cue).unwrap();
+        // Rounding grows with every collision: what must agree exactly is the beginning.
+        let kinds = |recording: &Recording| -> Vec<&str> {
+            recording.events().iter().take(4).map(|event| event.kind.name()).collect()
+        };
+        prop_assert_eq!(kinds(&recording), kinds(&mirrored));
+        let t = recording.events().first().map_or(0.0, |event| event.time);
+        for (one, other) in recording.positions(t).iter().zip(mirrored.positions(t)) {
+            prop_assert!(one.distance(other * flip) < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_same_shot_gives_the_same_bits((table, layout, cue) in shots()) {
+        let run = || Recording::new(&table, &layout, &cue).unwrap();
+        let (one, other) = (run(), run());
+        prop_assert_eq!(one.events(), other.events());
+        prop_assert_eq!(one.final_layout(), other.final_layout());
+    }
+
+    #[test]
+    fn colliding_balls_keep_their_momentum_and_lose_energy(
+        angle in -3.2..3.2_f64, v in prop::array::uniform4(-5.0..5.0_f64),
+        w in prop::array::uniform6(-200.0..200.0_f64), e in 0.0..=1.0_f64,
+        mu in prop::option::of(0.0..1.0_f64),
+    ) {
+        let radius = 0.03;
+        let mut first = BallState {
+            position: DVec2::from_angle(angle) * 2.0 * radius,
+            velocity: DVec2::new(v[0], v[1]),
+            spin: DVec3::new(w[0], w[1], w[2]),
+        };
+        let mut second = BallState {
+            position: DVec2::ZERO,
+            velocity: DVec2::new(v[2], v[3]),
+            spin: DVec3::new(w[3], w[4], w[5]),
+        };
+        let before = (first, second);
+        let n = DVec2::from_angle(angle);
+        let approach = (second.velocity - first.velocity).dot(n);
+        prop_assume!(approach > 1e-6);
+        collide_balls(radius, e, mu, &mut first, &mut second);
+        let momentum = first.velocity + second.velocity - before.0.velocity - before.1.velocity;
+        prop_assert!(momentum.length() < 1e-13);
+        prop_assert!(((first.velocity - second.velocity).dot(n) - e * approach).abs() < 1e-12);
+        let energy = |a: &BallState, b: &BallState| a.specific_energy(radius) + b.specific_energy(radius);
+        prop_assert!(energy(&first, &second) <= energy(&before.0, &before.1) * (1.0 + 1e-14) + 1e-13);
+    }
+
+    #[test]
+    fn a_cushion_never_adds_energy_or_reverses_the_slip(
+        v in prop::array::uniform2(-5.0..5.0_f64), w in prop::array::uniform3(-200.0..200.0_f64),
+        e in 0.0..=1.0_f64, mu in 0.0..1.0_f64,
+    ) {
+        let radius = 0.03;
+        let n = DVec2::NEG_X;
+        let before = BallState {
+            position: DVec2::ZERO,
+            velocity: DVec2::new(v[0].abs() + 1e-6, v[1]),
+            spin: DVec3::from_array(w),
+        };
+        let mut after = before;
+        collide_rail(radius, e, mu, n, &mut after);
+        prop_assert!(after.specific_energy(radius) <= before.specific_energy(radius) * (1.0 + 1e-14));
+        prop_assert!((after.velocity.x + e * before.velocity.x).abs() < 1e-13);
+        let slip = |ball: &BallState| ball.velocity.dot(n.perp()) - radius * ball.spin.z;
+        prop_assert!(slip(&before) * slip(&after) > -1e-12);
+    }
+}
+
+#[test]
+fn playback_is_continuous_and_ends_where_the_shot_ends() {
+    for name in PRESETS {
+        let table = Table::preset(name).unwrap();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
+        for _ in 0..200 {
+            let layout = Layout::random(&table, &mut rng);
+            let cue = CueInputs { a: 0.2, b: -0.3, theta: 0.1, phi: layout.balls[1].y * 4.0, speed: 4.0 };
+            let recording = Recording::new(&table, &layout, &cue).unwrap();
+            for ball in 0..3 {
+                for pair in recording.segments(ball).windows(2) {
+                    let end = pair[0].position_after(pair[1].start - pair[0].start);
+                    assert!(
+                        end.distance(pair[1].position) < 1e-11,
+                        "a ball jumps by {}",
+                        end.distance(pair[1].position)
+                    );
+                }
+                assert_eq!(recording.state(ball, recording.duration()).velocity, DVec2::ZERO);
+            }
+            let stops = |kind: &EventKind| matches!(kind, EventKind::RollingStationary(_));
+            assert!(recording.events().iter().any(|event| stops(&event.kind)));
+        }
+    }
+}
