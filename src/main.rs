@@ -1,6 +1,6 @@
 //! The program: parses the command line, runs it, and turns failures into a sentence and an exit code.
 
-use std::process::ExitCode;
+use std::{io::Write, process::ExitCode};
 
 use carom::commands::Cli;
 use clap::Parser;
@@ -14,7 +14,8 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             if !failure.is_silent() {
-                eprintln!("carom: {failure}");
+                // The terminal may be gone with the failure: then there is nobody to tell.
+                let _ = writeln!(std::io::stderr(), "carom: {failure}");
             }
             ExitCode::from(failure.code())
         }
