@@ -28,7 +28,7 @@ const CONVERGED: f64 = 1e-12;
 const MAX_SWEEPS: usize = 1000;
 
 /// The conjugate directions start afresh after so many sweeps, which keeps them from going in circles.
-const RESTART: usize = 50;
+const RESTART: usize = 200;
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
