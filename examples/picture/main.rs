@@ -1,0 +1,73 @@
+//! Draws the pictures of the documentation: plays the real program without a terminal and writes its screens as SVG.
+//!
+//! `cargo run --release --example picture -- docs/` writes the same bytes each time; another processor may round the
+//! networks' numbers otherwise and so find another shot.
+
+mod svg;
+
+use std::{env, error::Error, fs, path::Path};
+
+use carom::{
+    simulation::EventKind,
+    table::{Layout, Table},
+    terminal::{App, Depth, Effect, Glyphs, Look, Office},
+};
+use crossterm::event::KeyCode::{self, Char, Enter};
+use ratatui::{Terminal, backend::TestBackend};
+
+const LOOK: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+
+/// The balls, in metres: from here the coach finds a shot over three cushions between the two hits.
+const LAYOUT: &str = "-0.57,-0.43 -1.11,-0.3 0.39,0.66";
+/// Seconds after the second hit at which the picture is taken: the balls have parted, and the hit is still the news.
+const AFTER_HIT: f64 = 0.06;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let directory = env::args().nth(1).ok_or("say where to write the pictures: picture docs/")?;
+    let directory = Path::new(&directory);
+    fs::create_dir_all(directory)?;
+    let write = |name: &str, app: &App, width, height, title| -> Result<(), Box<dyn Error>> {
+        let mut terminal = Terminal::new(TestBackend::new(width, height))?;
+        terminal.draw(|frame| app.draw(frame))?;
+        fs::write(directory.join(name), svg::picture(terminal.backend().buffer(), title))?;
+        Ok(())
+    };
+
+    let table = Table::default();
+    let layout = Layout::parse(LAYOUT, &table)?;
+    let mut app = App::new(table, layout, LOOK, 7)?;
+    ask(&mut app)?;
+    write("coach-80x24.svg", &app, 80, 24, "The coach recommends a shot, on a small terminal")?;
+    play_to_the_point(&mut app)?;
+    write("coach.svg", &app, 120, 40, "The coach plays the shot that it recommends")?;
+    press(&mut app, Char('?'));
+    write("help.svg", &app, 120, 40, "Every key of the coach")
+}
+
+fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
+    app.handle(&key.into())
+}
+
+/// Asks the coach and shows its answer, but for what that has cost: no two runs take the same time.
+fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
+    let Some(Effect::Recommend(job)) = press(app, Enter) else { return Err("Enter does not ask the coach".into()) };
+    let mut answer = Office::default().answer(&job);
+    answer.effort = None;
+    app.receive(answer);
+    if app.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
+}
+
+/// Plays to shortly after the cue ball has met both object balls.
+fn play_to_the_point(app: &mut App) -> Result<(), Box<dyn Error>> {
+    let shot = app.shot().ok_or("there is no shot")?;
+    let first_hit = |ball| {
+        let hit = EventKind::BallBall(0, ball);
+        shot.recording.events().iter().position(|event| event.kind == hit).ok_or("the shot misses a ball")
+    };
+    for _ in 0..=first_hit(1)?.max(first_hit(2)?) {
+        press(app, Char('.'));
+    }
+    press(app, Char(' '));
+    app.tick(AFTER_HIT);
+    Ok(())
+}

@@ -1,0 +1,167 @@
+//! A screen as SVG: what is made of rectangles becomes paths, since few fonts have it, and the rest text.
+
+use std::{collections::BTreeMap, fmt::Write};
+
+use ratatui::{
+    buffer::{Buffer, Cell},
+    layout::Rect,
+    style::{Color, Modifier},
+    symbols::pixel::SEXTANTS,
+};
+
+/// A cell's width and height; both halves and thirds of them are whole numbers.
+const CELL: (u16, u16) = (12, 24);
+/// From a cell's top to the line that its text stands on.
+const BASELINE: u16 = 18;
+/// At this size the usual monospace fonts are a cell wide or a little less; `textLength` does the rest.
+const FONT_SIZE: u16 = 20;
+const FONTS: &str = "ui-monospace,'SF Mono',Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
+/// Around the screen.
+const MARGIN: u16 = 14;
+
+/// Rectangles by their colour, 0xRRGGBB.
+type Shapes = BTreeMap<u32, Vec<Rect>>;
+
+/// Text in one style without a gap of more than a blank.
+struct Words {
+    column: u16,
+    row: u16,
+    color: u32,
+    bold: bool,
+    text: String,
+}
+
+/// The picture of `screen`, which must be in 24-bit colours; `title` is what it shows.
+pub fn picture(screen: &Buffer, title: &str) -> String {
+    // The last cell is below all panels.
+    let page = screen.content.last().map_or(0, |cell| colours(cell).1);
+    let (mut backs, mut blocks, mut words) = (Shapes::new(), Shapes::new(), Vec::<Words>::new());
+    for row in 0..screen.area.height {
+        for column in 0..screen.area.width {
+            let cell = &screen[(column, row)];
+            let (front, back) = colours(cell);
+            let place = Rect::new(column * CELL.0, row * CELL.1, CELL.0, CELL.1);
+            if back != page {
+                backs.entry(back).or_default().push(place);
+            }
+            let symbol = cell.symbol().chars().next().unwrap_or(' ');
+            if let Some(parts) = parts(symbol) {
+                let parts = parts.into_iter().map(|part| Rect { x: place.x + part.x, y: place.y + part.y, ..part });
+                blocks.entry(front).or_default().extend(parts);
+            } else {
+                let bold = cell.modifier.contains(Modifier::BOLD);
+                add_symbol(&mut words, Words { column, row, color: front, bold, text: symbol.to_string() });
+            }
+        }
+    }
+    let (width, height) = (screen.area.width * CELL.0, screen.area.height * CELL.1);
+    let (full_width, full_height) = (width + 2 * MARGIN, height + 2 * MARGIN);
+    let frame = format!(r#"x="-{MARGIN}" y="-{MARGIN}" width="{full_width}" height="{full_height}" rx="{MARGIN}""#);
+    let mut svg = format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-{MARGIN} -{MARGIN} {full_width} {full_height}" width="{full_width}" height="{full_height}" role="img">
+<title>{}</title>
+<rect {frame} fill="#{page:06x}"/>
+"##,
+        escaped(title)
+    );
+    push_shapes(&mut svg, backs);
+    push_shapes(&mut svg, blocks);
+    push_words(&mut svg, words);
+    svg.push_str("</svg>\n");
+    svg
+}
+
+/// Colour of a cell's symbol and that behind it.
+fn colours(cell: &Cell) -> (u32, u32) {
+    let rgb = |color| match color {
+        Color::Rgb(r, g, b) => u32::from_be_bytes([0, r, g, b]),
+        other => unreachable!("{other} is no 24-bit colour"),
+    };
+    let (front, back) = (rgb(cell.fg), rgb(cell.bg));
+    if cell.modifier.contains(Modifier::REVERSED) { (back, front) } else { (front, back) }
+}
+
+/// The rectangles that `symbol` consists of, if it does.
+fn parts(symbol: char) -> Option<Vec<Rect>> {
+    let (width, height) = CELL;
+    let line = |thickness| vec![Rect::new(0, (height - thickness) / 2, width, thickness)];
+    match symbol {
+        '▀' => Some(vec![Rect::new(0, 0, width, height / 2)]),
+        '▄' => Some(vec![Rect::new(0, height / 2, width, height / 2)]),
+        '─' => Some(line(2)),
+        '━' => Some(line(4)),
+        // The blank, the full block and the halves beside each other are among them.
+        _ => SEXTANTS.iter().position(|&sextant| sextant == symbol).map(|bits| {
+            let part = |n: u16| Rect::new(n % 2 * width / 2, n / 2 * height / 3, width / 2, height / 3);
+            (0..6).filter(|n| bits >> n & 1 == 1).map(part).collect()
+        }),
+    }
+}
+
+/// Adds a symbol to the words that it belongs to. Signs that many fonts take from another, wider one stand alone.
+fn add_symbol(words: &mut Vec<Words>, symbol: Words) {
+    let is_sign = |text: &str| text.chars().any(|letter| letter >= '\u{2000}');
+    if let Some(last) = words.last_mut().filter(|last| {
+        (last.row, last.color, last.bold) == (symbol.row, symbol.color, symbol.bold)
+            && !is_sign(&last.text)
+            && !is_sign(&symbol.text)
+    }) {
+        let gap = symbol.column - last.column - last.text.chars().count() as u16;
+        if gap <= 1 {
+            last.text.extend((0..gap).map(|_| ' '));
+            last.text.push_str(&symbol.text);
+            return;
+        }
+    }
+    words.push(symbol);
+}
+
+/// Makes as few rectangles of them as joining rows, and then equal rows, can.
+fn merge(rects: &mut Vec<Rect>) {
+    rects.sort_by_key(|rect| (rect.y, rect.height, rect.x));
+    rects.dedup_by(|next, last| {
+        let joins = (next.y, next.height, next.x) == (last.y, last.height, last.right());
+        last.width += if joins { next.width } else { 0 };
+        joins
+    });
+    rects.sort_by_key(|rect| (rect.x, rect.width, rect.y));
+    rects.dedup_by(|next, last| {
+        let joins = (next.x, next.width, next.y) == (last.x, last.width, last.bottom());
+        last.height += if joins { next.height } else { 0 };
+        joins
+    });
+}
+
+/// One path a colour, with crisp edges: smooth ones would leave seams between neighbours at most scales.
+fn push_shapes(svg: &mut String, shapes: Shapes) {
+    svg.push_str("<g shape-rendering=\"crispEdges\">\n");
+    for (color, mut rects) in shapes.into_iter().filter(|(_, rects)| !rects.is_empty()) {
+        merge(&mut rects);
+        let _ = write!(svg, r##"<path fill="#{color:06x}" d=""##);
+        for Rect { x, y, width, height } in rects {
+            let _ = write!(svg, "M{x} {y}h{width}v{height}h-{width}z");
+        }
+        svg.push_str("\"/>\n");
+    }
+    svg.push_str("</g>\n");
+}
+
+fn push_words(svg: &mut String, mut words: Vec<Words>) {
+    let _ = writeln!(svg, r#"<g font-family="{FONTS}" font-size="{FONT_SIZE}">"#);
+    words.sort_by_key(|words| (words.color, words.bold));
+    for group in words.chunk_by(|one, other| (one.color, one.bold) == (other.color, other.bold)) {
+        let weight = if group[0].bold { r#" font-weight="bold""# } else { "" };
+        let _ = writeln!(svg, r##"<g fill="#{:06x}"{weight}>"##, group[0].color);
+        for Words { column, row, text, .. } in group {
+            let (x, y) = (column * CELL.0, row * CELL.1 + BASELINE);
+            let length = text.chars().count() as u16 * CELL.0;
+            let _ = writeln!(svg, r#"<text x="{x}" y="{y}" textLength="{length}">{}</text>"#, escaped(text));
+        }
+        svg.push_str("</g>\n");
+    }
+    svg.push_str("</g>\n");
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
