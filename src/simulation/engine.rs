@@ -261,16 +261,16 @@ impl<'a, O: Observer> Engine<'a, O> {
     /// Predicts what the `changed` balls will meet, after their courses have been set.
     fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
         let mut changed = changed;
-        self.predict_pairs(now, changed);
+        self.predict_pairs(now, changed, true);
         if self.pressed || self.balls.iter().any(|ball| ball.resting) {
             self.press(now, &mut changed)?;
-            self.predict_pairs(now, changed);
+            self.predict_pairs(now, changed, false);
             self.pressed = false;
         }
         ControlFlow::Continue(())
     }
 
-    fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS]) {
+    fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS], may_rest: bool) {
         for (index, &(first, second)) in PAIRS.iter().enumerate() {
             if !(changed[first] || changed[second]) {
                 continue;
@@ -284,7 +284,7 @@ impl<'a, O: Observer> Engine<'a, O> {
                 continue;
             }
             let horizon = a.next.min(b.next) - now;
-            match balls_ahead(&self.constants, &a.segment, &b.segment, now, horizon) {
+            match balls_ahead(&self.constants, &a.segment, &b.segment, now, horizon, may_rest) {
                 Ahead::Nothing => {}
                 Ahead::Meeting(after) => self.pairs[index] = Meeting { since: now, after, time: now + after },
                 Ahead::Pressed => self.pressed = true,

@@ -115,8 +115,16 @@ fn coefficients(segment: &Segment) -> [DVec2; 6] {
     [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
 }
 
-/// When two balls meet within `horizon` seconds of time `now`.
-pub fn balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now: f64, horizon: f64) -> Ahead {
+/// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
+/// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
+pub fn balls_ahead(
+    constants: &Constants,
+    first: &Segment,
+    second: &Segment,
+    now: f64,
+    horizon: f64,
+    may_rest: bool,
+) -> Ahead {
     if first.curve.is_some() || second.curve.is_some() {
         return curved_balls_ahead(constants, first, second, now, horizon);
     }
@@ -129,7 +137,7 @@ pub fn balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
     if gap <= 2.0 * diameter * TOUCHING {
-        return touching_balls_ahead(d, dv, dk, diameter, horizon);
+        return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
     }
     // The gap's fall is at most what distance and speeds allow: most pairs end here.
     let travel = horizon * (dv.length() + horizon * dk.length());
@@ -150,14 +158,14 @@ pub fn balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
-fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64) -> Ahead {
+fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64, may_rest: bool) -> Ahead {
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
     let separation = c1 / (2.0 * diameter);
     if separation < -RESTING_SPEED {
         return Ahead::Meeting(0.0);
     }
-    if separation <= RESTING_SPEED && c2 / diameter < -PRESSING {
+    if may_rest && separation <= RESTING_SPEED && c2 / diameter < -PRESSING {
         return Ahead::Pressed;
     }
     // Coefficients of rounding's size would close and open the gap without end.
@@ -275,7 +283,7 @@ mod tests {
         let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, _) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
         let rest = Segment::at_rest(DVec2::new(0.5, 0.0));
-        let Ahead::Meeting(time) = balls_ahead(&constants, &roll, &rest, 0.0, 10.0) else { panic!("no meeting") };
+        let Ahead::Meeting(time) = balls_ahead(&constants, &roll, &rest, 0.0, 10.0, true) else { panic!("no meeting") };
         let position = roll.position_after(time);
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
     }
