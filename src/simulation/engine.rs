@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     predict::{Ahead, balls_ahead, curved_cushion_ahead, cushion_ahead},
-    resting::{PAIRS, Resting},
-    segment::still,
+    resting::{PAIRS, Resting, STILL_AT_REST},
+    segment::{STILL, still},
     settling::{settles_on_cushion, settles_together},
 };
 use crate::{
@@ -158,7 +158,7 @@ impl<'a, O: Observer> Engine<'a, O> {
             collide_rail(c.radius, 0.0, c.rail_friction, n, &mut state);
             state.velocity -= state.velocity.dot(n) * n;
         }
-        still(c.radius, &mut [&mut state]);
+        still(STILL, c.radius, &mut [&mut state]);
         self.close(index, now);
         self.launch(index, now, &state);
         self.tell(now, EventKind::BallRail(index, rail))?;
@@ -186,7 +186,7 @@ impl<'a, O: Observer> Engine<'a, O> {
             (a, b) = before;
             collide_balls(c.radius, 0.0, c.ball_friction, &mut a, &mut b);
         }
-        still(c.radius, &mut [&mut a, &mut b]);
+        still(STILL, c.radius, &mut [&mut a, &mut b]);
         self.close(first, now);
         self.close(second, now);
         self.launch(first, now, &a);
@@ -200,7 +200,7 @@ impl<'a, O: Observer> Engine<'a, O> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         let mut members: Vec<&mut BallState> =
             resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
-        still(self.constants.radius, &mut members);
+        still(STILL_AT_REST, self.constants.radius, &mut members);
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
             self.close(index, now);
             self.launch(index, now, &resting.end[index]);

@@ -15,8 +15,8 @@ use crate::physics::Motion;
 /// 1e-15 m; a real gap of 1e-14 m that is closed at once moves nothing that could be seen at 1e-9 m.
 pub const TOUCHING: f64 = 1e-14;
 
-/// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by less than 1e-12 m.
-pub const RESTING_SPEED: f64 = 1e-13;
+/// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by less than 1e-10 m.
+pub const RESTING_SPEED: f64 = 1e-11;
 
 /// Accelerations along a contact's normal below this do not press, m/s²: rounding of g's size is 1e-15.
 const PRESSING: f64 = 1e-13;
@@ -171,7 +171,7 @@ fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: 
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
     polynomial_closes(
-        &[0.0, c1.max(0.0), clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
+        &[0.0, c1, clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
         true,
         2.0 * diameter,
         horizon,
@@ -236,7 +236,6 @@ fn polynomial_closes(gap: &[f64], touching: bool, scale: f64, horizon: f64) -> A
             count -= 1;
         } else {
             work[0] = scale * TOUCHING;
-            work[1] = 0.0;
         }
     }
     let work = &work[..count];

@@ -28,6 +28,10 @@ const STOPPING_SHARE: f64 = 0.9;
 /// end where two of them feed each other.
 const SLOWEST_OPENING: f64 = 1e-9;
 
+/// Balls in resting contact that are all slower than this many m/s are at rest. They would go on for less than 1e-10 m,
+/// in ever smaller steps as their slips fade with their speeds.
+pub const STILL_AT_REST: f64 = 3e-6;
+
 /// Pairs of balls, in the order used everywhere.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 

@@ -10,12 +10,12 @@ const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Balls whose velocity and spin are both below this many m/s (R times rad/s), alone or against each other, are at rest.
 /// Friction stops them within 2e-6 s and 1e-13 m; until then, they could hit each other thousands of times.
-const STILL: f64 = 1e-7;
+pub const STILL: f64 = 1e-7;
 
-/// Brings balls to rest if all of them are as good as that.
-pub fn still(radius: f64, balls: &mut [&mut BallState]) {
+/// Brings balls to rest if all of them are slower than `limit`, m/s.
+pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
     let is_still = |ball: &&mut BallState| {
-        ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < STILL * STILL
+        ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
     };
     if balls.iter().all(is_still) {
         for ball in balls {
