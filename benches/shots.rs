@@ -3,7 +3,7 @@
 //! Random layouts and random strokes at the centre of the ball (phi over the whole circle, V 0.5 to 6 m/s), scored under
 //! r3 as in training, and recorded in full. Numbers are of this machine at this moment; compare two builds in one run.
 
-use std::time::Instant;
+use std::{f64::consts::PI, time::Instant};
 
 use carom::{
     coach::{Coach, Request},
@@ -24,7 +24,7 @@ fn main() {
         let shots: Vec<(Layout, CueInputs)> = (0..SHOTS)
             .map(|_| {
                 let layout = Layout::random(&table, &mut rng);
-                let (phi, speed) = (rng.random_range(-3.14..3.14), rng.random_range(0.5..6.0));
+                let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
                 (layout, CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed })
             })
             .collect();

@@ -24,14 +24,29 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
     }
 }
 
-/// The layout that `text` describes, or the opening position; checked.
-pub fn layout(text: Option<&str>, table: &Table) -> Result<Layout, Failure> {
-    let layout = match text {
-        None => Layout::opening(table),
-        Some(text) => Layout::parse(text, table).map_err(Failure::wrong_input)?,
-    };
-    layout.validate(table).map_err(Failure::wrong_input)?;
-    Ok(layout)
+/// The table and the balls of a single shot; a batch brings its own.
+#[derive(Debug, clap::Args)]
+pub struct Scene {
+    /// The table: "match", "thesis" or the path of a TOML file.
+    #[arg(long, default_value = "match", conflicts_with = "batch")]
+    table: String,
+    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
+    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
+    #[arg(long, allow_hyphen_values = true, conflicts_with = "batch")]
+    layout: Option<String>,
+}
+
+impl Scene {
+    /// What is described; the layout is checked.
+    pub fn read(&self) -> Result<(Table, Layout), Failure> {
+        let table = table_named(&self.table)?;
+        let layout = match &self.layout {
+            None => Layout::opening(&table),
+            Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
+        };
+        layout.validate(&table).map_err(Failure::wrong_input)?;
+        Ok((table, layout))
+    }
 }
 
 /// What a line that is refused gets instead of an answer.

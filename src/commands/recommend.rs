@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure,
-    input::{ByTable, answer_lines, layout, table_named},
+    input::{ByTable, Scene, answer_lines},
 };
 use crate::{
     coach::{Coach, Recommendation, Request, Skill, Source},
@@ -29,13 +29,8 @@ const ALTERNATIVES: usize = 5;
 /// Recommend a shot for a layout, or for a file of layouts.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The table: "match", "thesis" or the path of a TOML file.
-    #[arg(long, default_value = "match")]
-    table: String,
-    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
-    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
-    #[arg(long, allow_hyphen_values = true)]
-    layout: Option<String>,
+    #[command(flatten)]
+    scene: Scene,
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
@@ -58,7 +53,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
     /// JSON Lines of layouts with `preset`, `layout` and `rule`; "-" reads the standard input.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["layout", "rule", "table"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "rule")]
     batch: Option<String>,
 }
 
@@ -100,8 +95,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             answer(args, coaches.get(&question.preset)?, &question.layout, question.rule)
         });
     }
-    let table = table_named(&args.table)?;
-    let layout = layout(args.layout.as_deref(), &table)?;
+    let (table, layout) = args.scene.read()?;
     let coach = coach_for(table, &args.policy)?;
     let answer = answer(args, &coach, &layout, args.rule)?;
     let mut out = io::stdout().lock();

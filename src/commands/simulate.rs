@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure,
-    input::{ByTable, answer_lines, layout, table_named},
+    input::{ByTable, Scene, answer_lines},
 };
 use crate::{
     physics::CueInputs,
@@ -17,13 +17,8 @@ use crate::{
 /// Simulate one shot, or a file of them.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The table: "match", "thesis" or the path of a TOML file.
-    #[arg(long, default_value = "match")]
-    table: String,
-    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
-    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
-    #[arg(long, allow_hyphen_values = true)]
-    layout: Option<String>,
+    #[command(flatten)]
+    scene: Scene,
     /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s.
     #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
     shot: Option<String>,
@@ -31,7 +26,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
     /// JSON Lines of shots with `preset`, `layout` and `cue`; "-" reads the standard input.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["layout", "shot", "table"])]
+    #[arg(long, value_name = "FILE", conflicts_with = "shot")]
     batch: Option<String>,
 }
 
@@ -65,8 +60,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             Ok(Answer::of(&play(tables.get(&question.preset)?, &question.layout, &question.cue)?))
         });
     }
-    let table = table_named(&args.table)?;
-    let layout = layout(args.layout.as_deref(), &table)?;
+    let (table, layout) = args.scene.read()?;
     // clap demands a shot where there is no batch.
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
     let recording = play(&table, &layout, &cue)?;
