@@ -119,7 +119,7 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
 
 #[test]
 fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
-    let cases: [(&[&str], &[&str]); 9] = [
+    let cases: [(&[&str], &[&str]); 10] = [
         (&["simulate", "--layout", "9,0 0,0 0.5,0.5", "--shot", SHOT], &["9.0000", "1.3892"]),
         (&["simulate", "--layout", "0,0 0,0.01 0.5,0.5", "--shot", SHOT], &["0.0100", "0.0615"]),
         (&["simulate", "--layout", "NaN,0 0,0.01 0.5,0.5", "--shot", SHOT], &["NaN", "finite"]),
@@ -128,6 +128,7 @@ fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
         (&["simulate", "--shot", "0,0,0,0"], &["\"0,0,0,0\"", "a,b,theta,phi,V"]),
         (&["simulate", "--shot", "0,0,0,0,-1"], &["V = -1", "above 0"]),
         (&["simulate", "--shot", SHOT, "--table", "snooker"], &["snooker", "match", "thesis"]),
+        (&["simulate", "--shot", "0,0,0,1e6,1"], &["phi = ", "36000"]),
         (&["recommend", "--table", "thesis", "--policy-only"], &["thesis", "--policy"]),
     ];
     for (args, words) in cases {
@@ -182,4 +183,29 @@ fn a_table_of_ones_own_is_read_from_toml() {
 fn the_recommender_finds_a_point_on_all_of_two_thousand_layouts() {
     let report = json(&["evaluate", "--layouts", "2000", "--seed", "11", "--json"]);
     assert_eq!(report["success"]["successes"], 2000);
+}
+
+#[test]
+fn a_table_before_the_subcommand_is_not_silently_ignored() {
+    let (code, said) = refusal(&mut carom(&["--table", "thesis", "recommend"]));
+    assert!(code == 2 && said.contains("--table"), "{said}");
+}
+
+#[test]
+fn a_batch_line_is_named_by_its_place_in_the_file() {
+    let output =
+        carom(&["simulate", "--batch", "-"]).write_stdin(b"\n\n{\"preset\": 3}\n\xff\n".to_vec()).assert().code(2);
+    let answers = lines(&output.get_output().stdout);
+    let said = |index: usize| answers[index]["error"].as_str().unwrap().to_owned();
+    assert!(said(0).contains("line 3") && !said(0).contains("line 1"), "{}", said(0));
+    assert!(said(1).contains("line 4"), "{}", said(1));
+}
+
+#[test]
+fn a_table_that_only_has_the_name_of_a_bundled_one_gets_no_bundled_policy() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("match.toml");
+    std::fs::write(&path, include_str!("../src/table/match.toml").replace("L = 2.84", "L = 4.0")).unwrap();
+    let (code, said) = refusal(&mut carom(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]));
+    assert!(code == 2 && said.contains("no policy is bundled"), "{said}");
 }

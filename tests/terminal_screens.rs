@@ -336,3 +336,12 @@ fn nothing_moves_by_itself_while_nothing_plays() {
     assert!(player.app.frame_interval().is_some());
     assert_eq!(player.wait(1e3).app.frame_interval(), None, "playback ends at the end");
 }
+
+#[test]
+fn a_shot_that_is_left_does_not_play_on_unseen() {
+    for leave in ["Esc", "Tab", "2"] {
+        let player = Player::new().press("Enter").answer().press("Space").wait(0.5).press(leave);
+        assert_eq!(player.app.frame_interval(), None, "{leave}");
+        assert!(!player.app.playback().playing);
+    }
+}

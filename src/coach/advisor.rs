@@ -28,9 +28,6 @@ const VARIATIONS: u32 = 64;
 /// How many of the policy's favourites are varied.
 const FAVOURITES: usize = 4;
 
-/// Shots between two looks at the clock: some 0.2 ms.
-const BETWEEN_LOOKS: u64 = 64;
-
 /// What the coach is asked for.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -114,7 +111,9 @@ impl Coach {
     /// # Errors
     /// Where the bundled policy is damaged.
     pub fn new(table: Table) -> Result<Self, PolicyError> {
-        let policy = Policy::bundled(&table.name).transpose()?;
+        // A user's table of the same name is another table: the policy has never played on it.
+        let is_preset = Table::preset(&table.name).is_ok_and(|preset| preset == table);
+        let policy = if is_preset { Policy::bundled(&table.name).transpose()? } else { None };
         Ok(Self { table, policy })
     }
 
@@ -187,9 +186,9 @@ impl<'a> Attempt<'a> {
 
     /// Whether a shot has been found, or time is up.
     fn is_over(&self) -> bool {
-        let look = self.simulations.is_multiple_of(BETWEEN_LOOKS) && self.simulations > 0;
         !self.solutions.is_empty()
-            || look && (self.start.elapsed() >= self.request.budget || self.request.cancel.load(Ordering::Relaxed))
+            || self.start.elapsed() >= self.request.budget
+            || self.request.cancel.load(Ordering::Relaxed)
     }
 
     fn play(&mut self, cue: CueInputs, source: Source) {
@@ -273,8 +272,8 @@ mod tests {
         let request = Request { rule: Rule::ThreeCushion, budget: Duration::ZERO, ..Request::default() };
         let advice = coach.recommend(&Layout::opening(coach.table()), &request).unwrap();
         advice.cue.validate().unwrap();
-        assert!(advice.solved || advice.alternatives.is_empty());
-        assert!(advice.simulations <= BETWEEN_LOOKS + 1);
+        assert!(!advice.solved && advice.alternatives.is_empty());
+        assert_eq!(advice.simulations, 0);
     }
 
     #[test]
@@ -283,7 +282,7 @@ mod tests {
         let request = Request { budget: Duration::from_secs(3600), rule: Rule::ThreeCushion, ..Request::default() };
         request.cancel.store(true, Ordering::Relaxed);
         let advice = coach.recommend(&Layout::opening(coach.table()), &request).unwrap();
-        assert!(advice.solved || advice.simulations <= BETWEEN_LOOKS);
+        assert!(!advice.solved && advice.simulations == 0);
     }
 
     #[test]

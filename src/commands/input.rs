@@ -69,14 +69,17 @@ pub fn answer_lines<Q: DeserializeOwned, A: Serialize>(
     };
     let mut out = io::BufWriter::new(io::stdout().lock());
     let (mut lines, mut refused) = (0_usize, 0_usize);
-    for line in reader.lines() {
+    for (index, line) in reader.split(b'\n').enumerate() {
         let line = line.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
-        if line.trim().is_empty() {
+        if line.trim_ascii().is_empty() {
             continue;
         }
         lines += 1;
-        let question = serde_json::from_str(&line)
-            .map_err(|error| Failure::wrong_input(format_args!("line {lines} is not a valid JSON question: {error}")));
+        let question = serde_json::from_slice(&line).map_err(|error| {
+            // serde counts lines within the line: only its column helps.
+            let reason = error.to_string().replace(" at line 1", ",");
+            Failure::wrong_input(format_args!("line {} is not a valid JSON question: {reason}", index + 1))
+        });
         match question.and_then(&mut answer) {
             Ok(answer) => serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?,
             Err(failure) => {
@@ -85,6 +88,10 @@ pub fn answer_lines<Q: DeserializeOwned, A: Serialize>(
             }
         }
         writeln!(out)?;
+        if file == "-" {
+            // Whoever asks over a pipe waits for this answer before the next question.
+            out.flush()?;
+        }
     }
     out.flush()?;
     if refused > 0 {

@@ -3,6 +3,7 @@
 mod evaluate;
 mod failure;
 mod input;
+mod output;
 mod recommend;
 mod simulate;
 mod train;
@@ -13,7 +14,7 @@ pub use failure::Failure;
 
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
-#[command(version, about, long_about = None)]
+#[command(version, about, long_about = None, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     Failure,
     input::{ByTable, Scene, answer_lines},
+    output::impulse_words,
 };
 use crate::{
     coach::{Coach, Recommendation, Request, Skill, Source},
@@ -46,7 +47,7 @@ pub struct Args {
     /// The policy: "bundled" or the path of a file that `carom train` wrote.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
-    /// Seed of the search: the same seed finds the same shot.
+    /// Seed of the search: while time does not run out, the same seed finds the same shot.
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// Print one JSON object.
@@ -125,6 +126,9 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
     if args.policy_only {
+        if rule != Rule::StraightRail {
+            eprintln!("note: the networks play straight rail; of the rule \"{rule}\" they know nothing");
+        }
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
         let cue = coach.policy_shot(layout).ok_or_else(|| no_policy(coach.table()))?;
@@ -182,9 +186,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
     writeln!(out, "phi    {:>8.3} degrees", phi.to_degrees())?;
     writeln!(out, "V      {speed:>8.3} m/s")?;
-    let impulse = strike(table, &answer.cue);
-    let (v, w) = (impulse.velocity, impulse.spin);
-    writeln!(out, "impulse: V0 = ({:.3}, {:.3}, 0) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v.x, v.y, w.x, w.y, w.z)?;
+    writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
     match (answer.solved, answer.make_probability) {
         (Some(solved), Some(chance)) => writeln!(
             out,

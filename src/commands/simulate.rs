@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     Failure,
     input::{ByTable, Scene, answer_lines},
+    output::impulse_words,
 };
 use crate::{
     physics::CueInputs,
@@ -88,9 +89,7 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording, Fa
 
 /// The shot for people to read.
 fn describe(out: &mut impl Write, recording: &Recording) -> io::Result<()> {
-    let impulse = recording.impulse();
-    let (v, w) = (impulse.velocity, impulse.spin);
-    writeln!(out, "impulse: V0 = ({:.3}, {:.3}, 0) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v.x, v.y, w.x, w.y, w.z)?;
+    writeln!(out, "{}", impulse_words(recording.impulse()))?;
     writeln!(out, "{:>12}  {:<18}  {:<5}  {:<6}  cue ball", "t, s", "event", "balls", "rail")?;
     for event in recording.events() {
         let (first, second) = event.kind.balls();

@@ -49,7 +49,10 @@ impl SuccessRate {
         let spread = Z * (rate * (1.0 - rate) / n + Z * Z / (4.0 * n * n)).sqrt();
         let scale = 1.0 + Z * Z / n;
         let bound = |value: f64| (value / scale).clamp(0.0, 1.0);
-        Self { layouts, successes, rate, low: bound(centre - spread), high: bound(centre + spread) }
+        // Exact at the ends, where rounding would spoil it.
+        let low = if successes == 0 { 0.0 } else { bound(centre - spread) };
+        let high = if successes == layouts { 1.0 } else { bound(centre + spread) };
+        Self { layouts, successes, rate, low, high }
     }
 }
 

@@ -88,6 +88,8 @@ impl Run {
         let trainer = Trainer::new(task, table)?;
         let version = env!("CARGO_PKG_VERSION");
         let config = Config { agent: "ddpg", version, table: trainer.table(), task: trainer.task() };
+        // First of all something to go on from, however early the run is killed.
+        run.write_checkpoint(&trainer)?;
         let text = serde_json::to_string_pretty(&config).map_err(|error| file(&config_path)(error.into()))?;
         write_atomic(&config_path, text.as_bytes()).map_err(file(&config_path))?;
         Ok((run, trainer))
@@ -162,11 +164,15 @@ impl Run {
         let score = score(&trainer.policy(0.0)?, trainer.table(), trainer.task().reward, layouts);
         let policy_path = self.policy_path();
         trainer.policy(score.mean_reward)?.save(&policy_path).map_err(file(&policy_path))?;
+        self.write_checkpoint(trainer)?;
+        Ok(score)
+    }
+
+    fn write_checkpoint(&self, trainer: &Trainer) -> Result<(), RunError> {
         let path = self.checkpoint_path();
         let bytes = snapshot::write(trainer)
             .map_err(|reason| RunError::Checkpoint { path: path.display().to_string(), reason })?;
-        write_atomic(&path, &bytes).map_err(file(&path))?;
-        Ok(score)
+        write_atomic(&path, &bytes).map_err(file(&path))
     }
 }
 

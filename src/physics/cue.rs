@@ -91,7 +91,8 @@ impl CueInputs {
         };
         let theta = self.theta.to_degrees();
         range("theta", theta, (0.0..90.0).contains(&theta), "0 to below 90 degrees")?;
-        range("phi", self.phi.to_degrees(), self.phi.abs() <= 1e4, "a finite number of degrees")?;
+        let phi = self.phi.to_degrees();
+        range("phi", phi, phi.abs() <= 36_000.0, "-36000 to 36000 degrees")?;
         let speed_ok = self.speed > 0.0 && self.speed <= MAX_SPEED;
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }

@@ -9,8 +9,6 @@ use directories::ProjectDirs;
 pub struct Places {
     /// Training runs, one folder each.
     pub runs: PathBuf,
-    /// The user's tables as TOML files.
-    pub tables: PathBuf,
 }
 
 impl Places {
@@ -18,6 +16,6 @@ impl Places {
     pub fn of_this_user() -> Self {
         let data = ProjectDirs::from("", "", "carom")
             .map_or_else(|| PathBuf::from("carom-data"), |dirs| dirs.data_dir().to_owned());
-        Self { runs: data.join("runs"), tables: data.join("tables") }
+        Self { runs: data.join("runs") }
     }
 }

@@ -113,6 +113,8 @@ impl Table {
         type Check = (&'static str, f64, fn(f64) -> bool, &'static str);
         let positive: fn(f64) -> bool = |x| x > 0.0 && x.is_finite();
         let friction: fn(f64) -> bool = |x| (0.0..=1e3).contains(&x);
+        // Without friction on the cloth a shot would never end.
+        let cloth: fn(f64) -> bool = |x| (1e-4..=1e3).contains(&x);
         let restitution: fn(f64) -> bool = |x| (0.0..=1.0).contains(&x);
         let checks: [Check; 14] = [
             ("R", self.radius, positive, "a positive number of metres"),
@@ -121,8 +123,8 @@ impl Table {
             ("g", self.gravity, positive, "a positive number of m/s²"),
             ("L", self.length, positive, "a positive number of metres"),
             ("l", self.width, positive, "a positive number of metres"),
-            ("mu_s", self.sliding_friction, friction, "0 to 1000"),
-            ("mu_r", self.rolling_friction, friction, "0 to 1000"),
+            ("mu_s", self.sliding_friction, cloth, "0.0001 to 1000"),
+            ("mu_r", self.rolling_friction, cloth, "0.0001 to 1000"),
             ("mu_sp", self.spinning_friction, friction, "0 to 1000"),
             ("mu_rail", self.rail_friction, friction, "0 to 1000"),
             ("mu_b", self.ball_friction.unwrap_or(0.0), friction, "0 to 1000, or no mu_b at all for no slip"),
@@ -137,8 +139,10 @@ impl Table {
             }
         }
         // Three balls must find room side by side, or no layout exists.
-        if self.length.min(self.width) < 6.0 * self.radius {
-            return refuse("l", self.length.min(self.width), "at least six ball radii");
+        for (key, side) in [("L", self.length), ("l", self.width)] {
+            if side < 6.0 * self.radius {
+                return refuse(key, side, "at least six ball radii");
+            }
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
@@ -202,6 +206,12 @@ mod tests {
     fn not_a_number_is_refused() {
         let text = MATCH.replace("mu_s = 0.2", "mu_s = nan");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_s", .. })));
+    }
+
+    #[test]
+    fn a_cloth_without_friction_on_which_no_shot_would_end_is_refused() {
+        let text = MATCH.replace("mu_r = 0.010", "mu_r = 0");
+        assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_r", .. })));
     }
 
     #[test]

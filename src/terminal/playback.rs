@@ -53,6 +53,12 @@ impl Playback {
         self.readout = self.time;
     }
 
+    /// Stops playing where it is.
+    pub fn pause(&mut self) {
+        self.playing = false;
+        self.readout = self.time;
+    }
+
     /// Lets `seconds` of the screen pass; playback pauses at the end of the shot.
     pub fn tick(&mut self, seconds: f64, duration: f64) {
         if !self.playing {

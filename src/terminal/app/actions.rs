@@ -48,7 +48,7 @@ impl App {
             Action::Redo => self.travel(History::redo),
             Action::Recommend => return Some(self.ask()),
             Action::Cancel => self.cancel(),
-            Action::PlaceBalls => self.mode = Mode::Placing,
+            Action::PlaceBalls => self.place_balls(),
             Action::Continue => self.go_on(),
             other => self.play(other),
         }
@@ -73,6 +73,12 @@ impl App {
 
     fn select(&mut self, ball: usize) {
         self.selected = ball;
+        self.place_balls();
+    }
+
+    /// Leaves the shot: what nobody watches does not play on.
+    fn place_balls(&mut self) {
+        self.playback.pause();
         self.mode = Mode::Placing;
     }
 

@@ -85,7 +85,7 @@ pub struct App {
 }
 
 impl App {
-    /// The program at its start; `seed` decides about random layouts and the coach's random numbers.
+    /// The program at its start; `seed` decides about random layouts.
     ///
     /// # Errors
     /// A layout that is not possible on the table.

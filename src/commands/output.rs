@@ -1,0 +1,11 @@
+//! What subcommands print alike.
+
+use crate::physics::Impulse;
+
+/// The equivalent ball impulse for people to read.
+pub fn impulse_words(impulse: &Impulse) -> String {
+    // Adding zero takes the sign from a rounded minus zero.
+    let tidy = |x: f64| (1e3 * x).round() / 1e3 + 0.0;
+    let (v, w) = (impulse.velocity.to_array().map(tidy), impulse.spin.to_array().map(tidy));
+    format!("impulse: V0 = ({:.3}, {:.3}, 0) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v[0], v[1], w[0], w[1], w[2])
+}
