@@ -74,6 +74,7 @@ struct Answer {
     /// Absent where nothing was simulated.
     #[serde(skip_serializing_if = "Option::is_none")]
     solved: Option<bool>,
+    /// Of a shot that makes the point.
     #[serde(skip_serializing_if = "Option::is_none")]
     make_probability: Option<f64>,
     source: Source,
@@ -160,7 +161,7 @@ fn with_probabilities(args: &Args, table: &Table, layout: &Layout, rule: Rule, a
     Answer {
         cue: advice.cue,
         solved: Some(advice.solved),
-        make_probability: Some(chance(&advice.cue)),
+        make_probability: advice.solved.then(|| chance(&advice.cue)),
         source: advice.source,
         simulations: advice.simulations,
         elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
@@ -188,14 +189,14 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
     writeln!(out, "V      {speed:>8.3} m/s")?;
     writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
     match (answer.solved, answer.make_probability) {
-        (Some(solved), Some(chance)) => writeln!(
+        (Some(true), Some(chance)) => writeln!(
             out,
-            "{} by simulation; a player of skill \"{}\" makes it {:.0} % of the time",
-            if solved { "a point" } else { "no point" },
+            "a point by simulation; a player of skill \"{}\" makes it {:.0} % of the time",
             args.skill,
             100.0 * chance
         )?,
-        _ => writeln!(out, "the networks' own shot, not simulated")?,
+        (Some(_), _) => writeln!(out, "no point by simulation: the best attempt")?,
+        (None, _) => writeln!(out, "the networks' own shot, not simulated")?,
     }
     let others = answer.alternatives.len();
     writeln!(
