@@ -8,7 +8,7 @@ use std::{
 
 use crossterm::event::{self, Event};
 use signal_hook::{
-    consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP},
+    consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP, SIGWINCH},
     iterator::Signals,
 };
 
@@ -33,7 +33,8 @@ pub enum News {
 /// A thread or a signal handler that could not be set up.
 pub fn open() -> io::Result<(Sender<News>, Receiver<News>)> {
     let (sender, receiver) = channel();
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT])?;
+    // The input thread learns of a resize too, but only from its first read on: one before that would be lost.
+    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH])?;
     let to_screen = sender.clone();
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {

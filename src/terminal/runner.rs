@@ -8,7 +8,7 @@ use std::{
 
 use crossterm::event::Event;
 use signal_hook::{
-    consts::{SIGCONT, SIGTSTP},
+    consts::{SIGCONT, SIGTSTP, SIGWINCH},
     low_level::emulate_default_handler,
 };
 
@@ -116,7 +116,7 @@ impl Runner {
                 None => {}
             },
             // A resize needs a picture, which follows anyway.
-            News::Input(_) => {}
+            News::Input(_) | News::Signal(SIGWINCH) => {}
             News::InputEnded => return Ok(Next::Quit),
             News::Signal(SIGTSTP) => self.suspend()?,
             // Somebody else may have had the terminal since.
