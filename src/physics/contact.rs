@@ -1,5 +1,5 @@
-//! Resting contact: the forces on balls that are pressed against cushions or each other (PHYSICS: the limit of
-//! infinitely many ever smaller bounces).
+//! Resting contact: the forces on balls that are pressed against cushions or each other, the limit of infinitely many
+//! ever smaller bounces.
 //!
 //! Every force obeys a law of one of two kinds: a contact pushes just as hard as is needed to stay closed and never
 //! pulls; friction holds up to its limit and then slips. All of them together form a complementarity problem in at most
@@ -412,7 +412,7 @@ mod tests {
         let pressed = table.sliding_friction * table.gravity * -u.x;
         assert!((forces.normal[0] - pressed).abs() < 1e-14);
         assert!(forces.linear[0].x.abs() < 1e-14);
-        // Rail friction opposes the rail slip v_t - R w_z along +y, here n×... with t = -y: Coulomb's size in all.
+        // The ball slips along +y on the cushion: the friction opposes it and has at most Coulomb's size.
         let friction = forces.linear[0].y + table.sliding_friction * table.gravity * u.y;
         assert!(friction.abs() <= table.rail_friction * pressed + 1e-14 && friction < 0.0);
     }

@@ -6,8 +6,7 @@
 
 use glam::DVec2;
 
-use super::Constants;
-use super::Segment;
+use super::{Constants, Segment};
 use crate::physics::{BallState, Motion};
 
 /// Error in speed that ending a chatter early may make, m/s: 1e-12 m after ten seconds.
