@@ -315,7 +315,7 @@ impl<'a, O: Observer> Engine<'a, O> {
             }
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        self.resting = Resting::begin(self.table, &self.constants, now, &states).map(Box::new);
+        self.resting = Resting::begin(self.table, &self.constants, now, &states, self.resting.as_deref()).map(Box::new);
         let members = self.freed_members();
         for index in 0..BALLS {
             let was = std::mem::replace(&mut self.balls[index].resting, members[index]);

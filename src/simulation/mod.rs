@@ -3,6 +3,7 @@
 mod constants;
 mod engine;
 mod events;
+mod extrapolation;
 mod playback;
 mod predict;
 mod resting;

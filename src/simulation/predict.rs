@@ -102,6 +102,9 @@ pub fn curved_cushion_ahead(
         let inward = rail.normal();
         let mut gap = course.map(|c| c.dot(inward));
         gap[0] += inward.abs().dot(constants.reach);
+        if gap[0] > TOUCHING + travel(&gap.map(f64::abs), earliest) {
+            continue;
+        }
         if let Ahead::Meeting(time) = polynomial_closes(&gap, gap[0] <= TOUCHING, 1.0, earliest) {
             earliest = time;
             nearest = (Ahead::Meeting(time), rail);
@@ -208,6 +211,10 @@ fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, 
         d[power] = c1[power] - c2[power];
     }
     let diameter = 2.0 * constants.radius;
+    // Most pairs are too far apart to meet in so short a time.
+    if d[0].length() - diameter > TOUCHING + travel(&d.map(DVec2::length), horizon) {
+        return Ahead::Nothing;
+    }
     let mut gap = [0.0; MAX_DEGREE + 1];
     for i in 0..6 {
         for j in 0..6 {
@@ -217,6 +224,11 @@ fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, 
     gap[0] -= diameter * diameter;
     let touching = gap[0] <= 2.0 * diameter * TOUCHING;
     polynomial_closes(&gap, touching, 2.0 * diameter, horizon)
+}
+
+/// How far a course with coefficients of these sizes can lead within `time`.
+fn travel(sizes: &[f64; 6], time: f64) -> f64 {
+    sizes[1..].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
 }
 
 /// When the gap with these coefficients, in units of `scale` times metres, closes. That of balls which touch is divided by
