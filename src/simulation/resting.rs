@@ -26,8 +26,16 @@ const TOLERANCE: f64 = 1e-13;
 /// Forces per mass that are broken or missing by less than this count as rounding, m/s².
 const SLACK: f64 = 1e-11;
 
+/// The same for accelerations where forces are not unique, m/s².
+const SHARED_SLACK: f64 = 1e-8;
+
 /// Shortest step, s. In it a speed changes by less than the tolerance of what is called slip.
 const SHORTEST_STEP: f64 = 1e-13;
+
+/// Shortest and longest step in which something begins to slip, s: its friction has no direction yet, and is wrong by less
+/// than what changes a speed by [`SLIP_TOLERANCE`].
+const SHORTEST_DEPARTURE: f64 = 1e-10;
+const LONGEST_DEPARTURE: f64 = 1e-5;
 
 /// A slip or speed may use up this share of itself in a step, so that its direction stays known.
 const STOPPING_SHARE: f64 = 0.9;
@@ -187,15 +195,21 @@ impl Resting {
         // Never so short that a long series of steps could not grow out of it.
         self.next_step = (growth * length).max(1e3 * SHORTEST_STEP);
         let mut last = self.forces(table, &step.end);
-        if last.slack < -SLACK {
-            (length, step, last) = self.until_the_regime_ends(table, (length, step, last));
+        // A step in which something begins to slip is too short for laws to matter.
+        let settled = self.first.departure == 0.0;
+        if settled && (last.slack < -SLACK || self.first.is_shared()) && !self.holds(table, &step.end, &last) {
+            let whole = (length, step, last);
+            (length, step, last) = if last.slack < -SLACK { self.until_the_slack_ends(table, whole) } else { whole };
+            if last.slack >= -SLACK || self.holds(table, &step.end, &last) {
+                (length, step, last) = self.while_it_holds(table, whole);
+            }
         }
         (self.step, self.end, self.last) = (length, step.end, last);
         settle(table, &mut self.end, self.touches.as_slice());
     }
 
     /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
-    fn until_the_regime_ends(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
+    fn until_the_slack_ends(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
         let mut after = after;
         // The zero of `slack + SLACK`, by false position with the Illinois rule.
         let (mut low, mut low_value) = (0.0, (self.first.slack + SLACK).max(0.0));
@@ -212,6 +226,29 @@ impl Resting {
             } else {
                 (low, low_value) = (middle, value);
                 high_value *= 0.5;
+            }
+        }
+        after
+    }
+
+    /// Whether these forces are those that obey all laws.
+    fn holds(&self, table: &Table, state: &State, forces: &Forces) -> bool {
+        let lawful = contact_forces(table, state, self.touches.as_slice(), &self.laws, Some(forces));
+        forces.distance(&lawful, table.radius) <= SHARED_SLACK
+    }
+
+    /// The same where what is held is held more than once, so that only trying tells how long it holds.
+    fn while_it_holds(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
+        let mut after = after;
+        let mut low = 0.0;
+        while after.0 - low > SHORTEST_STEP.max(1e-9 * after.0) {
+            let middle = 0.5 * (low + after.0);
+            let step = self.integrate(table, middle);
+            let forces = self.forces(table, &step.end);
+            if self.holds(table, &step.end, &forces) {
+                low = middle;
+            } else {
+                after = (middle, step, forces);
             }
         }
         after
@@ -252,7 +289,8 @@ impl Resting {
         }
         if self.first.departure > 0.0 {
             // What begins to slip has no direction yet: it gets one.
-            longest = longest.min((3.0 * SLIP_TOLERANCE / self.first.departure).max(SLIP_TOLERANCE));
+            let long_enough = 3.0 * SLIP_TOLERANCE / self.first.departure;
+            longest = longest.min(long_enough.clamp(SHORTEST_DEPARTURE, LONGEST_DEPARTURE));
         }
         longest
     }

@@ -71,17 +71,18 @@ pub fn contact_forces(
     similar: Option<&Forces>,
 ) -> Forces {
     let problem = Problem::new(table, balls, touches, laws);
-    let mut regime = similar.map_or(Regime::HOLDING, |similar| similar.regime);
+    let mut regime =
+        Regime { shared: Regime::HOLDING.shared, ..similar.map_or(Regime::HOLDING, |similar| similar.regime) };
     let mut guess = Solution::guess(&problem, similar);
     for _ in 0..MAX_CHANGES {
-        let Some(solution) = solve(&problem, &regime, &guess) else { break };
+        let Some(solution) = solve(&problem, &regime, &guess, MAX_PULLS) else { break };
         guess = solution;
         if !regime.mend(&problem, &solution) {
-            return Forces::of(&problem, &regime, &solution);
+            return Forces::of(&problem, regime, &solution);
         }
     }
     let (regime, solution) = sweep(&problem, guess);
-    Forces::of(&problem, &regime, &solution)
+    Forces::of(&problem, regime, &solution)
 }
 
 /// The same where what pushes and holds is known to be what it was in a `similar` state: a smooth function of the state,
@@ -95,21 +96,15 @@ pub fn forces_in_regime(
 ) -> Forces {
     let problem = Problem::new(table, balls, touches, laws);
     let guess = Solution::guess(&problem, Some(similar));
-    match solve(&problem, &similar.regime, &guess) {
-        Some(solution) => Forces::of(&problem, &similar.regime, &solution),
+    match solve(&problem, &similar.regime, &guess, 0) {
+        Some(solution) => Forces::of(&problem, similar.regime, &solution),
         None => contact_forces(table, balls, touches, laws, Some(similar)),
     }
 }
 
 impl Forces {
-    fn of(problem: &Problem, regime: &Regime, solution: &Solution) -> Self {
-        let mut departure = 0.0_f64;
-        for (grip, limited) in problem.grips.iter().zip(&regime.limited) {
-            if limited.is_some() && regime.grips(grip.limit) {
-                let rates = grip.directions.map(|direction| direction.rate(&solution.accelerations));
-                departure = departure.max((DVec2::from_array(rates) + grip.bias).length());
-            }
-        }
+    fn of(problem: &Problem, mut regime: Regime, solution: &Solution) -> Self {
+        let departure = regime.share(problem, solution);
         Self {
             linear: solution.accelerations.linear,
             angular: solution.accelerations.angular,
@@ -117,8 +112,22 @@ impl Forces {
             slack: regime.slack(problem, solution),
             departure,
             grip: solution.grip,
-            regime: *regime,
+            regime,
         }
+    }
+
+    /// Whether several frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
+    pub fn is_shared(&self) -> bool {
+        self.regime.shared.contains(&true)
+    }
+
+    /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.
+    pub fn distance(&self, other: &Self, radius: f64) -> f64 {
+        (0..BALLS).fold(0.0, |largest, ball| {
+            let linear = self.linear[ball].distance(other.linear[ball]);
+            let angular = radius * self.angular[ball].distance(other.angular[ball]);
+            linear.max(angular).max(largest)
+        })
     }
 }
 
@@ -148,7 +157,8 @@ enum Place {
 }
 
 /// The forces in a given regime, near to `guess` where they are not unique; `None` where nothing holds what is to hold.
-fn solve(problem: &Problem, regime: &Regime, guess: &Solution) -> Option<Solution> {
+/// Those that break their limits are exchanged for others with the same effect, if there are any, in as many `pulls`.
+fn solve(problem: &Problem, regime: &Regime, guess: &Solution, pulls: usize) -> Option<Solution> {
     let mut base = problem.known;
     let mut unknowns: Vec<Unknown> = Vec::with_capacity(problem.contacts.len() + 2 * problem.grips.len());
     let mut rubs = [DVec2::ZERO; MAX_TOUCHES];
@@ -195,7 +205,7 @@ fn solve(problem: &Problem, regime: &Regime, guess: &Solution) -> Option<Solutio
     let system = System::new(problem, base, &unknowns)?;
     let accelerations = system.balance(&mut unknowns)?;
     let mut solution = read(problem, regime, &unknowns, accelerations);
-    for _ in 0..MAX_PULLS {
+    for _ in 0..pulls {
         let before: Vec<f64> = unknowns.iter().map(|unknown| unknown.size).collect();
         if !pull_inside(problem, &solution, &mut unknowns) {
             break;

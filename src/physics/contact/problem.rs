@@ -111,6 +111,15 @@ pub struct Grip {
     pub limit: Limit,
 }
 
+impl Grip {
+    /// Rate at which the slip changes that this grip holds, m/s².
+    pub fn rate(&self, accelerations: &Accelerations) -> DVec2 {
+        let rates = self.directions.map(|direction| direction.rate(accelerations));
+        let axes = if self.axes == 2 { DVec2::ONE } else { DVec2::X };
+        (DVec2::from_array(rates) + self.bias) * axes
+    }
+}
+
 /// Everything that acts on the balls in one state.
 #[derive(Debug)]
 pub struct Problem {

@@ -10,6 +10,9 @@ use super::{
 /// Forces per mass and accelerations below this are none, m/s²: rounding of sums of a few g is 1e-14.
 pub const NEGLIGIBLE: f64 = 1e-12;
 
+/// What begins to slip more slowly than this holds, m/s²: in a second it would come to 1e-9 m/s.
+const DEPARTING: f64 = 1e-9;
+
 /// The part that every contact and grip takes at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regime {
@@ -17,6 +20,8 @@ pub struct Regime {
     pub pushing: [bool; MAX_TOUCHES],
     /// The direction in which each grip acts at its limit; `None` where it holds.
     pub limited: [Option<DVec2>; MAX_GRIPS],
+    /// Whether each grip holds together with others more than is needed: its own share is then anything up to its limit.
+    pub shared: [bool; MAX_GRIPS],
 }
 
 /// How hard every contact pushes and every grip holds, and what follows.
@@ -40,7 +45,8 @@ enum Change {
 
 impl Regime {
     /// All contacts push, all grips hold.
-    pub const HOLDING: Self = Self { pushing: [true; MAX_TOUCHES], limited: [None; MAX_GRIPS] };
+    pub const HOLDING: Self =
+        Self { pushing: [true; MAX_TOUCHES], limited: [None; MAX_GRIPS], shared: [false; MAX_GRIPS] };
 
     /// Whether a grip acts at all: that of a contact needs the contact's push.
     pub fn grips(&self, limit: Limit) -> bool {
@@ -68,6 +74,24 @@ impl Regime {
         true
     }
 
+    /// Lets grips that act at their limit without anything beginning to slip hold again. Returns how fast the others begin
+    /// to slip, m/s².
+    pub fn share(&mut self, problem: &Problem, solution: &Solution) -> f64 {
+        let mut departure = 0.0_f64;
+        for (index, grip) in problem.grips.iter().enumerate() {
+            if self.limited[index].is_some() && self.grips(grip.limit) {
+                let rate = grip.rate(&solution.accelerations).length();
+                if rate < DEPARTING {
+                    self.limited[index] = None;
+                    self.shared[index] = true;
+                } else {
+                    departure = departure.max(rate);
+                }
+            }
+        }
+        departure
+    }
+
     /// By how much all laws hold at least, m/s²; negative where one is broken.
     pub fn slack(&self, problem: &Problem, solution: &Solution) -> f64 {
         let mut slack = f64::INFINITY;
@@ -86,7 +110,7 @@ impl Regime {
             }
         }
         for (index, grip) in problem.grips.iter().enumerate() {
-            if !self.grips(grip.limit) {
+            if !self.grips(grip.limit) || self.shared[index] {
                 continue;
             }
             let Some(limit) = limit_of(grip.limit, solution) else { continue };
@@ -94,8 +118,7 @@ impl Regime {
             match self.limited[index] {
                 None => report(force.length() - limit, Change::Limit(index, force.normalize_or_zero())),
                 Some(direction) => {
-                    let rates = grip.directions.map(|direction| direction.rate(&solution.accelerations));
-                    let rate = (DVec2::from_array(rates) + grip.bias) * axes(grip.axes);
+                    let rate = grip.rate(&solution.accelerations);
                     report(rate.dot(direction), Change::Hold(index));
                     // The force at the limit is to oppose the slip that begins: one projected step towards it. Without
                     // other contacts, which is the common case, the first step hits.
@@ -114,9 +137,4 @@ pub fn limit_of(limit: Limit, solution: &Solution) -> Option<f64> {
         Limit::Fixed(limit) => Some(limit),
         Limit::Coulomb(mu, contact) => mu.map(|mu| mu * solution.normal[contact]),
     }
-}
-
-/// One for every axis that counts.
-pub fn axes(count: usize) -> DVec2 {
-    if count == 2 { DVec2::ONE } else { DVec2::X }
 }

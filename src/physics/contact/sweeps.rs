@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{
     problem::Problem,
-    regime::{NEGLIGIBLE, Regime, Solution, axes, limit_of},
+    regime::{NEGLIGIBLE, Regime, Solution, limit_of},
 };
 
 /// A bound on the sweeps; a ball that sticks to cloth, cushion and another ball at once needs some hundreds.
@@ -41,8 +41,7 @@ pub fn sweep(problem: &Problem, guess: Solution) -> (Regime, Solution) {
             change = change.max(more.abs());
         }
         for (index, grip) in problem.grips.iter().enumerate() {
-            let rates = grip.directions.map(|direction| direction.rate(&solution.accelerations));
-            let rate = (DVec2::from_array(rates) + grip.bias) * axes(grip.axes);
+            let rate = grip.rate(&solution.accelerations);
             let own = grip.directions[0].response(&grip.directions[0], twist);
             let held = solution.grip[index] - rate / own;
             let wanted = limit_of(grip.limit, &solution).map_or(held, |limit| held.clamp_length_max(limit));
