@@ -26,7 +26,8 @@ pub fn collide_balls(
     // The contact's slip (21) along t and z; n×w has the components (-w_z, w·t) there.
     let slip_t = (first.velocity - second.velocity).dot(t) - radius * spin.z;
     let slip_z = radius * (spin.x * t.x + spin.y * t.y);
-    let slip = slip_t.hypot(slip_z);
+    // No speed on a table comes near an overflow of its square, which `hypot` would guard against at some cost.
+    let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
     let factor = match friction {
         Some(mu) if 7.0 * mu * normal < slip => mu * normal / slip,
         _ => 1.0 / 7.0,
