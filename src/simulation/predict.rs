@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::{
     Constants, Rail, Segment,
     roots::{MAX_DEGREE, first_crossing, horner},
+    savings::Savings,
 };
 use crate::physics::Motion;
 
@@ -21,6 +22,9 @@ pub const RESTING_SPEED: f64 = 1e-11;
 /// Accelerations along a contact's normal below this do not press, m/s²: rounding of g's size is 1e-15.
 const PRESSING: f64 = 1e-13;
 
+/// A gap that stays above this, m, is not closed by any rounding: courses within the table are rounded to 1e-14 m.
+const SURELY_APART: f64 = 1e-10;
+
 /// What lies ahead of a ball, or of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ahead {
@@ -33,18 +37,25 @@ pub enum Ahead {
 }
 
 /// The first cushion that a free `segment` meets within `horizon` seconds of its start.
-pub fn cushion_ahead(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+#[inline]
+pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
     let reach = constants.reach;
+    // The course lies within the triangle of these two points and its start.
+    let bend = p + 0.5 * horizon * v;
+    let end = p + horizon * (v + horizon * k);
     let mut nearest = (Ahead::Nothing, Rail::Left);
     let mut earliest = horizon;
     let sides = [
-        (Rail::Left, reach.x + p.x, -v.x, -k.x),
-        (Rail::Right, reach.x - p.x, v.x, k.x),
-        (Rail::Bottom, reach.y + p.y, -v.y, -k.y),
-        (Rail::Top, reach.y - p.y, v.y, k.y),
+        (Rail::Left, reach.x + p.x, reach.x + bend.x.min(end.x), -v.x, -k.x),
+        (Rail::Right, reach.x - p.x, reach.x - bend.x.max(end.x), v.x, k.x),
+        (Rail::Bottom, reach.y + p.y, reach.y + bend.y.min(end.y), -v.y, -k.y),
+        (Rail::Top, reach.y - p.y, reach.y - bend.y.max(end.y), v.y, k.y),
     ];
-    for (rail, gap, speed, half_acceleration) in sides {
+    for (rail, gap, least_gap, speed, half_acceleration) in sides {
+        if S::CUSHIONS_IN_REACH && gap.min(least_gap) > SURELY_APART {
+            continue;
+        }
         match gap_closes(gap, speed, half_acceleration) {
             Ahead::Nothing => {}
             Ahead::Pressed => return (Ahead::Pressed, rail),
@@ -111,13 +122,14 @@ pub fn curved_cushion_ahead(
 }
 
 fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve.map_or([DVec2::ZERO; 3], |curve| curve.position);
+    let [c3, c4, c5] = segment.curve.as_ref().map_or([DVec2::ZERO; 3], |curve| curve.position);
     [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
 }
 
 /// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
 /// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
-pub fn balls_ahead(
+#[inline]
+pub fn balls_ahead<S: Savings>(
     constants: &Constants,
     first: &Segment,
     second: &Segment,
@@ -139,9 +151,7 @@ pub fn balls_ahead(
     if gap <= 2.0 * diameter * TOUCHING {
         return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
     }
-    // The gap's fall is at most what distance and speeds allow: most pairs end here.
-    let travel = horizon * (dv.length() + horizon * dk.length());
-    if d.length() - diameter > travel {
+    if S::COURSES_APART && courses_apart(d, dv, dk, diameter, horizon) {
         return Ahead::Nothing;
     }
     if matches!(
@@ -155,6 +165,23 @@ pub fn balls_ahead(
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
     first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+}
+
+/// Whether a line separates the relative course `d + dv t + dk t²` from all places nearer than `diameter`, so that the
+/// balls cannot meet within `horizon`. The course lies within the triangle of its control points; the lines that are
+/// tried stand across the way to the other ball, and along the course.
+#[inline]
+fn courses_apart(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64) -> bool {
+    let bend = d + 0.5 * horizon * dv;
+    let end = d + horizon * (dv + horizon * dk);
+    let closest = diameter + SURELY_APART;
+    let bound = closest * closest;
+    let beyond = |n: DVec2, least: f64| least > 0.0 && least * least > bound * n.length_squared();
+    let n = (end - d).perp();
+    let (start_side, bend_side) = (n.dot(d), n.dot(bend));
+    beyond(d, d.length_squared().min(d.dot(bend)).min(d.dot(end)))
+        || beyond(n, start_side.min(bend_side))
+        || beyond(n, (-start_side).min(-bend_side))
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
@@ -264,7 +291,7 @@ fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::savings::All, *};
     use crate::{physics::BallState, table::Table};
 
     #[test]
@@ -282,7 +309,7 @@ mod tests {
         let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, _) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
         let rest = Segment::at_rest(DVec2::new(0.5, 0.0));
-        let Ahead::Meeting(time) = balls_ahead(&constants, &roll, &rest, 0.0, 10.0, true) else { panic!("no meeting") };
+        let Ahead::Meeting(time) = balls_ahead::<All>(&constants, &roll, &rest, 0.0, 10.0, true) else { panic!("no meeting") };
         let position = roll.position_after(time);
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
     }
@@ -298,7 +325,7 @@ mod tests {
             velocity: DVec2::new(1.0, 2.0),
             half_acceleration: DVec2::new(-0.5, 0.1),
             motion: Motion::Resting,
-            curve: Some(curve),
+            curve: Some(Box::new(curve)),
             ..Segment::at_rest(DVec2::new(0.1, 0.2))
         };
         let c = shifted(&segment, 1.25);
