@@ -8,6 +8,7 @@ use super::BallState;
 /// never slips. Returns the normal impulse per mass `P/m`, m/s, which is zero or less for balls that do not approach.
 ///
 /// Equations (17) to (21), with equal and opposite impulses and Coulomb's law up to the no-slip limit 1/7.
+#[inline]
 pub fn collide_balls(
     radius: f64,
     restitution: f64,
@@ -42,6 +43,7 @@ pub fn collide_balls(
 }
 
 /// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.
+#[inline]
 pub(super) fn contact_twist(radius: f64, along: f64, up: f64, t: DVec2) -> DVec3 {
     let lever = 2.5 / radius;
     (lever * DVec2::new(-up * t.x, -up * t.y)).extend(lever * along)

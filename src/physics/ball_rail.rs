@@ -8,6 +8,7 @@ use super::{BallState, ball_ball::contact_twist};
 /// per mass `P/m`, m/s, which is zero or less for a ball that does not approach.
 ///
 /// Equations (22) and (23), with Coulomb's law up to the no-slip limit 2/7.
+#[inline]
 pub fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball: &mut BallState) -> f64 {
     let normal = -(1.0 + restitution) * ball.velocity.dot(n);
     if normal <= 0.0 {

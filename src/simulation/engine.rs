@@ -148,6 +148,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     /// The end of sliding or rolling.
+    #[inline(always)]
     fn change_motion(&mut self, index: usize) -> ControlFlow<()> {
         let ball = &self.balls[index];
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
@@ -166,10 +167,11 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.look_ahead(now, only(index))
     }
 
+    #[inline(always)]
     fn rebound(&mut self, index: usize) -> ControlFlow<()> {
         let Ball { rail_after, rail, next: now, .. } = self.balls[index];
         let n = rail.normal();
-        let freed = self.release(now, only(index));
+        let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
         let mut state = match &freed {
             Some(states) => states[index],
             None => self.balls[index].segment.state_after(&self.constants, rail_after),
@@ -191,12 +193,13 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.look_ahead(now, members(freed.is_some(), self.freed_members(), only(index)))
     }
 
+    #[inline(always)]
     fn collide(&mut self, pair: usize) -> ControlFlow<()> {
         let (first, second) = PAIRS[pair];
         let Meeting { since, after, time: now, .. } = self.pairs[pair];
         let mut changed = only(first);
         changed[second] = true;
-        let freed = self.release(now, changed);
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let state_of = |index: usize| match &freed {
             Some(states) if self.freed_members()[index] => states[index],
             _ => {
@@ -222,6 +225,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     /// The next step of the balls in resting contact.
+    #[cold]
     fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         let mut members: Vec<&mut BallState> =
@@ -238,6 +242,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
 
     /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it
     /// is known what presses now. Returns the states of all members.
+    #[cold]
     fn release(&mut self, now: f64, changed: [bool; BALLS]) -> Option<[BallState; BALLS]> {
         let resting = self.resting.as_ref()?;
         if !(0..BALLS).any(|index| changed[index] && resting.members[index]) {
@@ -259,11 +264,13 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     /// Sends a ball off on the free course that follows from its state.
+    #[inline(always)]
     fn launch(&mut self, index: usize, now: f64, state: &BallState) {
         let (segment, lasts) = Segment::free(&self.constants, now, state);
         self.set(index, segment, lasts);
     }
 
+    #[inline(always)]
     fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
         let resting = self.balls[index].resting;
         let next = segment.start + lasts;
@@ -274,6 +281,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     /// Predicts which cushion a ball will meet; returns whether it is pressed against one instead.
+    #[inline(always)]
     fn predict_cushion(&mut self, index: usize) -> bool {
         let ball = &mut self.balls[index];
         if S::BALLS_AT_REST && ball.segment.motion == Motion::Stationary {
@@ -294,7 +302,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     /// Predicts what the `changed` balls will meet, after their courses have been set.
-    #[inline]
+    #[inline(always)]
     fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
         let mut changed = changed;
         if !S::KEPT_PREDICTIONS {
@@ -309,7 +317,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         ControlFlow::Continue(())
     }
 
-    #[inline]
+    #[inline(always)]
     fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS], may_rest: bool) {
         for (index, &(first, second)) in PAIRS.iter().enumerate() {
             if changed[first] || changed[second] {
@@ -318,7 +326,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn predict_pair(&mut self, index: usize, now: f64, may_rest: bool) {
         let (first, second) = PAIRS[index];
         let (a, b) = (&self.balls[first], &self.balls[second]);
@@ -400,6 +408,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         ControlFlow::Continue(())
     }
 
+    #[cold]
     fn rest(&mut self, index: usize, now: f64, state: &BallState) {
         let Some(resting) = &self.resting else { return };
         let (half_acceleration, curve) = resting.course(index);
@@ -424,7 +433,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         segment.state_after(&self.constants, now - segment.start)
     }
 
-    #[inline]
+    #[inline(always)]
     fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
         let flow = self.observer.event(Event { time, kind });
         if S::EARLY_END { flow } else { ControlFlow::Continue(()) }

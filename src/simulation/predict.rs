@@ -37,64 +37,83 @@ pub enum Ahead {
 }
 
 /// The first cushion that a free `segment` meets within `horizon` seconds of its start.
-#[inline]
+#[inline(always)]
 pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
     let reach = constants.reach;
     // The course lies within the triangle of these two points and its start.
     let bend = p + 0.5 * horizon * v;
     let end = p + horizon * (v + horizon * k);
-    let mut nearest = (Ahead::Nothing, Rail::Left);
-    let mut earliest = horizon;
-    let sides = [
-        (Rail::Left, reach.x + p.x, reach.x + bend.x.min(end.x), -v.x, -k.x),
-        (Rail::Right, reach.x - p.x, reach.x - bend.x.max(end.x), v.x, k.x),
-        (Rail::Bottom, reach.y + p.y, reach.y + bend.y.min(end.y), -v.y, -k.y),
-        (Rail::Top, reach.y - p.y, reach.y - bend.y.max(end.y), v.y, k.y),
-    ];
-    for (rail, gap, least_gap, speed, half_acceleration) in sides {
-        if S::CUSHIONS_IN_REACH && gap.min(least_gap) > SURELY_APART {
-            continue;
-        }
-        match gap_closes(gap, speed, half_acceleration) {
-            Ahead::Nothing => {}
-            Ahead::Pressed => return (Ahead::Pressed, rail),
-            Ahead::Meeting(time) => {
-                if time < earliest {
-                    earliest = time;
-                    nearest = (Ahead::Meeting(time), rail);
-                }
-            }
-        }
+    let across = axis_ahead::<S>(reach.x, p.x, v.x, k.x, (bend.x, end.x));
+    let along = axis_ahead::<S>(reach.y, p.y, v.y, k.y, (bend.y, end.y));
+    let x_rail = if across.upwards { Rail::Right } else { Rail::Left };
+    let y_rail = if along.upwards { Rail::Top } else { Rail::Bottom };
+    let (time, rail) = if along.time < across.time { (along.time, y_rail) } else { (across.time, x_rail) };
+    if time < 0.0 {
+        (Ahead::Pressed, rail)
+    } else if time < horizon {
+        (Ahead::Meeting(time), rail)
+    } else {
+        (Ahead::Nothing, rail)
     }
-    nearest
 }
 
-/// When `gap - speed t - half_acceleration t²` first falls to zero.
-#[inline]
-fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> Ahead {
+/// What a course meets on one axis of the table.
+struct OnAxis {
+    /// When, s; infinity for never, [`PRESSED`] for a resting contact.
+    time: f64,
+    /// Whether it is the cushion on the positive side.
+    upwards: bool,
+}
+
+const PRESSED: f64 = -1.0;
+
+/// The first of two opposite cushions, at `±reach`, that a ball meets whose coordinate is `p + v t + k t²`. The control
+/// points bound the course.
+#[inline(always)]
+fn axis_ahead<S: Savings>(reach: f64, p: f64, v: f64, k: f64, (bend, end): (f64, f64)) -> OnAxis {
+    let upwards = v > 0.0;
+    let sign = if upwards { 1.0 } else { -1.0 };
+    let (p, v, k, bend, end) = (sign * p, sign * v, sign * k, sign * bend, sign * end);
+    let (highest, lowest) = if bend > end { (bend, end) } else { (end, bend) };
+    if !S::CUSHIONS_IN_REACH || reach - highest < SURELY_APART || reach - p < SURELY_APART {
+        let time = gap_closes(reach - p, v, k);
+        if time < f64::INFINITY {
+            // The other side would be met later.
+            return OnAxis { time, upwards };
+        }
+    }
+    if !S::CUSHIONS_IN_REACH || reach + lowest < SURELY_APART || reach + p < SURELY_APART {
+        return OnAxis { time: gap_closes(reach + p, -v, -k), upwards: !upwards };
+    }
+    OnAxis { time: f64::INFINITY, upwards }
+}
+
+/// When `gap - speed t - half_acceleration t²` first falls to zero: infinity if never, [`PRESSED`] for a resting contact.
+#[inline(always)]
+fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
     if gap <= TOUCHING {
         return if speed > RESTING_SPEED {
-            Ahead::Meeting(0.0)
+            0.0
         } else if 2.0 * half_acceleration <= PRESSING {
-            Ahead::Nothing
+            f64::INFINITY
         } else if speed >= -RESTING_SPEED {
-            Ahead::Pressed
+            PRESSED
         } else {
-            Ahead::Meeting(-speed / half_acceleration)
+            -speed / half_acceleration
         };
     }
     if speed <= 0.0 && half_acceleration <= 0.0 {
-        return Ahead::Nothing;
+        return f64::INFINITY;
     }
     let discriminant = speed * speed + 4.0 * half_acceleration * gap;
     if discriminant < 0.0 {
-        Ahead::Nothing
+        f64::INFINITY
     } else if speed > 0.0 {
-        Ahead::Meeting(2.0 * gap / (speed + discriminant.sqrt()))
+        2.0 * gap / (speed + discriminant.sqrt())
     } else {
         // Without cancellation, since speed is not positive.
-        Ahead::Meeting((discriminant.sqrt() - speed) / (2.0 * half_acceleration))
+        (discriminant.sqrt() - speed) / (2.0 * half_acceleration)
     }
 }
 
@@ -170,18 +189,27 @@ pub fn balls_ahead<S: Savings>(
 /// Whether a line separates the relative course `d + dv t + dk t²` from all places nearer than `diameter`, so that the
 /// balls cannot meet within `horizon`. The course lies within the triangle of its control points; the lines that are
 /// tried stand across the way to the other ball, and along the course.
-#[inline]
+#[inline(always)]
 fn courses_apart(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64) -> bool {
     let bend = d + 0.5 * horizon * dv;
     let end = d + horizon * (dv + horizon * dk);
     let closest = diameter + SURELY_APART;
     let bound = closest * closest;
-    let beyond = |n: DVec2, least: f64| least > 0.0 && least * least > bound * n.length_squared();
+    // All three points beyond the line across the way to the other ball, which the first one is by itself.
+    let away = d.length_squared();
+    let least = lesser(d.dot(bend), d.dot(end));
+    let leaves = least > 0.0 && lesser(least, away) * lesser(least, away) > bound * away;
+    // All three on one side of the line along the course, which the first and the last are equally far from.
     let n = (end - d).perp();
-    let (start_side, bend_side) = (n.dot(d), n.dot(bend));
-    beyond(d, d.length_squared().min(d.dot(bend)).min(d.dot(end)))
-        || beyond(n, start_side.min(bend_side))
-        || beyond(n, (-start_side).min(-bend_side))
+    let (ends, middle) = (n.dot(d), n.dot(bend));
+    let passes = ends * middle > 0.0 && lesser(ends * ends, middle * middle) > bound * n.length_squared();
+    leaves || passes
+}
+
+/// The lesser of two numbers; `f64::min` would spend time on what is not a number.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
@@ -296,10 +324,10 @@ mod tests {
 
     #[test]
     fn a_ball_that_leaves_the_cushion_it_touches_does_not_hit_it() {
-        assert_eq!(gap_closes(0.0, -1.0, 0.0), Ahead::Nothing);
-        assert_eq!(gap_closes(0.0, -1.0, 0.5), Ahead::Meeting(2.0));
-        assert_eq!(gap_closes(0.0, 0.0, 0.5), Ahead::Pressed);
-        assert_eq!(gap_closes(-1e-10, 1.0, 0.0), Ahead::Meeting(0.0));
+        assert_eq!(gap_closes(0.0, -1.0, 0.0), f64::INFINITY);
+        assert_eq!(gap_closes(0.0, -1.0, 0.5), 2.0);
+        assert_eq!(gap_closes(0.0, 0.0, 0.5), PRESSED);
+        assert_eq!(gap_closes(-1e-10, 1.0, 0.0), 0.0);
     }
 
     #[test]
@@ -309,7 +337,9 @@ mod tests {
         let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, _) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
         let rest = Segment::at_rest(DVec2::new(0.5, 0.0));
-        let Ahead::Meeting(time) = balls_ahead::<All>(&constants, &roll, &rest, 0.0, 10.0, true) else { panic!("no meeting") };
+        let Ahead::Meeting(time) = balls_ahead::<All>(&constants, &roll, &rest, 0.0, 10.0, true) else {
+            panic!("no meeting")
+        };
         let position = roll.position_after(time);
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
     }

@@ -13,6 +13,7 @@ const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 pub const STILL: f64 = 1e-7;
 
 /// Brings balls to rest if all of them are slower than `limit`, m/s.
+#[inline(always)]
 pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
     let is_still = |ball: &&mut BallState| {
         ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
@@ -70,6 +71,7 @@ impl Segment {
 
     /// The free course that follows from `state` at time `start`, and how long it can last, s: until the slip or the
     /// speed is used up (thesis equations 25 and 26).
+    #[inline(always)]
     pub fn free(constants: &Constants, start: f64, state: &BallState) -> (Self, f64) {
         let radius = constants.radius;
         let u = slip(radius, state.velocity, state.spin);
@@ -98,6 +100,7 @@ impl Segment {
     }
 
     /// Turns the segment into a rolling one with the velocity that it has, and tells how long it can last, s.
+    #[inline(always)]
     fn roll(mut self, constants: &Constants) -> (Self, f64) {
         let speed = self.velocity.length();
         self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
@@ -107,6 +110,7 @@ impl Segment {
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
+    #[inline(always)]
     pub fn successor(&self, constants: &Constants, duration: f64) -> (Self, f64) {
         let wz = decayed_spin(self.spin.z, constants.spinning, duration);
         let spin = DVec3::new(0.0, 0.0, wz);
@@ -123,7 +127,7 @@ impl Segment {
     }
 
     /// Centre `t` seconds after the start, m.
-    #[inline]
+    #[inline(always)]
     pub fn position_after(&self, t: f64) -> DVec2 {
         let bend = match &self.curve {
             None => self.half_acceleration,
@@ -136,7 +140,7 @@ impl Segment {
     }
 
     /// Velocity `t` seconds after the start, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity_after(&self, t: f64) -> DVec2 {
         let bend = match &self.curve {
             None => 2.0 * self.half_acceleration,
@@ -149,6 +153,7 @@ impl Segment {
     }
 
     /// Angular velocity `t` seconds after the start, rad/s.
+    #[inline(always)]
     pub fn spin_after(&self, constants: &Constants, t: f64) -> DVec3 {
         if let Some(curve) = &self.curve {
             let [c1, c2, c3] = curve.spin;
@@ -165,6 +170,7 @@ impl Segment {
     }
 
     /// Position, velocity and spin `t` seconds after the start.
+    #[inline(always)]
     pub fn state_after(&self, constants: &Constants, t: f64) -> BallState {
         BallState {
             position: self.position_after(t),
