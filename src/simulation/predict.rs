@@ -164,14 +164,12 @@ pub fn balls_ahead<S: Savings>(
     let dv = first.velocity_after(t1) - second.velocity_after(t2);
     let dk = first.half_acceleration - second.half_acceleration;
     let diameter = 2.0 * constants.radius;
-    let gap = d.length_squared() - diameter * diameter;
-    let c1 = 2.0 * d.dot(dv);
-    let c2 = dv.length_squared() + 2.0 * d.dot(dk);
-    if gap <= 2.0 * diameter * TOUCHING {
-        return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
-    }
     if S::COURSES_APART && courses_apart(d, dv, dk, diameter, horizon) {
         return Ahead::Nothing;
+    }
+    let gap = d.length_squared() - diameter * diameter;
+    if gap <= 2.0 * diameter * TOUCHING {
+        return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
     }
     if matches!(
         (first.motion, second.motion),
@@ -179,6 +177,8 @@ pub fn balls_ahead<S: Savings>(
     ) {
         return straight_ahead(d, dv, dk, gap, diameter, horizon);
     }
+    let c1 = 2.0 * d.dot(dv);
+    let c2 = dv.length_squared() + 2.0 * d.dot(dk);
     let c3 = 2.0 * dv.dot(dk);
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
@@ -195,15 +195,16 @@ fn courses_apart(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64) ->
     let end = d + horizon * (dv + horizon * dk);
     let closest = diameter + SURELY_APART;
     let bound = closest * closest;
-    // All three points beyond the line across the way to the other ball, which the first one is by itself.
+    // All three points beyond the line across the way to the other ball, which the first one is by itself. Branches on
+    // the single comparisons would be guessed wrong too often.
     let away = d.length_squared();
-    let least = lesser(d.dot(bend), d.dot(end));
-    let leaves = least > 0.0 && lesser(least, away) * lesser(least, away) > bound * away;
+    let least = lesser(lesser(d.dot(bend), d.dot(end)), away);
+    let leaves = least * least.abs() > bound * away;
     // All three on one side of the line along the course, which the first and the last are equally far from.
     let n = (end - d).perp();
     let (ends, middle) = (n.dot(d), n.dot(bend));
-    let passes = ends * middle > 0.0 && lesser(ends * ends, middle * middle) > bound * n.length_squared();
-    leaves || passes
+    let passes = (ends * middle > 0.0) & (lesser(ends * ends, middle * middle) > bound * n.length_squared());
+    leaves | passes
 }
 
 /// The lesser of two numbers; `f64::min` would spend time on what is not a number.
