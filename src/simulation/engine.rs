@@ -413,7 +413,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         for index in 0..BALLS {
             let was = std::mem::replace(&mut self.balls[index].resting, members[index]);
             if members[index] {
-                self.rest(index, now, &states[index]);
+                self.rest(index, now);
                 changed[index] = true;
             }
             if members[index] && !was {
@@ -431,8 +431,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     #[cold]
-    fn rest(&mut self, index: usize, now: f64, state: &BallState) {
+    fn rest(&mut self, index: usize, now: f64) {
         let Some(resting) = &self.resting else { return };
+        let state = &resting.begin[index];
         let (half_acceleration, curve) = resting.course(index);
         let step = resting.step;
         let segment = Segment {

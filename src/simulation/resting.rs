@@ -72,9 +72,10 @@ pub struct Resting {
     pub start: f64,
     /// Length of the step, s.
     pub step: f64,
+    /// State at its beginning: what has stopped slipping there has stopped exactly.
+    pub begin: State,
     /// State at its end.
     pub end: State,
-    begin: State,
     touches: Touches,
     laws: Laws,
     first: Forces,
@@ -364,9 +365,15 @@ impl Resting {
 
 /// The state without the slips that end here, the laws that hold then, and the forces.
 fn lawful(table: &Table, balls: &State, touches: &[Touch]) -> (State, Laws, Forces) {
+    let mut balls = *balls;
+    if table.ball_friction.is_none() {
+        // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
+        // where the cloth has no time to take part.
+        stop_by_impulses(table, &mut balls, touches, &Laws::SLIPPING);
+    }
     let stopped = |none: f64| {
-        let laws = Laws::of(table.radius, balls, touches, none);
-        let mut begin = *balls;
+        let laws = Laws::of(table.radius, &balls, touches, none);
+        let mut begin = balls;
         settle(table, &mut begin, touches, &laws);
         let forces = contact_forces(table, &begin, touches, &laws, None);
         (begin, laws, forces)

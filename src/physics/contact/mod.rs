@@ -100,6 +100,10 @@ pub struct Laws {
 }
 
 impl Laws {
+    /// Everything slips but contacts that never do.
+    pub const SLIPPING: Self =
+        Self { slips: [true; BALLS], moves: [true; BALLS], spins: [true; BALLS], rubs: [true; MAX_TOUCHES] };
+
     /// The laws that hold in the state `balls` with the given contacts, if slips and speeds below `none`, m/s, are zero.
     pub fn of(radius: f64, balls: &[BallState; BALLS], touches: &[Touch], none: f64) -> Self {
         let mut rubs = [false; MAX_TOUCHES];
