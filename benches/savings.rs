@@ -83,6 +83,9 @@ fn hoarded(scene: &Scene) -> u64 {
     scene.shots.iter().map(play).fold(0, u64::wrapping_add)
 }
 
+/// Plays a scene and returns a fingerprint of what happened.
+type Play = fn(&Scene) -> u64;
+
 /// A set of savings of which the named ones are off.
 macro_rules! without {
     ($($saving:ident),*) => {{
@@ -95,7 +98,7 @@ macro_rules! without {
 }
 
 fn main() {
-    let rows: [(&str, fn(&Scene) -> u64); 8] = [
+    let rows: [(&str, Play); 8] = [
         ("all savings", watched::<All>),
         ("balls at rest predict nothing", without!(BALLS_AT_REST)),
         ("predictions are kept", without!(KEPT_PREDICTIONS)),
@@ -119,7 +122,9 @@ fn main() {
         }
     }
     print!("{:32}", "without …: × dearer");
-    scenes.iter().for_each(|scene| print!("{:>16}", scene.name));
+    for scene in &scenes {
+        print!("{:>16}", scene.name);
+    }
     println!();
     for ((name, _), row) in rows.iter().zip(&seconds) {
         print!("{name:32}");
