@@ -22,8 +22,8 @@ const NEGLIGIBLE: f64 = 1e-12;
 /// is lost moves a ball by less than 1e-9 m.
 const SLOWEST_BOUNCE: f64 = 1e-10;
 
-/// A slip is one of its own if it lasts for this many bounces.
-const LASTING_FLIGHTS: f64 = 10.0;
+/// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.
+const MADE_BY_BOUNCES: f64 = 4.0;
 
 /// Speeds above this never settle, m/s: the test costs nothing where it matters.
 pub const FASTEST: f64 = 1e-4;
@@ -49,13 +49,14 @@ pub fn settles(table: &Table, constants: &Constants, touch: &Touch, balls: &[Bal
         contact_forces(table, balls, others.as_slice(), &laws, None).linear
     };
     let pull = -touch.opening_acceleration(balls, &accelerations);
-    let flight = 2.0 * speed / pull;
     let slide = |ball: usize| {
         let (segment, lasts) = &free[ball];
-        // A slip that ends before many bounces is made by them, in proportion: it does not set the pace.
-        if segment.motion == Motion::Sliding && *lasts > LASTING_FLIGHTS * flight { *lasts } else { f64::INFINITY }
+        // A slip that the bounces make, in proportion to their speed, does not set the pace.
+        let slip = 3.5 * constants.sliding * lasts;
+        if segment.motion == Motion::Sliding && slip > MADE_BY_BOUNCES * speed { *lasts } else { f64::INFINITY }
     };
-    let slide = slide(touch.first).min(touch.second.map_or(f64::INFINITY, slide));
+    let shortest = |touch: &Touch| slide(touch.first).min(touch.second.map_or(f64::INFINITY, slide));
+    let slide = others.as_slice().iter().map(shortest).fold(shortest(touch), f64::min);
     let restitution = if touch.second.is_some() { constants.ball_restitution } else { constants.rail_restitution };
     settles_in_time(speed, pull, restitution, slide)
 }
