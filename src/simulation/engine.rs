@@ -7,6 +7,7 @@ use super::{
     resting::{PAIRS, Resting, STILL_AT_REST},
     savings::{All, Savings},
     segment::{STILL, still},
+    crowd::Crowd,
     settling::{FASTEST, settles},
 };
 use crate::{
@@ -87,6 +88,7 @@ pub(super) struct Engine<'a, S, O> {
     pub(super) resting: Option<Box<Resting>>,
     /// Whether a prediction has found balls pressed together that are not yet in `resting`.
     pub(super) pressed: bool,
+    pub(super) crowd: Crowd,
     savings: PhantomData<S>,
 }
 
@@ -101,6 +103,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             times: [f64::INFINITY; 2 * BALLS],
             resting: None,
             pressed: false,
+            crowd: Crowd::NONE,
             savings: PhantomData,
         }
     }
@@ -184,6 +187,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
         let (first, second) = PAIRS[pair];
         let Meeting { since, after, .. } = self.pairs[pair];
+        self.crowd.impact(now);
         let mut changed = only(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };

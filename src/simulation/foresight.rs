@@ -125,6 +125,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         match balls_ahead::<S>(&self.constants, a, b, now, horizon, may_rest) {
             Ahead::Nothing => {}
             Ahead::Meeting(after) => {
+                let after = after + self.crowd.delay();
                 self.pairs[index].after = after;
                 self.times[BALLS + index] = now + after;
             }

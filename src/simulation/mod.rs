@@ -1,6 +1,7 @@
 //! When things happen: event prediction, the engine, and playback of what it recorded.
 
 mod constants;
+mod crowd;
 mod cushions;
 mod engine;
 mod events;

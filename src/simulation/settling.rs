@@ -3,8 +3,9 @@
 //! A ball that leaves with speed `s` and is pulled back with acceleration `p` bounces for `T = 2s / (p (1 - e))` in all.
 //! Instead, the chatter can end at once with one inelastic impact followed by a resting contact. Both give the same
 //! impulse, since both bring the speed to zero, and the same first moment of it, since both bring the gap to zero; so the
-//! forces that follow the slip see the same slip on average. What is left is of third order: `s` times the square of the
-//! share by which the friction's direction turns in the time `T`.
+//! forces that follow the slip see the same slip on average. The second moments differ by twice the area under the gap,
+//! `4 s³ / (3 p² (1 - e³))`, and what is left of the chatter is half of that over the square of the time in which the
+//! friction's direction turns.
 
 use super::{
     Constants, Segment,
@@ -70,8 +71,8 @@ fn settles_in_time(speed: f64, pull: f64, restitution: f64, slide: f64) -> bool 
         return false;
     }
     let chatter = 2.0 * speed / (pull * (1.0 - restitution));
-    let turned = (chatter / slide).min(1.0);
-    speed * turned * turned <= NEGLIGIBLE
+    let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
+    if chatter > slide { speed <= NEGLIGIBLE } else { 0.5 * moment <= NEGLIGIBLE * slide * slide }
 }
 
 #[cfg(test)]
