@@ -1,8 +1,11 @@
-//! Impacts that pile up at one moment.
+//! What keeps a shot from going on for ever where balls crowd.
 //!
 //! Three balls and a cushion that all touch can hand an impact round without end: a ball that has to squeeze past another
 //! closes with it again as soon as it has been stopped, and time stands still. Letting such balls overlap by a hair lets
 //! time go on.
+//!
+//! Shots of hundreds of impacts or thousands of contact steps are simulated more and more coarsely. No random shot on a
+//! `match` table gets there but one in a million; the stability table tells what the others lose.
 
 /// Impacts of balls that follow each other within this time belong together, s.
 const TOGETHER: f64 = 1e-7;
@@ -17,22 +20,66 @@ const FIRST_DELAY: f64 = 1e-12;
 /// Longest delay, s: what has piled up so far closes with less than 1e-6 m/s.
 const LONGEST_DELAY: f64 = 1e-7;
 
-/// How many impacts have piled up.
+/// Impacts of a shot that are simulated as exactly as can be, and how many more double its tolerances.
+const FINE_IMPACTS: u32 = 300;
+const IMPACTS_TO_DOUBLE: u32 = 10;
+
+/// Impacts of a shot after which it is brought to its end.
+const TOO_MANY_IMPACTS: u32 = 800;
+
+/// The same for steps of resting contacts.
+const FINE_STEPS: u32 = 1000;
+const STEPS_TO_DOUBLE: u32 = 100;
+
+/// How much has happened.
 #[derive(Clone, Copy, Debug)]
 pub struct Crowd {
     last: f64,
     count: u32,
+    impacts: u32,
+    steps: u32,
 }
 
 impl Crowd {
     /// No impact yet.
-    pub const NONE: Self = Self { last: f64::NEG_INFINITY, count: 0 };
+    pub const NONE: Self = Self { last: f64::NEG_INFINITY, count: 0, impacts: 0, steps: 0 };
 
     /// Takes note of an impact of two balls.
     #[inline(always)]
     pub fn impact(&mut self, now: f64) {
         self.count = if now - self.last < TOGETHER { self.count + 1 } else { 0 };
         self.last = now;
+        self.impacts += 1;
+    }
+
+    /// Takes note of an impact on a cushion.
+    #[inline(always)]
+    pub fn rebound(&mut self) {
+        self.impacts += 1;
+    }
+
+    /// Takes note of a step of a resting contact.
+    pub fn step(&mut self) {
+        self.steps += 1;
+    }
+
+    /// By how much the speed below which balls are at rest is to grow, 1 to a million: what neither time nor coarser steps
+    /// bring to an end, this does.
+    #[inline(always)]
+    pub fn stillness(&self) -> f64 {
+        if self.impacts < TOO_MANY_IMPACTS { 1.0 } else { self.long_stillness() }
+    }
+
+    #[cold]
+    fn long_stillness(&self) -> f64 {
+        2_f64.powi(((self.impacts - TOO_MANY_IMPACTS) / IMPACTS_TO_DOUBLE).min(20) as i32)
+    }
+
+    /// By how much all tolerances are to grow, 1 to a million.
+    pub fn coarseness(&self) -> f64 {
+        let impacts = f64::from(self.impacts.saturating_sub(FINE_IMPACTS)) / f64::from(IMPACTS_TO_DOUBLE);
+        let steps = f64::from(self.steps.saturating_sub(FINE_STEPS)) / f64::from(STEPS_TO_DOUBLE);
+        2_f64.powi((impacts + steps).min(20.0) as i32)
     }
 
     /// By how much the next impact comes late, s: zero but for a crowd.
@@ -68,5 +115,18 @@ mod tests {
             crowd.impact(0.5);
         }
         assert!(crowd.delay() > first && crowd.delay() <= LONGEST_DELAY);
+    }
+
+    #[test]
+    fn only_shots_without_end_are_coarse() {
+        let mut crowd = Crowd::NONE;
+        for _ in 0..FINE_IMPACTS {
+            crowd.rebound();
+        }
+        assert_eq!(crowd.coarseness(), 1.0);
+        for _ in 0..FINE_IMPACTS {
+            crowd.rebound();
+        }
+        assert_eq!(crowd.coarseness(), 2_f64.powi(20));
     }
 }

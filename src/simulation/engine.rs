@@ -4,10 +4,10 @@ use std::{marker::PhantomData, ops::ControlFlow};
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
+    crowd::Crowd,
     resting::{PAIRS, Resting, STILL_AT_REST},
     savings::{All, Savings},
     segment::{STILL, still},
-    crowd::Crowd,
     settling::{FASTEST, settles},
 };
 use crate::{
@@ -156,6 +156,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     #[inline(always)]
     fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         let Ball { rail_after, rail, .. } = self.balls[index];
+        self.crowd.rebound();
         let n = rail.normal();
         let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
         let mut state = match &freed {
@@ -173,7 +174,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             collide_rail(c.radius, 0.0, c.rail_friction, n, &mut state);
             state.velocity -= state.velocity.dot(n) * n;
         }
-        still(STILL, c.radius, &mut [&mut state]);
+        still(STILL * self.crowd.stillness(), c.radius, &mut [&mut state]);
         self.close(index, now);
         self.launch(index, now, &state);
         self.tell(now, EventKind::BallRail(index, rail))?;
@@ -208,7 +209,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             (a, b) = before;
             collide_balls(c.radius, 0.0, c.ball_friction, &mut a, &mut b);
         }
-        still(STILL, c.radius, &mut [&mut a, &mut b]);
+        still(STILL * self.crowd.stillness(), c.radius, &mut [&mut a, &mut b]);
         self.close(first, now);
         self.close(second, now);
         self.launch(first, now, &a);
@@ -233,7 +234,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         for (index, state) in bounced {
             balls[*index] = *state;
         }
-        settles(self.table, &self.constants, touch, &balls)
+        settles(self.table, &self.constants, touch, &balls, self.crowd.coarseness())
     }
 
     /// The next step of the balls in resting contact.
@@ -242,7 +243,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         let mut members: Vec<&mut BallState> =
             resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
-        still(STILL_AT_REST, self.constants.radius, &mut members);
+        still(STILL_AT_REST * self.crowd.stillness(), self.constants.radius, &mut members);
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
             self.close(index, now);
             self.launch(index, now, &resting.end[index]);
@@ -305,7 +306,10 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             }
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        self.resting = Resting::begin(self.table, &self.constants, now, &states, self.resting.as_deref()).map(Box::new);
+        self.crowd.step();
+        let coarseness = self.crowd.coarseness();
+        self.resting = Resting::begin(self.table, &self.constants, now, &states, self.resting.as_deref(), coarseness)
+            .map(Box::new);
         let members = self.freed_members();
         for index in 0..BALLS {
             let was = std::mem::replace(&mut self.balls[index].resting, members[index]);

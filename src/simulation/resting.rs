@@ -20,7 +20,7 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Estimated error that a step may make in metres, m/s, or R times rad/s.
+/// Estimated error that a step may make in metres, m/s, or R times rad/s, in a shot that does not go on and on.
 const TOLERANCE: f64 = 1e-13;
 
 /// Forces per mass that are broken or missing by less than this count as rounding, m/s².
@@ -44,6 +44,9 @@ const STOPPING_SHARE: f64 = 0.9;
 /// handed on as a polynomial of degree five, which strays by about `a h⁶/(2000 turn⁴)` in a step of `h` seconds: less
 /// than 1e-10 m for accelerations `a` of a few m/s².
 const LONGEST_STEP: f64 = 0.06;
+
+/// Longest step of all, s: courses along which nothing slips bend, too.
+const LONGEST_CURVE: f64 = 0.02;
 
 /// In steps shorter than this many seconds the places at both ends, rounded to 1e-16 m, say less about the velocity than
 /// the velocities themselves.
@@ -82,6 +85,8 @@ pub struct Resting {
     last: Forces,
     /// Step that is tried next, s.
     next_step: f64,
+    /// Estimated error that a step may make in metres, m/s, or R times rad/s.
+    tolerance: f64,
 }
 
 /// The contacts, in a fixed order.
@@ -150,13 +155,15 @@ impl Resting {
         start: f64,
         balls: &State,
         previous: Option<&Self>,
+        coarseness: f64,
     ) -> Option<Self> {
-        let mut touches = Touches::of(constants, balls, SLOWEST_OPENING);
+        let mut touches = Touches::of(constants, balls, SLOWEST_OPENING * coarseness.min(1e3));
+        let ending = ENDING_SLIP * coarseness.min(1e4);
         let (begin, laws, first) = loop {
             if touches.count == 0 {
                 return None;
             }
-            let (begin, laws, first) = lawful(table, balls, touches.as_slice());
+            let (begin, laws, first) = lawful(table, balls, touches.as_slice(), ending);
             // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
             let mut normals = first.normal.iter();
             if !touches.retain(|_| normals.next().is_some_and(|normal| *normal > SLACK)) {
@@ -171,8 +178,20 @@ impl Resting {
             }
         }
         let next_step = previous.map_or(f64::INFINITY, |previous| previous.next_step);
-        let mut resting =
-            Self { members, start, step: 0.0, end: begin, begin, touches, laws, first, last: first, next_step };
+        let tolerance = TOLERANCE * coarseness.min(1e4);
+        let mut resting = Self {
+            members,
+            start,
+            step: 0.0,
+            end: begin,
+            begin,
+            touches,
+            laws,
+            first,
+            last: first,
+            next_step,
+            tolerance,
+        };
         resting.advance(table);
         Some(resting)
     }
@@ -181,7 +200,7 @@ impl Resting {
     fn advance(&mut self, table: &Table) {
         let mut length = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
         let mut step = self.integrate(table, length);
-        while step.error > TOLERANCE && length > SHORTEST_STEP {
+        while step.error > self.tolerance && length > SHORTEST_STEP {
             length = (0.4 * length).max(SHORTEST_STEP);
             step = self.integrate(table, length);
         }
@@ -255,7 +274,7 @@ impl Resting {
     /// Longest step after which every slip, speed and spin still has its direction, and whose course a polynomial can
     /// follow, s.
     fn longest_step(&self, radius: f64) -> f64 {
-        let mut longest = f64::INFINITY;
+        let mut longest = LONGEST_CURVE;
         let mut limit = |size: DVec2, rate: DVec2| {
             let falling = -rate.dot(size) / size.length();
             if falling > 0.0 {
@@ -310,7 +329,7 @@ impl Resting {
 
     fn integrate(&self, table: &Table, length: f64) -> Step {
         let slope = |state: &State| self.slope(state, &self.forces(table, state));
-        extrapolate(&self.begin, &self.slope(&self.begin, &self.first), slope, length, table.radius, TOLERANCE)
+        extrapolate(&self.begin, &self.slope(&self.begin, &self.first), slope, length, table.radius, self.tolerance)
     }
 
     /// The forces in this step's regime.
@@ -364,7 +383,7 @@ impl Resting {
 }
 
 /// The state without the slips that end here, the laws that hold then, and the forces.
-fn lawful(table: &Table, balls: &State, touches: &[Touch]) -> (State, Laws, Forces) {
+fn lawful(table: &Table, balls: &State, touches: &[Touch], ending: f64) -> (State, Laws, Forces) {
     let mut balls = *balls;
     if table.ball_friction.is_none() {
         // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
@@ -378,7 +397,7 @@ fn lawful(table: &Table, balls: &State, touches: &[Touch]) -> (State, Laws, Forc
         let forces = contact_forces(table, &begin, touches, &laws, None);
         (begin, laws, forces)
     };
-    let ended = stopped(ENDING_SLIP);
+    let ended = stopped(ending);
     // What would begin to slip again at once has not ended.
     if ended.2.departure > 0.0 { stopped(SLIP_TOLERANCE) } else { ended }
 }

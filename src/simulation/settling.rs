@@ -34,10 +34,19 @@ const SHAKEN: f64 = 10.0;
 
 /// Whether the balls of a contact that has just bounced, and opens in the state `balls`, will come to rest there.
 #[cold]
-pub fn settles(table: &Table, constants: &Constants, touch: &Touch, balls: &[BallState; BALLS]) -> bool {
+pub fn settles(
+    table: &Table,
+    constants: &Constants,
+    touch: &Touch,
+    balls: &[BallState; BALLS],
+    coarseness: f64,
+) -> bool {
     let speed = touch.opening_speed(balls);
     if speed > FASTEST {
         return false;
+    }
+    if speed <= coarseness * SLOWEST_BOUNCE {
+        return true;
     }
     let free = balls.map(|ball| Segment::free(constants, 0.0, &ball));
     let mut others = Touches::of(constants, balls, SLOWEST_OPENING.max(SHAKEN * speed));
