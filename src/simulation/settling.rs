@@ -17,7 +17,7 @@ const NEGLIGIBLE: f64 = 1e-13;
 const SLOWEST_BOUNCE: f64 = 1e-10;
 
 /// Speeds above this never settle, m/s: the test costs nothing where it matters.
-const FASTEST: f64 = 1e-4;
+pub const FASTEST: f64 = 1e-4;
 
 /// Whether a ball that has just left the cushion with normal `n` will come to rest on it.
 pub fn settles_on_cushion(constants: &Constants, n: DVec2, ball: &BallState) -> bool {
