@@ -9,7 +9,7 @@ use std::{f64::consts::PI, ops::ControlFlow, time::Instant};
 use carom::{
     game::Tally,
     physics::{CueInputs, Impulse, strike},
-    simulation::{All, Event, EventKind, Observer, Savings, Segment, simulate, simulate_with},
+    simulation::{All, Event, EventKind, Observer, Savings, Segment, simulate, watch_with},
     table::{Layout, Table},
 };
 use glam::DVec2;
@@ -25,7 +25,7 @@ struct Scene {
     shots: Vec<(Layout, Impulse)>,
 }
 
-/// Watches for a point, and keeps a fingerprint of all events until then.
+/// Watches for a point, and keeps a fingerprint of all events until then but the stops, which do not matter to it.
 #[derive(Default)]
 struct Watch {
     tally: Tally,
@@ -33,9 +33,14 @@ struct Watch {
 }
 
 impl Observer for Watch {
+    const ENDS: bool = false;
+
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if self.tally.met_both() {
             return ControlFlow::Break(());
+        }
+        if matches!(event.kind, EventKind::RollingStationary(_)) {
+            return ControlFlow::Continue(());
         }
         self.tally.note(&event);
         self.fingerprint = self.fingerprint.wrapping_mul(0x0100_0000_01b3) ^ event.time.to_bits();
@@ -53,6 +58,7 @@ struct Hoarder {
 
 impl Observer for Hoarder {
     const SEGMENTS: bool = true;
+    const ENDS: bool = false;
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.events.push(event);
@@ -67,7 +73,7 @@ impl Observer for Hoarder {
 fn watched<S: Savings>(scene: &Scene) -> u64 {
     let play = |(layout, impulse): &(Layout, Impulse)| {
         let mut watch = Watch::default();
-        simulate_with::<S, _>(&scene.table, layout, impulse, &mut watch);
+        watch_with::<S, _>(&scene.table, layout, impulse, &mut watch);
         watch.fingerprint
     };
     scene.shots.iter().map(play).fold(0, u64::wrapping_add)
@@ -76,7 +82,7 @@ fn watched<S: Savings>(scene: &Scene) -> u64 {
 fn hoarded(scene: &Scene) -> u64 {
     let play = |(layout, impulse): &(Layout, Impulse)| {
         let mut hoarder = Hoarder::default();
-        simulate_with::<All, _>(&scene.table, layout, impulse, &mut hoarder);
+        watch_with::<All, _>(&scene.table, layout, impulse, &mut hoarder);
         std::hint::black_box(&hoarder.segments);
         hoarder.watch.fingerprint
     };
@@ -98,15 +104,19 @@ macro_rules! without {
 }
 
 fn main() {
-    let rows: [(&str, Play); 8] = [
+    let rows: [(&str, Play); 9] = [
         ("all savings", watched::<All>),
         ("balls at rest predict nothing", without!(BALLS_AT_REST)),
         ("predictions are kept", without!(KEPT_PREDICTIONS)),
         ("only cushions in reach", without!(CUSHIONS_IN_REACH)),
         ("no roots for courses apart", without!(COURSES_APART)),
+        ("the last ball is not rolled out", without!(LAST_ROLLS)),
         ("the end when it is decided", without!(EARLY_END)),
         ("nothing recorded unasked", hoarded),
-        ("all of these", without!(BALLS_AT_REST, KEPT_PREDICTIONS, CUSHIONS_IN_REACH, COURSES_APART, EARLY_END)),
+        (
+            "all of these but recording",
+            without!(BALLS_AT_REST, KEPT_PREDICTIONS, CUSHIONS_IN_REACH, COURSES_APART, LAST_ROLLS, EARLY_END),
+        ),
     ];
     let scenes = [far_apart(), gathered(), alone(), chatter()];
     let mut seconds = vec![[f64::INFINITY; 4]; rows.len()];
@@ -121,13 +131,13 @@ fn main() {
             }
         }
     }
-    print!("{:32}", "without …: × dearer");
+    print!("{:34}", "without …: × dearer");
     for scene in &scenes {
         print!("{:>16}", scene.name);
     }
     println!();
     for ((name, _), row) in rows.iter().zip(&seconds) {
-        print!("{name:32}");
+        print!("{name:34}");
         for ((time, base), scene) in row.iter().zip(seconds[0]).zip(&scenes) {
             if *name == rows[0].0 {
                 print!("{:>11.0} ns/shot", 1e9 * time / scene.shots.len() as f64);

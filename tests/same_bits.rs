@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use carom::{
     physics::Impulse,
-    simulation::{All, Event, Observer, Savings, simulate_with},
+    simulation::{All, Event, EventKind, Observer, Savings, simulate_with, watch, watch_with},
     table::{BALLS, Layout, Table},
 };
 use glam::{DVec2, DVec3};
@@ -91,9 +91,43 @@ fn no_saving_at_all_changes_no_bit() {
         const KEPT_PREDICTIONS: bool = false;
         const CUSHIONS_IN_REACH: bool = false;
         const COURSES_APART: bool = false;
+        const LAST_ROLLS: bool = false;
         const EARLY_END: bool = false;
     }
     changes_no_bit::<Nothing>();
+}
+
+/// A trace without the stops, which are not asked for.
+#[derive(Default, Debug, PartialEq)]
+struct OnTheMove(Trace);
+
+impl Observer for OnTheMove {
+    const ENDS: bool = false;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        if matches!(event.kind, EventKind::RollingStationary(_)) {
+            ControlFlow::Continue(())
+        } else {
+            self.0.event(event)
+        }
+    }
+}
+
+#[test]
+fn rolling_out_the_last_ball_changes_no_bit_of_what_came_before() {
+    struct Without;
+    impl Savings for Without {
+        const LAST_ROLLS: bool = false;
+    }
+    for (name, count) in PLAYED {
+        let table = Table::preset(name).unwrap();
+        for (layout, impulse) in &shots(&table, 1, count) {
+            let (mut with, mut without) = (OnTheMove::default(), OnTheMove::default());
+            watch(&table, layout, impulse, &mut with);
+            watch_with::<Without, _>(&table, layout, impulse, &mut without);
+            assert_eq!(with, without);
+        }
+    }
 }
 
 /// FNV-1a of 64 bits (Fowler, Noll and Vo).

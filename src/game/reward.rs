@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Tally;
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, simulate},
+    simulation::{Event, Observer, simulate, watch},
     table::{Layout, Table},
 };
 
@@ -55,20 +55,42 @@ impl Reward {
 
     /// The reward of a shot, simulated just until it is decided. The layout and the stroke are taken as they are.
     pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
-        let mut watch = Watch { tally: Tally::default(), reward: self };
-        let end = simulate(table, layout, &strike(table, cue), &mut watch);
-        self.value(table, &watch.tally, &end.layout())
+        let impulse = strike(table, cue);
+        match self {
+            Self::R1 | Self::R1Difficulty => {
+                let mut meetings = Meetings::<1>::default();
+                watch(table, layout, &impulse, &mut meetings);
+                self.of_meetings(&meetings.tally)
+            }
+            Self::R3 => {
+                let mut meetings = Meetings::<2>::default();
+                watch(table, layout, &impulse, &mut meetings);
+                self.of_meetings(&meetings.tally)
+            }
+            Self::R2 | Self::R4 => {
+                let mut all = ToTheEnd::default();
+                let end = simulate(table, layout, &impulse, &mut all);
+                self.value(table, &all.tally, &end.layout())
+            }
+        }
     }
 
     /// The reward of a shot that did what `tally` says and left the balls at `end`.
     pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
+        let apart = match self {
+            Self::R1 | Self::R1Difficulty | Self::R3 => 0.0,
+            Self::R2 | Self::R4 => distance_reward(table, end),
+        };
+        self.of_meetings(tally) + apart
+    }
+
+    /// The part of the reward that the cue ball's meetings earn.
+    fn of_meetings(self, tally: &Tally) -> f64 {
         let one = |made: bool| f64::from(u8::from(made));
         match self {
-            Self::R1 => one(tally.met_any()),
+            Self::R1 | Self::R2 => one(tally.met_any()),
             Self::R1Difficulty => one(tally.met_any()) * 0.5_f64.powf(f64::from(tally.cushions_before_first)),
-            Self::R2 => one(tally.met_any()) + distance_reward(table, end),
-            Self::R3 => one(tally.met_both()),
-            Self::R4 => one(tally.met_both()) + distance_reward(table, end),
+            Self::R3 | Self::R4 => one(tally.met_both()),
         }
     }
 }
@@ -96,22 +118,33 @@ fn distance_reward(table: &Table, layout: &Layout) -> f64 {
     1.0 - total / (reach.x + reach.y + reach.length())
 }
 
-/// Watches a shot until its reward is decided.
-struct Watch {
+/// Watches a shot until the cue ball has met so many object balls; how it ends does not matter.
+#[derive(Default)]
+struct Meetings<const ENOUGH: u8> {
     tally: Tally,
-    reward: Reward,
 }
 
-impl Observer for Watch {
+impl<const ENOUGH: u8> Observer for Meetings<ENOUGH> {
+    const ENDS: bool = false;
+
+    #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
-        let decided = match self.reward {
-            Reward::R1 | Reward::R1Difficulty => self.tally.met_any(),
-            Reward::R3 => self.tally.met_both(),
-            // Where the balls come to rest counts.
-            Reward::R2 | Reward::R4 => false,
-        };
-        if decided { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        let met = u8::from(self.tally.met[0]) + u8::from(self.tally.met[1]);
+        if met >= ENOUGH { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+/// Watches a whole shot: where the balls come to rest counts.
+#[derive(Default)]
+struct ToTheEnd {
+    tally: Tally,
+}
+
+impl Observer for ToTheEnd {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.tally.note(&event);
+        ControlFlow::Continue(())
     }
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, EventKind, Observer, simulate},
+    simulation::{Event, EventKind, Observer, watch},
     table::{Layout, Table},
 };
 
@@ -121,6 +121,8 @@ pub struct Referee {
 }
 
 impl Observer for Referee {
+    const ENDS: bool = false;
+
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
         if self.tally.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -130,7 +132,7 @@ impl Observer for Referee {
 /// Whether a shot makes a point. The layout and the stroke are taken as they are.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let mut referee = Referee::default();
-    simulate(table, layout, &strike(table, cue), &mut referee);
+    watch(table, layout, &strike(table, cue), &mut referee);
     referee.tally.is_point(rule)
 }
 

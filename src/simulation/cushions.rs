@@ -149,7 +149,53 @@ fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use glam::{DVec2, DVec3};
+
+    use super::{super::savings::All, *};
+    use crate::{physics::BallState, table::Table};
+
+    /// The first cushion of a ball with some velocity and spin, and where the ball is then.
+    fn first_cushion(position: DVec2, velocity: DVec2, spin: DVec3) -> (Ahead, Rail, DVec2) {
+        let constants = Constants::of(&Table::default());
+        let (segment, lasts) = Segment::free(&constants, 0.0, &BallState { position, velocity, spin });
+        let (ahead, rail) = cushion_ahead::<All>(&constants, &segment, lasts);
+        let at = if let Ahead::Meeting(time) = ahead { segment.position_after(time) } else { position };
+        (ahead, rail, at)
+    }
+
+    #[test]
+    fn a_rolling_ball_meets_the_cushion_that_its_line_crosses_first() {
+        let constants = Constants::of(&Table::default());
+        for (velocity, expected) in [
+            (DVec2::new(1.0, 0.1), Rail::Right),
+            (DVec2::new(-1.0, 0.1), Rail::Left),
+            (DVec2::new(0.1, 1.0), Rail::Top),
+            (DVec2::new(0.1, -1.0), Rail::Bottom),
+            (DVec2::new(0.0, -1.0), Rail::Bottom),
+        ] {
+            let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
+            let (_, rail, at) = first_cushion(DVec2::new(0.2, -0.1), velocity, spin);
+            assert_eq!(rail, expected);
+            let gap = rail.normal().abs().dot(constants.reach) + at.dot(rail.normal());
+            assert!(gap.abs() < 1e-15, "{gap}");
+        }
+    }
+
+    #[test]
+    fn a_ball_that_is_drawn_back_returns_to_the_cushion_that_it_leaves() {
+        let reach = Constants::of(&Table::default()).reach;
+        let from = DVec2::new(reach.x, 0.0);
+        let (ahead, rail, at) = first_cushion(from, DVec2::new(-0.1, 0.0), DVec3::new(0.0, 30.0, 0.0));
+        assert!(matches!(ahead, Ahead::Meeting(time) if time > 0.05), "{ahead:?}");
+        assert_eq!(rail, Rail::Right);
+        assert!((at.x - reach.x).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_ball_that_stops_short_meets_nothing() {
+        let (ahead, ..) = first_cushion(DVec2::ZERO, DVec2::new(0.1, 0.1), DVec3::ZERO);
+        assert_eq!(ahead, Ahead::Nothing);
+    }
 
     #[test]
     fn a_ball_that_leaves_the_cushion_it_touches_does_not_hit_it() {

@@ -46,7 +46,20 @@ pub fn simulate_with<S: Savings, O: Observer>(
     impulse: &Impulse,
     observer: &mut O,
 ) -> End {
-    Engine::<S, O>::new(table, layout, observer).run(impulse)
+    let mut engine = Engine::<S, O>::new(table, layout, observer);
+    let time = engine.run(impulse);
+    engine.finish(time)
+}
+
+/// Plays a shot like [`simulate`] just for what the observer is told, and does not work out where the balls are at the
+/// end.
+pub fn watch<O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) {
+    watch_with::<All, O>(table, layout, impulse, observer);
+}
+
+/// The same with some savings switched off.
+pub fn watch_with<S: Savings, O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) {
+    Engine::<S, O>::new(table, layout, observer).run(impulse);
 }
 
 /// A ball's present course and what it alone will do next.
@@ -108,7 +121,8 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         }
     }
 
-    fn run(mut self, impulse: &Impulse) -> End {
+    /// Plays the shot; returns the time of the last event.
+    fn run(&mut self, impulse: &Impulse) -> f64 {
         let cue_ball =
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
         self.launch(0, 0.0, &cue_ball);
@@ -121,7 +135,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
                     (next, source) = (time, index);
                 }
             }
-            if source == usize::MAX {
+            if source == usize::MAX || (S::LAST_ROLLS && !O::ENDS && self.only_rolls_out(source)) {
                 break;
             }
             flow = match source.checked_sub(BALLS) {
@@ -132,7 +146,16 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             };
             now = next;
         }
-        self.finish(now)
+        now
+    }
+
+    /// Whether nothing is left to happen but that this ball, which comes next, rolls to its stop.
+    #[inline(always)]
+    fn only_rolls_out(&self, source: usize) -> bool {
+        source < BALLS
+            && self.balls[source].segment.motion == Motion::Rolling
+            && self.balls[source].rail_after == f64::INFINITY
+            && (0..self.times.len()).all(|other| other == source || self.times[other] == f64::INFINITY)
     }
 
     /// The end of sliding or rolling.

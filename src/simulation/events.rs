@@ -126,6 +126,9 @@ pub trait Observer {
     /// Whether [`Observer::segment`] wants to be called.
     const SEGMENTS: bool = false;
 
+    /// Whether it matters that and where balls come to rest. If not, the simulation may end when nothing else is left.
+    const ENDS: bool = true;
+
     /// An event has happened. `Break` ends the simulation: the outcome is decided.
     fn event(&mut self, event: Event) -> ControlFlow<()>;
 

@@ -17,7 +17,7 @@ mod segment;
 mod settling;
 
 pub use constants::Constants;
-pub use engine::{End, simulate, simulate_with};
+pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, Rail};
 pub use playback::{Recording, ShotError};
 pub use savings::{All, Savings};

@@ -14,6 +14,8 @@ pub trait Savings {
     const CUSHIONS_IN_REACH: bool = true;
     /// No root is sought for two balls between whose courses there is a line that neither crosses.
     const COURSES_APART: bool = true;
+    /// A ball that only rolls out is not followed if the observer does not ask for ends.
+    const LAST_ROLLS: bool = true;
     /// The simulation ends when the observer says so: the outcome is decided.
     const EARLY_END: bool = true;
 }
