@@ -1,0 +1,248 @@
+//! Many shots on all cores, watched over: the same shots on every run, whatever the number of threads.
+
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+        mpsc::{self, RecvTimeoutError},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Serialize;
+
+use super::{Figures, Limits, Shot, Trace, Violation, examine, trace::BREAK_AFTER_SECONDS};
+use crate::table::Table;
+
+/// Shots that are drawn from one seed: a unit of work for a thread.
+const CHUNK: u64 = 100;
+
+/// How often the watch looks after the threads.
+const WATCH_EVERY: Duration = Duration::from_millis(500);
+
+/// How long it listens for news before it sees whether all threads have gone home.
+const LISTEN: Duration = Duration::from_millis(5);
+
+/// A shot that is slower than this is played again to see whether it was the machine, s.
+const SLOW: f64 = 5e-3;
+
+/// Shots slower than this are not played again, s.
+const TOO_SLOW_TO_REPEAT: f64 = 1.0;
+
+/// Draws one shot.
+pub type Generator = fn(&Table, &mut Xoshiro256PlusPlus) -> Shot;
+
+/// What must hold of a shot besides the invariants; the error says what is wrong.
+pub type Check = fn(&Table, &Shot, &Trace) -> Result<(), String>;
+
+/// Shots to play and check.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The table.
+    pub table: Table,
+    /// What draws the shots.
+    pub generator: Generator,
+    /// What must hold besides, if anything.
+    pub check: Option<Check>,
+    /// How many.
+    pub shots: u64,
+    /// Seed of all of them.
+    pub seed: u64,
+    /// What counts as a violation.
+    pub limits: Limits,
+    /// Shots slower than this become findings even if nothing is wrong with them, s.
+    pub slow: f64,
+}
+
+/// A shot that does something that it should not, or is extreme.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// The table's name.
+    pub table: String,
+    /// The shot.
+    #[serde(flatten)]
+    pub shot: Shot,
+    /// What is wrong, in words; "slow" or "hang" where nothing but the time is.
+    pub what: String,
+    /// Its violations.
+    pub violations: Vec<Violation>,
+    /// Events that it needs.
+    pub events: usize,
+    /// Pieces of course that it needs.
+    pub steps: usize,
+    /// Time that it took, ms: the least of three attempts where that was affordable.
+    pub ms: f64,
+}
+
+/// How far a sweep is.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Shots done.
+    pub done: u64,
+    /// Shots in all.
+    pub of: u64,
+    /// Findings so far.
+    pub findings: u64,
+}
+
+/// What a thread is busy with.
+#[derive(Default)]
+struct Desk {
+    busy: Mutex<Option<(Instant, Shot)>>,
+    given_up: AtomicBool,
+}
+
+/// What all threads share.
+struct Work {
+    sweep: Sweep,
+    next_chunk: AtomicU64,
+    stop: AtomicBool,
+}
+
+enum Message {
+    Chunk(Figures),
+    Finding(Box<Finding>),
+}
+
+impl Sweep {
+    /// Plays and checks all shots on all cores. `watch` hears of every finding at once and of the progress now and then; it
+    /// ends the sweep by returning `false`. A shot that hangs becomes a finding and costs a thread, which another replaces.
+    pub fn run(&self, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Figures {
+        let work = Arc::new(Work { sweep: self.clone(), next_chunk: AtomicU64::new(0), stop: AtomicBool::new(false) });
+        let (sender, receiver) = mpsc::channel();
+        let threads = thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let start = |work: &Arc<Work>| {
+            let (work, sender, desk) = (Arc::clone(work), sender.clone(), Arc::new(Desk::default()));
+            let own = Arc::clone(&desk);
+            (thread::spawn(move || work.through(&own, &sender)), desk)
+        };
+        let mut crew: Vec<_> = (0..threads).map(|_| start(&work)).collect();
+        let (mut figures, mut findings) = (Figures::default(), 0_u64);
+        let mut looked = Instant::now();
+        loop {
+            let message = receiver.recv_timeout(LISTEN);
+            let progress = |figures: &Figures, findings| Progress { done: figures.shots, of: self.shots, findings };
+            let mut go_on = true;
+            match message {
+                Ok(Message::Chunk(chunk)) => {
+                    figures.merge(&chunk);
+                    go_on = watch(progress(&figures, findings), None);
+                }
+                Ok(Message::Finding(finding)) => {
+                    findings += 1;
+                    go_on = watch(progress(&figures, findings), Some(&finding));
+                }
+                Err(RecvTimeoutError::Timeout) if crew.iter().all(|(thread, _)| thread.is_finished()) => break,
+                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
+            }
+            if looked.elapsed() >= WATCH_EVERY {
+                looked = Instant::now();
+                for place in &mut crew {
+                    if let Some(shot) = place.1.hangs() {
+                        let finding = self.hang(&shot);
+                        figures.merge(&Figures {
+                            shots: 1,
+                            unfinished: 1,
+                            seconds: f64::INFINITY,
+                            ..Figures::default()
+                        });
+                        findings += 1;
+                        go_on &= watch(progress(&figures, findings), Some(&finding));
+                        place.1.given_up.store(true, Ordering::Relaxed);
+                        *place = start(&work);
+                    }
+                }
+            }
+            if !go_on {
+                work.stop.store(true, Ordering::Relaxed);
+            }
+        }
+        figures
+    }
+
+    fn hang(&self, shot: &Shot) -> Finding {
+        Finding {
+            table: self.table.name.clone(),
+            shot: *shot,
+            what: format!("hang: no end after {} s", 3.0 * BREAK_AFTER_SECONDS),
+            violations: vec![Violation::Unfinished],
+            events: 0,
+            steps: 0,
+            ms: f64::INFINITY,
+        }
+    }
+}
+
+impl Desk {
+    /// The shot that this thread has been busy with for too long.
+    fn hangs(&self) -> Option<Shot> {
+        let busy = self.busy.lock().unwrap_or_else(PoisonError::into_inner);
+        busy.and_then(|(since, shot)| (since.elapsed().as_secs_f64() > 3.0 * BREAK_AFTER_SECONDS).then_some(shot))
+    }
+
+    fn set(&self, busy: Option<(Instant, Shot)>) {
+        *self.busy.lock().unwrap_or_else(PoisonError::into_inner) = busy;
+    }
+}
+
+impl Work {
+    /// A thread's work, chunk by chunk.
+    fn through(&self, desk: &Desk, sender: &mpsc::Sender<Message>) {
+        let sweep = &self.sweep;
+        let mut trace = Trace::new(&sweep.table);
+        while !self.stop.load(Ordering::Relaxed) {
+            let chunk = self.next_chunk.fetch_add(1, Ordering::Relaxed);
+            let begin = chunk * CHUNK;
+            if begin >= sweep.shots {
+                return;
+            }
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(sweep.seed ^ chunk.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+            let mut figures = Figures::default();
+            for _ in begin..sweep.shots.min(begin + CHUNK) {
+                let shot = (sweep.generator)(&sweep.table, &mut rng);
+                desk.set(Some((Instant::now(), shot)));
+                let mut measured = examine(&sweep.table, &shot, &mut trace);
+                let also = sweep.check.map_or(Ok(()), |check| check(&sweep.table, &shot, &trace));
+                if sweep.slow.is_finite() && (SLOW..TOO_SLOW_TO_REPEAT).contains(&measured.seconds) {
+                    for _ in 0..2 {
+                        trace.play(&sweep.table, &shot);
+                        measured.seconds = measured.seconds.min(trace.seconds);
+                    }
+                }
+                if desk.given_up.load(Ordering::Relaxed) {
+                    return;
+                }
+                let mut violations = measured.violations(&sweep.limits);
+                violations.extend(also.err().map(Violation::Wrong));
+                if (!violations.is_empty() || measured.seconds > sweep.slow)
+                    && sender.send(Message::Finding(Box::new(sweep.finding(&shot, &measured, violations)))).is_err()
+                {
+                    return;
+                }
+                figures.merge(&measured);
+            }
+            desk.set(None);
+            if sender.send(Message::Chunk(figures)).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+impl Sweep {
+    fn finding(&self, shot: &Shot, measured: &Figures, violations: Vec<Violation>) -> Finding {
+        let words: Vec<String> = violations.iter().map(ToString::to_string).collect();
+        Finding {
+            table: self.table.name.clone(),
+            shot: *shot,
+            what: if words.is_empty() { "slow".to_owned() } else { words.join("; ") },
+            violations,
+            events: measured.events,
+            steps: measured.steps,
+            ms: 1e3 * measured.seconds,
+        }
+    }
+}
