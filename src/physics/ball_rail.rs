@@ -8,6 +8,7 @@ use super::{BallState, ball_ball::contact_twist};
 /// per mass `P/m`, m/s, which is zero or less for a ball that does not approach.
 ///
 /// Equations (22) and (23), with Coulomb's law up to the no-slip limit 2/7.
+#[inline]
 pub fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball: &mut BallState) -> f64 {
     let normal = -(1.0 + restitution) * ball.velocity.dot(n);
     if normal <= 0.0 {
@@ -16,7 +17,7 @@ pub fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball
     let t = n.perp();
     let slip_t = ball.velocity.dot(t) - radius * ball.spin.z;
     let slip_z = radius * (ball.spin.x * t.x + ball.spin.y * t.y);
-    let slip = slip_t.hypot(slip_z);
+    let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
     let factor = if 3.5 * friction * normal < slip { friction * normal / slip } else { 2.0 / 7.0 };
     ball.velocity += normal * n - factor * slip_t * t;
     ball.spin += contact_twist(radius, factor * slip_t, factor * slip_z, t);

@@ -41,6 +41,7 @@ impl BallState {
 }
 
 /// Velocity of the ball's lowest point over the cloth: `u = v + R z×w` (thesis equation 1), m/s.
+#[inline]
 pub fn slip(radius: f64, velocity: DVec2, spin: DVec3) -> DVec2 {
     DVec2::new(velocity.x - radius * spin.y, velocity.y + radius * spin.x)
 }
@@ -66,6 +67,7 @@ pub fn spin_deceleration(table: &Table) -> f64 {
 }
 
 /// `w_z` after `time` seconds of decay at `rate` rad/s² down to zero.
+#[inline]
 pub fn decayed_spin(spin: f64, rate: f64, time: f64) -> f64 {
     (spin.abs() - rate * time).max(0.0).copysign(spin)
 }

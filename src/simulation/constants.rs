@@ -7,17 +7,23 @@ use crate::{
     table::Table,
 };
 
-/// A table's numbers in the form in which the engine uses them.
+/// A table's numbers in the form in which the engine uses them; divisions are done here, once a shot.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants {
     /// Ball radius R, m.
     pub radius: f64,
+    /// `1/R`, 1/m.
+    pub per_radius: f64,
     /// Largest |x| and |y| of a ball's centre, m.
     pub reach: DVec2,
     /// `mu_s g`, m/s².
     pub sliding: f64,
+    /// Time that friction needs for each m/s of slip, `2 / 7 mu_s g` (thesis equation 25), s²/m.
+    pub slide_time: f64,
     /// `5/7 mu_r g`, m/s².
     pub rolling: f64,
+    /// Time that a rolling ball needs to lose each m/s of its speed (thesis equation 26), s²/m.
+    pub roll_time: f64,
     /// `5 mu_sp g / 2R`, rad/s².
     pub spinning: f64,
     /// Restitution between two balls.
@@ -33,11 +39,15 @@ pub struct Constants {
 impl Constants {
     /// Works out the numbers of `table`.
     pub fn of(table: &Table) -> Self {
+        let (sliding, rolling) = (sliding_deceleration(table), rolling_deceleration(table));
         Self {
             radius: table.radius,
+            per_radius: 1.0 / table.radius,
             reach: table.reach(),
-            sliding: sliding_deceleration(table),
-            rolling: rolling_deceleration(table),
+            sliding,
+            slide_time: 1.0 / (3.5 * sliding),
+            rolling,
+            roll_time: 1.0 / rolling,
             spinning: spin_deceleration(table),
             ball_restitution: table.ball_restitution,
             ball_friction: table.ball_friction,

@@ -1,11 +1,12 @@
 //! The event-driven engine (thesis 3.2 and Algorithm 1): from one event to the next, with nothing in between.
 
-use std::ops::ControlFlow;
+use std::{marker::PhantomData, ops::ControlFlow};
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     predict::{Ahead, balls_ahead, curved_cushion_ahead, cushion_ahead},
     resting::{PAIRS, Resting, STILL_AT_REST},
+    savings::{All, Savings},
     segment::{STILL, still},
     settling::{settles_on_cushion, settles_together},
 };
@@ -13,6 +14,9 @@ use crate::{
     physics::{BallState, Impulse, Motion, collide_balls, collide_rail},
     table::{BALLS, Layout, Table},
 };
+
+/// A horizon beyond which nobody looks, s: no ball moves for so long.
+const LONGEST: f64 = 1e9;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +39,20 @@ impl End {
 ///
 /// Every run of the same shot gives the same bits.
 pub fn simulate<O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) -> End {
-    Engine::new(table, layout, observer).run(impulse)
+    simulate_with::<All, O>(table, layout, impulse, observer)
+}
+
+/// The same with some savings switched off, to see what they bring.
+pub fn simulate_with<S: Savings, O: Observer>(
+    table: &Table,
+    layout: &Layout,
+    impulse: &Impulse,
+    observer: &mut O,
+) -> End {
+    Engine::<S, O>::new(table, layout, observer).run(impulse)
 }
 
 /// A ball's present course and what it alone will do next.
-#[derive(Clone, Copy)]
 struct Ball {
     segment: Segment,
     /// How long the motion can last, s after the segment's start.
@@ -59,13 +72,15 @@ struct Meeting {
     since: f64,
     after: f64,
     time: f64,
+    /// Whether the balls might have come to rest against each other when this was predicted.
+    may_rest: bool,
 }
 
 impl Meeting {
-    const NEVER: Self = Self { since: 0.0, after: 0.0, time: f64::INFINITY };
+    const NEVER: Self = Self { since: 0.0, after: 0.0, time: f64::INFINITY, may_rest: false };
 }
 
-struct Engine<'a, O> {
+struct Engine<'a, S, O> {
     table: &'a Table,
     constants: Constants,
     observer: &'a mut O,
@@ -74,9 +89,10 @@ struct Engine<'a, O> {
     resting: Option<Box<Resting>>,
     /// Whether a prediction has found balls pressed together that are not yet in `resting`.
     pressed: bool,
+    savings: PhantomData<S>,
 }
 
-impl<'a, O: Observer> Engine<'a, O> {
+impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
         let balls = layout.balls.map(|position| Ball {
             segment: Segment::at_rest(position),
@@ -87,7 +103,16 @@ impl<'a, O: Observer> Engine<'a, O> {
             resting: false,
         });
         let constants = Constants::of(table);
-        Self { table, constants, observer, balls, pairs: [Meeting::NEVER; 3], resting: None, pressed: false }
+        Self {
+            table,
+            constants,
+            observer,
+            balls,
+            pairs: [Meeting::NEVER; 3],
+            resting: None,
+            pressed: false,
+            savings: PhantomData,
+        }
     }
 
     fn run(mut self, impulse: &Impulse) -> End {
@@ -123,9 +148,10 @@ impl<'a, O: Observer> Engine<'a, O> {
     }
 
     /// The end of sliding or rolling.
+    #[inline(always)]
     fn change_motion(&mut self, index: usize) -> ControlFlow<()> {
         let ball = &self.balls[index];
-        let (segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
+        let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
         let kind = match ball.segment.motion {
             Motion::Sliding => EventKind::SlidingRolling(index),
             _ => EventKind::RollingStationary(index),
@@ -136,17 +162,19 @@ impl<'a, O: Observer> Engine<'a, O> {
         if ended == Motion::Sliding && segment.motion == Motion::Stationary {
             self.tell(now, EventKind::RollingStationary(index))?;
         }
-        self.set(index, Segment { start: now, ..segment }, lasts);
+        segment.start = now;
+        self.set(index, segment, lasts);
         self.look_ahead(now, only(index))
     }
 
+    #[inline(always)]
     fn rebound(&mut self, index: usize) -> ControlFlow<()> {
-        let Ball { segment, rail_after, rail, next: now, .. } = self.balls[index];
+        let Ball { rail_after, rail, next: now, .. } = self.balls[index];
         let n = rail.normal();
-        let freed = self.release(now, only(index));
+        let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
         let mut state = match &freed {
             Some(states) => states[index],
-            None => segment.state_after(&self.constants, rail_after),
+            None => self.balls[index].segment.state_after(&self.constants, rail_after),
         };
         // The ball stands exactly at the cushion: the prediction's rounding must not leave a gap to fall through.
         state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
@@ -165,12 +193,13 @@ impl<'a, O: Observer> Engine<'a, O> {
         self.look_ahead(now, members(freed.is_some(), self.freed_members(), only(index)))
     }
 
+    #[inline(always)]
     fn collide(&mut self, pair: usize) -> ControlFlow<()> {
         let (first, second) = PAIRS[pair];
-        let Meeting { since, after, time: now } = self.pairs[pair];
+        let Meeting { since, after, time: now, .. } = self.pairs[pair];
         let mut changed = only(first);
         changed[second] = true;
-        let freed = self.release(now, changed);
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let state_of = |index: usize| match &freed {
             Some(states) if self.freed_members()[index] => states[index],
             _ => {
@@ -196,6 +225,7 @@ impl<'a, O: Observer> Engine<'a, O> {
     }
 
     /// The next step of the balls in resting contact.
+    #[cold]
     fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         let mut members: Vec<&mut BallState> =
@@ -212,6 +242,7 @@ impl<'a, O: Observer> Engine<'a, O> {
 
     /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it
     /// is known what presses now. Returns the states of all members.
+    #[cold]
     fn release(&mut self, now: f64, changed: [bool; BALLS]) -> Option<[BallState; BALLS]> {
         let resting = self.resting.as_ref()?;
         if !(0..BALLS).any(|index| changed[index] && resting.members[index]) {
@@ -233,36 +264,52 @@ impl<'a, O: Observer> Engine<'a, O> {
     }
 
     /// Sends a ball off on the free course that follows from its state.
+    #[inline(always)]
     fn launch(&mut self, index: usize, now: f64, state: &BallState) {
         let (segment, lasts) = Segment::free(&self.constants, now, state);
         self.set(index, segment, lasts);
     }
 
+    #[inline(always)]
     fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
-        let (mut rail_after, mut rail) = (f64::INFINITY, Rail::Left);
-        if matches!(segment.motion, Motion::Sliding | Motion::Rolling | Motion::Resting) {
-            let (ahead, which) = match &self.resting {
-                Some(resting) if segment.motion == Motion::Resting => {
-                    curved_cushion_ahead(&self.constants, &segment, lasts, |rail| resting.holds_at(index, rail))
-                }
-                _ => cushion_ahead(&self.constants, &segment, lasts),
-            };
-            match ahead {
-                Ahead::Nothing => {}
-                Ahead::Meeting(after) => (rail_after, rail) = (after, which),
-                Ahead::Pressed => self.pressed = true,
-            }
-        }
-        let next = segment.start + lasts.min(rail_after);
         let resting = self.balls[index].resting;
-        self.balls[index] = Ball { segment, lasts, rail_after, rail, next, resting };
+        let next = segment.start + lasts;
+        self.balls[index] = Ball { segment, lasts, rail_after: f64::INFINITY, rail: Rail::Left, next, resting };
+        if self.predict_cushion(index) {
+            self.pressed = true;
+        }
+    }
+
+    /// Predicts which cushion a ball will meet; returns whether it is pressed against one instead.
+    #[inline(always)]
+    fn predict_cushion(&mut self, index: usize) -> bool {
+        let ball = &mut self.balls[index];
+        if S::BALLS_AT_REST && ball.segment.motion == Motion::Stationary {
+            return false;
+        }
+        let (ahead, rail) = match &self.resting {
+            Some(resting) if ball.segment.motion == Motion::Resting => {
+                curved_cushion_ahead(&self.constants, &ball.segment, ball.lasts, |rail| resting.holds_at(index, rail))
+            }
+            _ => cushion_ahead::<S>(&self.constants, &ball.segment, ball.lasts),
+        };
+        if let Ahead::Meeting(after) = ahead {
+            ball.rail_after = after;
+            ball.rail = rail;
+            ball.next = ball.segment.start + after;
+        }
+        ahead == Ahead::Pressed
     }
 
     /// Predicts what the `changed` balls will meet, after their courses have been set.
+    #[inline(always)]
     fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
         let mut changed = changed;
+        if !S::KEPT_PREDICTIONS {
+            self.predict_all_again(changed);
+        }
         self.predict_pairs(now, changed, true);
-        if self.pressed || self.balls.iter().any(|ball| ball.resting) {
+        if self.pressed || self.resting.is_some() {
             self.press(now, &mut changed)?;
             self.predict_pairs(now, changed, false);
             self.pressed = false;
@@ -270,26 +317,50 @@ impl<'a, O: Observer> Engine<'a, O> {
         ControlFlow::Continue(())
     }
 
+    #[inline(always)]
     fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS], may_rest: bool) {
         for (index, &(first, second)) in PAIRS.iter().enumerate() {
-            if !(changed[first] || changed[second]) {
-                continue;
-            }
-            self.pairs[index] = Meeting::NEVER;
-            let (a, b) = (&self.balls[first], &self.balls[second]);
-            if a.segment.motion == Motion::Stationary && b.segment.motion == Motion::Stationary {
-                continue;
-            }
-            if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
-                continue;
-            }
-            let horizon = a.next.min(b.next) - now;
-            match balls_ahead(&self.constants, &a.segment, &b.segment, now, horizon, may_rest) {
-                Ahead::Nothing => {}
-                Ahead::Meeting(after) => self.pairs[index] = Meeting { since: now, after, time: now + after },
-                Ahead::Pressed => self.pressed = true,
+            if changed[first] || changed[second] {
+                self.predict_pair(index, now, may_rest);
             }
         }
+    }
+
+    #[inline(always)]
+    fn predict_pair(&mut self, index: usize, now: f64, may_rest: bool) {
+        let (first, second) = PAIRS[index];
+        let (a, b) = (&self.balls[first], &self.balls[second]);
+        self.pairs[index] = Meeting { since: now, may_rest, ..Meeting::NEVER };
+        if S::BALLS_AT_REST && a.segment.motion == Motion::Stationary && b.segment.motion == Motion::Stationary {
+            return;
+        }
+        if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
+            return;
+        }
+        let horizon = (a.next.min(b.next) - now).min(LONGEST);
+        match balls_ahead::<S>(&self.constants, &a.segment, &b.segment, now, horizon, may_rest) {
+            Ahead::Nothing => {}
+            Ahead::Meeting(after) => {
+                self.pairs[index].after = after;
+                self.pairs[index].time = now + after;
+            }
+            Ahead::Pressed => self.pressed = true,
+        }
+    }
+
+    /// Works out once more what is known already, where that saving is switched off. What presses has been dealt with.
+    fn predict_all_again(&mut self, changed: [bool; BALLS]) {
+        let pressed = self.pressed;
+        for index in (0..BALLS).filter(|&index| !changed[index]) {
+            self.predict_cushion(index);
+        }
+        for (index, &(first, second)) in PAIRS.iter().enumerate() {
+            if !changed[first] && !changed[second] {
+                let Meeting { since, may_rest, .. } = self.pairs[index];
+                self.predict_pair(index, since, may_rest);
+            }
+        }
+        self.pressed = pressed;
     }
 
     /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.
@@ -315,7 +386,7 @@ impl<'a, O: Observer> Engine<'a, O> {
             }
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        self.resting = Resting::begin(self.table, &self.constants, now, &states).map(Box::new);
+        self.resting = Resting::begin(self.table, &self.constants, now, &states, self.resting.as_deref()).map(Box::new);
         let members = self.freed_members();
         for index in 0..BALLS {
             let was = std::mem::replace(&mut self.balls[index].resting, members[index]);
@@ -337,6 +408,7 @@ impl<'a, O: Observer> Engine<'a, O> {
         ControlFlow::Continue(())
     }
 
+    #[cold]
     fn rest(&mut self, index: usize, now: f64, state: &BallState) {
         let Some(resting) = &self.resting else { return };
         let (half_acceleration, curve) = resting.course(index);
@@ -348,7 +420,7 @@ impl<'a, O: Observer> Engine<'a, O> {
             half_acceleration,
             spin: state.spin,
             motion: Motion::Resting,
-            curve: Some(curve),
+            curve: Some(Box::new(curve)),
         };
         if self.balls[index].segment.start < now {
             self.close(index, now);
@@ -361,8 +433,10 @@ impl<'a, O: Observer> Engine<'a, O> {
         segment.state_after(&self.constants, now - segment.start)
     }
 
+    #[inline(always)]
     fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
-        self.observer.event(Event { time, kind })
+        let flow = self.observer.event(Event { time, kind });
+        if S::EARLY_END { flow } else { ControlFlow::Continue(()) }
     }
 
     /// Hands a finished segment to an observer that records.

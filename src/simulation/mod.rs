@@ -3,15 +3,18 @@
 mod constants;
 mod engine;
 mod events;
+mod extrapolation;
 mod playback;
 mod predict;
 mod resting;
 mod roots;
+mod savings;
 mod segment;
 mod settling;
 
 pub use constants::Constants;
-pub use engine::{End, simulate};
+pub use engine::{End, simulate, simulate_with};
 pub use events::{Event, EventKind, Observer, Rail};
 pub use playback::{Recording, ShotError};
+pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};

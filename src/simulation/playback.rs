@@ -122,7 +122,7 @@ impl Observer for Recorder {
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
         if end > segment.start {
-            self.segments[ball].push(*segment);
+            self.segments[ball].push(segment.clone());
         }
     }
 }

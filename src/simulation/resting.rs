@@ -1,28 +1,52 @@
 //! Resting contacts in time: adaptive integration of balls pressed against cushions or each other.
 //!
 //! The equations have no closed form, since the slip turns under the friction of cloth and cushion together. They are
-//! integrated by the fifth-order pair of Dormand and Prince (1980) with an error of at most [`TOLERANCE`] a step; a
-//! contact takes some tens of steps, so that it adds less than 1e-11 m to a ball's place.
+//! integrated with an estimated error of at most [`TOLERANCE`] a step, from one change of regime to the next; a contact
+//! takes some tens of steps, so that it adds less than 1e-11 m to a ball's place.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::{Constants, Rail, predict::TOUCHING, segment::Curve};
+use super::{
+    Constants, Rail,
+    extrapolation::{State, Step, extrapolate},
+    predict::TOUCHING,
+    segment::Curve,
+};
 use crate::{
-    physics::{BallState, Forces, Laws, MAX_TOUCHES, Touch, contact_forces, rolling_spin, slip},
+    physics::{
+        BallState, Forces, Laws, MAX_TOUCHES, SLIP_TOLERANCE, Touch, contact_forces, forces_in_regime, rolling_spin,
+        slip,
+    },
     table::{BALLS, Table},
 };
 
 /// Estimated error that a step may make in metres, m/s, or R times rad/s.
 const TOLERANCE: f64 = 1e-13;
 
+/// Forces per mass that are broken or missing by less than this count as rounding, m/s².
+const SLACK: f64 = 1e-11;
+
+/// The same for accelerations where forces are not unique, m/s².
+const SHARED_SLACK: f64 = 1e-8;
+
 /// Shortest step, s. In it a speed changes by less than the tolerance of what is called slip.
 const SHORTEST_STEP: f64 = 1e-13;
 
-/// Step that is tried first, s.
-const FIRST_STEP: f64 = 2e-2;
+/// Shortest and longest step in which something begins to slip, s: its friction has no direction yet, and is wrong by less
+/// than what changes a speed by [`SLIP_TOLERANCE`].
+const SHORTEST_DEPARTURE: f64 = 1e-10;
+const LONGEST_DEPARTURE: f64 = 1e-5;
 
 /// A slip or speed may use up this share of itself in a step, so that its direction stays known.
 const STOPPING_SHARE: f64 = 0.9;
+
+/// Longest step in s for a slip that turns in a time of one second; it grows with the time's power 2/3. The course is
+/// handed on as a polynomial of degree five, which strays by about `a h⁶/(2000 turn⁴)` in a step of `h` seconds: less
+/// than 1e-10 m for accelerations `a` of a few m/s².
+const LONGEST_STEP: f64 = 0.06;
+
+/// Steps that needed more rounds of extrapolation than this are followed by shorter ones, those with fewer by longer.
+const GOOD_ROUNDS: usize = 5;
 
 /// Contacts that open more slowly than this and are pressed stay closed, m/s: they would close again within 1e-8 s, without
 /// end where two of them feed each other.
@@ -31,6 +55,10 @@ const SLOWEST_OPENING: f64 = 1e-9;
 /// Balls in resting contact that are all slower than this many m/s are at rest. They would go on for less than 1e-10 m,
 /// in ever smaller steps as their slips fade with their speeds.
 pub const STILL_AT_REST: f64 = 3e-6;
+
+/// Most rounds in which the rounding of a state is taken out, and the speed that is left over, m/s.
+const SETTLING_ROUNDS: usize = 60;
+const ROUNDING: f64 = 1e-17;
 
 /// Pairs of balls, in the order used everywhere.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -45,12 +73,14 @@ pub struct Resting {
     /// Length of the step, s.
     pub step: f64,
     /// State at its end.
-    pub end: [BallState; BALLS],
-    begin: [BallState; BALLS],
+    pub end: State,
+    begin: State,
     touches: Touches,
     laws: Laws,
     first: Forces,
     last: Forces,
+    /// Step that is tried next, s.
+    next_step: f64,
 }
 
 /// The contacts, in a fixed order.
@@ -64,7 +94,7 @@ impl Touches {
     const NONE: Touch = Touch { first: 0, second: None, rail_normal: DVec2::ZERO };
 
     /// All contacts of the balls that do not open.
-    fn of(constants: &Constants, balls: &[BallState; BALLS]) -> Self {
+    fn of(constants: &Constants, balls: &State) -> Self {
         let mut touches = Self { list: [Self::NONE; MAX_TOUCHES], count: 0 };
         for (first, ball) in balls.iter().enumerate() {
             for rail in Rail::ALL {
@@ -84,11 +114,24 @@ impl Touches {
         touches
     }
 
-    fn add(&mut self, touch: Touch, balls: &[BallState; BALLS]) {
+    fn add(&mut self, touch: Touch, balls: &State) {
         if touch.opening_speed(balls).abs() <= SLOWEST_OPENING && self.count < MAX_TOUCHES {
             self.list[self.count] = touch;
             self.count += 1;
         }
+    }
+
+    /// Keeps only the contacts asked for; tells whether any had to go.
+    fn keep(&mut self, wanted: &[bool; MAX_TOUCHES]) -> bool {
+        let before = self.count;
+        self.count = 0;
+        for index in 0..before {
+            if wanted[index] {
+                self.list[self.count] = self.list[index];
+                self.count += 1;
+            }
+        }
+        self.count < before
     }
 
     fn as_slice(&self) -> &[Touch] {
@@ -97,26 +140,28 @@ impl Touches {
 }
 
 impl Resting {
-    /// One step from `balls` at time `start`, or `None` where no contact presses.
-    pub fn begin(table: &Table, constants: &Constants, start: f64, balls: &[BallState; BALLS]) -> Option<Self> {
+    /// One step from `balls` at time `start`, or `None` where no contact presses. The `previous` step, if there is one,
+    /// tells how long the step may be.
+    pub fn begin(
+        table: &Table,
+        constants: &Constants,
+        start: f64,
+        balls: &State,
+        previous: Option<&Self>,
+    ) -> Option<Self> {
         let mut begin = *balls;
         let mut touches = Touches::of(constants, &begin);
+        if touches.count == 0 {
+            return None;
+        }
         settle(table, &mut begin, touches.as_slice());
         let mut laws = Laws::of(table.radius, &begin, touches.as_slice());
         let mut first = contact_forces(table, &begin, touches.as_slice(), &laws, None);
         // A contact that does not push holds nothing: it is no part of the step.
-        let pushing: Vec<Touch> = touches
-            .as_slice()
-            .iter()
-            .zip(first.normal)
-            .filter_map(|(touch, normal)| (normal > TOLERANCE).then_some(*touch))
-            .collect();
-        if pushing.is_empty() {
-            return None;
-        }
-        if pushing.len() < touches.count {
-            touches.count = pushing.len();
-            touches.list[..pushing.len()].copy_from_slice(&pushing);
+        if touches.keep(&first.normal.map(|normal| normal > SLACK)) {
+            if touches.count == 0 {
+                return None;
+            }
             laws = Laws::of(table.radius, &begin, touches.as_slice());
             first = contact_forces(table, &begin, touches.as_slice(), &laws, None);
         }
@@ -127,59 +172,157 @@ impl Resting {
                 members[second] = true;
             }
         }
-        let mut resting = Self { members, start, step: 0.0, end: begin, begin, touches, laws, first, last: first };
+        let next_step = previous.map_or(f64::INFINITY, |previous| previous.next_step);
+        let mut resting =
+            Self { members, start, step: 0.0, end: begin, begin, touches, laws, first, last: first, next_step };
         resting.advance(table);
         Some(resting)
     }
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let mut step = self.longest_step(table.radius).min(FIRST_STEP);
-        loop {
-            let (end, error) = self.dormand_prince(table, step);
-            if error <= 1.0 || step <= SHORTEST_STEP {
-                self.step = step;
-                self.end = end;
-                break;
-            }
-            step = (step * (0.9 * error.powf(-0.2)).max(0.1)).max(SHORTEST_STEP);
+        let mut length = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
+        let mut step = self.integrate(table, length);
+        while step.error > TOLERANCE && length > SHORTEST_STEP {
+            length = (0.4 * length).max(SHORTEST_STEP);
+            step = self.integrate(table, length);
         }
-        self.last = contact_forces(table, &self.end, self.touches.as_slice(), &self.laws, Some(&self.first));
+        let growth = match step.rounds.cmp(&GOOD_ROUNDS) {
+            std::cmp::Ordering::Less => 2.0,
+            std::cmp::Ordering::Equal => 1.2,
+            std::cmp::Ordering::Greater => 0.7,
+        };
+        // Never so short that a long series of steps could not grow out of it.
+        self.next_step = (growth * length).max(1e3 * SHORTEST_STEP);
+        let mut last = self.forces(table, &step.end);
+        // A step in which something begins to slip is too short for laws to matter.
+        let settled = self.first.departure == 0.0;
+        if settled && (last.slack < -SLACK || self.first.is_shared()) && !self.holds(table, &step.end, &last) {
+            let whole = (length, step, last);
+            (length, step, last) = if last.slack < -SLACK { self.until_the_slack_ends(table, whole) } else { whole };
+            if last.slack >= -SLACK || self.holds(table, &step.end, &last) {
+                (length, step, last) = self.while_it_holds(table, whole);
+            }
+        }
+        (self.step, self.end, self.last) = (length, step.end, last);
         settle(table, &mut self.end, self.touches.as_slice());
     }
 
-    /// Longest step after which every slip, speed and spin still has its direction, s.
-    fn longest_step(&self, radius: f64) -> f64 {
-        let mut longest = f64::INFINITY;
-        let mut limit = |size: f64, rate: f64| {
-            if rate < 0.0 {
-                longest = longest.min(STOPPING_SHARE * size / -rate);
-            }
-        };
-        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            let state = &self.begin[ball];
-            let (linear, angular) = (self.first.linear[ball], self.first.angular[ball]);
-            if self.laws.slips[ball] {
-                let u = slip(radius, state.velocity, state.spin);
-                limit(u.length(), slip(radius, linear, angular).dot(u.normalize()));
-            } else if self.laws.moves[ball] {
-                limit(state.velocity.length(), linear.dot(state.velocity.normalize()));
-            }
-            if self.laws.spins[ball] {
-                limit(state.spin.z.abs(), angular.z * state.spin.z.signum());
+    /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
+    fn until_the_slack_ends(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
+        let mut after = after;
+        // The zero of `slack + SLACK`, by false position with the Illinois rule.
+        let (mut low, mut low_value) = (0.0, (self.first.slack + SLACK).max(0.0));
+        let mut high_value = after.2.slack + SLACK;
+        while high_value < -SLACK && after.0 - low > SHORTEST_STEP {
+            let share = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
+            let middle = low + share * (after.0 - low);
+            let step = self.integrate(table, middle);
+            let forces = self.forces(table, &step.end);
+            let value = forces.slack + SLACK;
+            if value < 0.0 {
+                (after, high_value) = ((middle, step, forces), value);
+                low_value *= 0.5;
+            } else {
+                (low, low_value) = (middle, value);
+                high_value *= 0.5;
             }
         }
-        longest.max(SHORTEST_STEP)
+        after
+    }
+
+    /// Whether these forces are those that obey all laws.
+    fn holds(&self, table: &Table, state: &State, forces: &Forces) -> bool {
+        let lawful = contact_forces(table, state, self.touches.as_slice(), &self.laws, Some(forces));
+        forces.distance(&lawful, table.radius) <= SHARED_SLACK
+    }
+
+    /// The same where what is held is held more than once, so that only trying tells how long it holds.
+    fn while_it_holds(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
+        let mut after = after;
+        let mut low = 0.0;
+        while after.0 - low > SHORTEST_STEP.max(1e-9 * after.0) {
+            let middle = 0.5 * (low + after.0);
+            let step = self.integrate(table, middle);
+            let forces = self.forces(table, &step.end);
+            if self.holds(table, &step.end, &forces) {
+                low = middle;
+            } else {
+                after = (middle, step, forces);
+            }
+        }
+        after
+    }
+
+    /// Longest step after which every slip, speed and spin still has its direction, and whose course a polynomial can
+    /// follow, s.
+    fn longest_step(&self, radius: f64) -> f64 {
+        let mut longest = f64::INFINITY;
+        let mut limit = |size: DVec2, rate: DVec2| {
+            let falling = -rate.dot(size) / size.length();
+            if falling > 0.0 {
+                longest = longest.min(STOPPING_SHARE * size.length() / falling);
+            }
+            let turns = size.length() / rate.length();
+            longest = longest.min(LONGEST_STEP * turns.powf(2.0 / 3.0));
+        };
+        let rates: State = std::array::from_fn(|ball| BallState {
+            position: self.begin[ball].position,
+            velocity: self.first.linear[ball],
+            spin: self.first.angular[ball],
+        });
+        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
+            let (state, rate) = (&self.begin[ball], &rates[ball]);
+            if self.laws.slips[ball] {
+                limit(slip(radius, state.velocity, state.spin), slip(radius, rate.velocity, rate.spin));
+            } else if self.laws.moves[ball] {
+                limit(state.velocity, rate.velocity);
+            }
+            if self.laws.spins[ball] {
+                limit(DVec2::new(state.spin.z, 0.0), DVec2::new(rate.spin.z, 0.0));
+            }
+        }
+        for (touch, rubs) in self.touches.as_slice().iter().zip(self.laws.rubs) {
+            if rubs {
+                limit(touch.slip(radius, &self.begin), touch.slip(radius, &rates));
+            }
+        }
+        if self.first.departure > 0.0 {
+            // What begins to slip has no direction yet: it gets one.
+            let long_enough = 3.0 * SLIP_TOLERANCE / self.first.departure;
+            longest = longest.min(long_enough.clamp(SHORTEST_DEPARTURE, LONGEST_DEPARTURE));
+        }
+        longest
     }
 
     /// State `time` seconds after the start of the step, by one shorter step of the same method.
-    pub fn after(&self, table: &Table, time: f64) -> [BallState; BALLS] {
+    pub fn after(&self, table: &Table, time: f64) -> State {
         if time >= self.step {
             return self.end;
         }
-        let (mut balls, _) = self.dormand_prince(table, time);
+        let mut balls = self.integrate(table, time).end;
         settle(table, &mut balls, self.touches.as_slice());
         balls
+    }
+
+    fn integrate(&self, table: &Table, length: f64) -> Step {
+        let slope = |state: &State| self.slope(state, &self.forces(table, state));
+        extrapolate(&self.begin, &self.slope(&self.begin, &self.first), slope, length, table.radius, TOLERANCE)
+    }
+
+    /// The forces in this step's regime.
+    fn forces(&self, table: &Table, state: &State) -> Forces {
+        forces_in_regime(table, state, self.touches.as_slice(), &self.laws, &self.first)
+    }
+
+    fn slope(&self, state: &State, forces: &Forces) -> State {
+        std::array::from_fn(|ball| {
+            if self.members[ball] {
+                BallState { position: state[ball].velocity, velocity: forces.linear[ball], spin: forces.angular[ball] }
+            } else {
+                BallState::at_rest(DVec2::ZERO)
+            }
+        })
     }
 
     /// Whether these two balls press each other.
@@ -210,101 +353,61 @@ impl Resting {
         let spin = [w0, (3.0 * mean - 2.0 * w0 - w1) / h, (w0 + w1 - 2.0 * mean) / (h * h)];
         (0.5 * a0, Curve { position, spin })
     }
-
-    /// One step of the Dormand–Prince pair; the error is in units of [`TOLERANCE`].
-    fn dormand_prince(&self, table: &Table, h: f64) -> ([BallState; BALLS], f64) {
-        let mut slopes = [[BallState::at_rest(DVec2::ZERO); BALLS]; 7];
-        slopes[0] = slope(&self.begin, &self.first);
-        let mut forces = self.first;
-        let mut balls = self.begin;
-        for stage in 1..7 {
-            balls = self.combine(&slopes, A[stage - 1], h);
-            forces = contact_forces(table, &balls, self.touches.as_slice(), &self.laws, Some(&forces));
-            slopes[stage] = slope(&balls, &forces);
-        }
-        let mut error = 0.0_f64;
-        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            let mut difference = [DVec3::ZERO; 3];
-            for (slopes, weight) in slopes.iter().zip(E) {
-                difference[0] += weight * h * slopes[ball].position.extend(0.0);
-                difference[1] += weight * h * slopes[ball].velocity.extend(0.0);
-                difference[2] += weight * h * table.radius * slopes[ball].spin;
-            }
-            error = difference.iter().fold(error, |error, d| error.max(d.length()));
-        }
-        (balls, error / TOLERANCE)
-    }
-
-    fn combine(&self, slopes: &[[BallState; BALLS]; 7], weights: &[f64], h: f64) -> [BallState; BALLS] {
-        let mut balls = self.begin;
-        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            for (slopes, weight) in slopes.iter().zip(weights) {
-                balls[ball].position += h * weight * slopes[ball].position;
-                balls[ball].velocity += h * weight * slopes[ball].velocity;
-                balls[ball].spin += h * weight * slopes[ball].spin;
-            }
-        }
-        balls
-    }
-}
-
-fn slope(balls: &[BallState; BALLS], forces: &Forces) -> [BallState; BALLS] {
-    std::array::from_fn(|ball| BallState {
-        position: balls[ball].velocity,
-        velocity: forces.linear[ball],
-        spin: forces.angular[ball],
-    })
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
 /// spinning has stopped exactly.
-fn settle(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch]) {
+fn settle(table: &Table, balls: &mut State, touches: &[Touch]) {
     let laws = Laws::of(table.radius, balls, touches);
-    for (ball, state) in balls.iter_mut().enumerate() {
-        if !laws.slips[ball] {
-            // What is left of the slip ends as sliding does.
-            state.velocity -= slip(table.radius, state.velocity, state.spin) * (2.0 / 7.0);
-            state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
+    // Each correction undoes a little of the others; they converge within a few rounds.
+    for _ in 0..SETTLING_ROUNDS {
+        let mut corrected = 0.0_f64;
+        for (ball, state) in balls.iter_mut().enumerate() {
+            corrected = corrected.max(settle_on_cloth(table, &laws, ball, state));
         }
-        if !laws.spins[ball] {
-            state.spin.z = 0.0;
-        }
-    }
-    for (touch, rubs) in touches.iter().zip(laws.rubs) {
-        let never_slips = touch.second.is_some() && table.ball_friction.is_none();
-        if !rubs || never_slips {
-            touch.stop_slip(table.radius, balls);
-        }
-    }
-    // Corrections of one contact open another by less each time; three balls need a few rounds.
-    for _ in 0..8 {
-        for touch in touches {
-            let n = touch.normal(balls);
-            let opening = touch.opening_speed(balls);
-            match touch.second {
-                None => balls[touch.first].velocity -= opening * n,
-                Some(second) => {
-                    balls[touch.first].velocity -= 0.5 * opening * n;
-                    balls[second].velocity += 0.5 * opening * n;
-                    let gap = balls[touch.first].position.distance(balls[second].position) - 2.0 * table.radius;
-                    balls[touch.first].position -= 0.5 * gap * n;
-                    balls[second].position += 0.5 * gap * n;
-                }
+        for (touch, rubs) in touches.iter().zip(laws.rubs) {
+            let never_slips = touch.second.is_some() && table.ball_friction.is_none();
+            if !rubs || never_slips {
+                corrected = corrected.max(touch.slip(table.radius, balls).length());
+                touch.stop_slip(table.radius, balls);
             }
+            corrected = corrected.max(close(table, touch, balls));
+        }
+        if corrected <= ROUNDING {
+            break;
         }
     }
 }
 
-/// Stages of the pair (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, table II.5.2).
-const A: [&[f64]; 6] = [
-    &[1.0 / 5.0],
-    &[3.0 / 40.0, 9.0 / 40.0],
-    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
-    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
-    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
-    &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
-];
+/// Takes the rounding out of a ball's motion on the cloth; returns how much there was, m/s.
+fn settle_on_cloth(table: &Table, laws: &Laws, ball: usize, state: &mut BallState) -> f64 {
+    let mut corrected = 0.0;
+    if !laws.spins[ball] {
+        state.spin.z = 0.0;
+    }
+    if !laws.slips[ball] {
+        // What is left of the slip ends as sliding does.
+        let left = slip(table.radius, state.velocity, state.spin);
+        corrected = left.length();
+        state.velocity = if laws.moves[ball] { state.velocity - left * (2.0 / 7.0) } else { DVec2::ZERO };
+        state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
+    }
+    corrected
+}
 
-/// Difference of the fifth- and fourth-order weights.
-const E: [f64; 7] =
-    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
+/// Closes a contact and stops its opening; returns the opening speed, m/s.
+fn close(table: &Table, touch: &Touch, balls: &mut State) -> f64 {
+    let n = touch.normal(balls);
+    let opening = touch.opening_speed(balls);
+    match touch.second {
+        None => balls[touch.first].velocity -= opening * n,
+        Some(second) => {
+            balls[touch.first].velocity -= 0.5 * opening * n;
+            balls[second].velocity += 0.5 * opening * n;
+            let gap = balls[touch.first].position.distance(balls[second].position) - 2.0 * table.radius;
+            balls[touch.first].position -= 0.5 * gap * n;
+            balls[second].position += 0.5 * gap * n;
+        }
+    }
+    opening.abs()
+}

@@ -29,7 +29,7 @@ pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) 
 /// Value of a polynomial with coefficients lowest first.
 #[inline]
 pub fn horner(coefficients: &[f64], t: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, c| sum.mul_add(t, *c))
+    coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
 /// All roots in the open interval `(0, end)` in ascending order where the polynomial changes sign; returns their number.

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Constants;
-use crate::physics::{BallState, Motion, decayed_spin, rolling_spin, slip};
+use crate::physics::{BallState, Motion, decayed_spin, slip};
 
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -13,6 +13,7 @@ const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 pub const STILL: f64 = 1e-7;
 
 /// Brings balls to rest if all of them are slower than `limit`, m/s.
+#[inline(always)]
 pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
     let is_still = |ball: &&mut BallState| {
         ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
@@ -26,7 +27,7 @@ pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
 }
 
 /// A ball's course from `start` on, until something changes it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Segment {
     /// Time at which the segment begins, s.
     pub start: f64,
@@ -40,8 +41,8 @@ pub struct Segment {
     pub spin: DVec3,
     /// The equation of motion in force.
     pub motion: Motion,
-    /// What a resting contact adds to the course.
-    pub curve: Option<Curve>,
+    /// What a resting contact adds to the course. It is kept apart, since it is rare and larger than all the rest.
+    pub curve: Option<Box<Curve>>,
 }
 
 /// The part of a resting contact's course that is not a parabola: one step of its integration, as polynomials that meet
@@ -70,6 +71,7 @@ impl Segment {
 
     /// The free course that follows from `state` at time `start`, and how long it can last, s: until the slip or the
     /// speed is used up (thesis equations 25 and 26).
+    #[inline(always)]
     pub fn free(constants: &Constants, start: f64, state: &BallState) -> (Self, f64) {
         let radius = constants.radius;
         let u = slip(radius, state.velocity, state.spin);
@@ -89,7 +91,7 @@ impl Segment {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
             segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
-            (segment, speed / (3.5 * constants.sliding))
+            (segment, speed * constants.slide_time)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
         } else {
@@ -98,72 +100,77 @@ impl Segment {
     }
 
     /// Turns the segment into a rolling one with the velocity that it has, and tells how long it can last, s.
+    #[inline(always)]
     fn roll(mut self, constants: &Constants) -> (Self, f64) {
         let speed = self.velocity.length();
-        self.spin = rolling_spin(constants.radius, self.velocity).extend(self.spin.z);
+        self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
         self.motion = Motion::Rolling;
         self.half_acceleration = self.velocity * (-0.5 * constants.rolling / speed);
-        (self, speed / constants.rolling)
+        (self, speed * constants.roll_time)
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
+    #[inline(always)]
     pub fn successor(&self, constants: &Constants, duration: f64) -> (Self, f64) {
-        let next = Self { start: self.start + duration, curve: None, ..*self };
         let wz = decayed_spin(self.spin.z, constants.spinning, duration);
+        let spin = DVec3::new(0.0, 0.0, wz);
+        let start = self.start + duration;
         if self.motion == Motion::Sliding {
             // What the slip leaves is known without its duration, which keeps the rounding small.
             let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
-            let position = self.position_after(duration);
-            let next = Self { position, velocity, spin: DVec3::new(0.0, 0.0, wz), ..next };
-            if velocity == DVec2::ZERO { (next.halt(), f64::INFINITY) } else { next.roll(constants) }
+            let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
+            if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
         } else {
             let position = self.position + 0.5 * duration * self.velocity;
-            (Self { position, spin: DVec3::new(0.0, 0.0, wz), ..next }.halt(), f64::INFINITY)
+            (Self { start, spin, ..Self::at_rest(position) }, f64::INFINITY)
         }
     }
 
-    fn halt(self) -> Self {
-        Self { velocity: DVec2::ZERO, half_acceleration: DVec2::ZERO, motion: Motion::Stationary, ..self }
-    }
-
     /// Centre `t` seconds after the start, m.
-    #[inline]
+    #[inline(always)]
     pub fn position_after(&self, t: f64) -> DVec2 {
         let bend = match &self.curve {
             None => self.half_acceleration,
-            Some(Curve { position: [c3, c4, c5], .. }) => self.half_acceleration + t * (*c3 + t * (*c4 + t * *c5)),
+            Some(curve) => {
+                let [c3, c4, c5] = curve.position;
+                self.half_acceleration + t * (c3 + t * (c4 + t * c5))
+            }
         };
         self.position + t * (self.velocity + t * bend)
     }
 
     /// Velocity `t` seconds after the start, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn velocity_after(&self, t: f64) -> DVec2 {
         let bend = match &self.curve {
             None => 2.0 * self.half_acceleration,
-            Some(Curve { position: [c3, c4, c5], .. }) => {
-                2.0 * self.half_acceleration + t * (3.0 * *c3 + t * (4.0 * *c4 + 5.0 * t * *c5))
+            Some(curve) => {
+                let [c3, c4, c5] = curve.position;
+                2.0 * self.half_acceleration + t * (3.0 * c3 + t * (4.0 * c4 + 5.0 * t * c5))
             }
         };
         self.velocity + t * bend
     }
 
     /// Angular velocity `t` seconds after the start, rad/s.
+    #[inline(always)]
     pub fn spin_after(&self, constants: &Constants, t: f64) -> DVec3 {
-        if let Some(Curve { spin: [c1, c2, c3], .. }) = &self.curve {
-            return self.spin + t * (*c1 + t * (*c2 + t * *c3));
+        if let Some(curve) = &self.curve {
+            let [c1, c2, c3] = curve.spin;
+            return self.spin + t * (c1 + t * (c2 + t * c3));
         }
         // w' = -5/R z×k while sliding (3), z×v'/R while rolling (6).
         let rate = match self.motion {
             Motion::Sliding => -5.0,
             Motion::Rolling => 2.0,
             Motion::Stationary | Motion::Resting => 0.0,
-        } / constants.radius;
+        } * constants.per_radius;
         let horizontal = self.spin.truncate() + (rate * t) * self.half_acceleration.perp();
         horizontal.extend(decayed_spin(self.spin.z, constants.spinning, t))
     }
 
     /// Position, velocity and spin `t` seconds after the start.
+    #[inline(always)]
     pub fn state_after(&self, constants: &Constants, t: f64) -> BallState {
         BallState {
             position: self.position_after(t),
@@ -176,7 +183,7 @@ impl Segment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Table;
+    use crate::{physics::rolling_spin, table::Table};
 
     #[test]
     fn a_sliding_ball_rolls_exactly_when_its_slip_is_used_up() {
