@@ -42,6 +42,9 @@ pub enum ThroughputError {
 pub struct Figure {
     /// What is counted.
     pub what: &'static str,
+    /// Layers and batch, where networks learn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<&'static str>,
     /// The table.
     pub table: String,
     /// Threads that worked at it.
@@ -80,8 +83,8 @@ impl Machine {
 /// Where the networks cannot be used.
 pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figure>, ThroughputError> {
     let mut figures = Vec::new();
-    let mut note = |what, table: &Table, threads, per_second| {
-        let figure = Figure { what, table: table.name.clone(), threads, per_second };
+    let mut note = |what, sizes, table: &Table, threads, per_second| {
+        let figure = Figure { what, sizes, table: table.name.clone(), threads, per_second };
         tell(&figure);
         figures.push(figure);
     };
@@ -89,25 +92,26 @@ pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figu
     for table in PRESETS.iter().filter_map(|name| Table::preset(name).ok()) {
         let shots = shots(&table);
         let score = |(layout, cue): &(Layout, CueInputs)| Reward::R3.of(&table, layout, cue);
-        note("scored shots", &table, 1, rate(time, &shots, score));
-        note("scored shots", &table, cores, rate_on(cores, time, &shots, score));
+        note("scored shots", None, &table, 1, rate(time, &shots, score));
+        note("scored shots", None, &table, cores, rate_on(cores, time, &shots, score));
         let record =
             |(layout, cue): &(Layout, CueInputs)| Recording::new(&table, layout, cue).map(|r| r.duration()).ok();
-        note("recorded shots", &table, 1, rate(time, &shots, record));
+        note("recorded shots", None, &table, 1, rate(time, &shots, record));
     }
     let coach = Coach::new(Table::default())?;
     let layouts: Vec<Layout> = shots(coach.table()).into_iter().map(|(layout, _)| layout).collect();
     let request = Request::default();
     let advise = |layout: &Layout| coach.recommend(layout, &request).is_ok();
-    note("recommendations", coach.table(), 1, rate(time, &layouts, advise));
+    note("recommendations", None, coach.table(), 1, rate(time, &layouts, advise));
     let decide = |layout: &Layout| coach.policy_shot(layout);
-    note("network decisions", coach.table(), 1, rate(time, &layouts, decide));
-    for (what, actor, critic, batch) in [
-        // The networks of thesis Tables 2 and 4, and its reference 20 for their layers.
-        ("updates, 16-16-16 and 32-32-32, batch 32", vec![16; 3], vec![32; 3], 32),
-        ("updates, 256-256, batch 256", vec![256; 2], vec![256; 2], 256),
+    note("network decisions", None, coach.table(), 1, rate(time, &layouts, decide));
+    for (sizes, actor, critic, batch) in [
+        // The batch of thesis Table 4 and the layers of the example to which it refers (its reference 20).
+        ("actor 16-16-16, critic 32-32-32, batch 32", vec![16; 3], vec![32; 3], 32),
+        ("actor and critic 256-256, batch 256", vec![256; 2], vec![256; 2], 256),
     ] {
-        note(what, coach.table(), 1, updates(time, coach.table(), &layouts, (actor, critic), batch)?);
+        let per_second = updates(time, coach.table(), &layouts, (actor, critic), batch)?;
+        note("network updates", Some(sizes), coach.table(), 1, per_second);
     }
     Ok(figures)
 }

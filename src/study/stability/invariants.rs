@@ -67,7 +67,7 @@ fn is_finite(trace: &Trace) -> bool {
             && piece.end.is_finite()
             && segment.spin.is_finite()
             && coefficients(segment).iter().all(|c| c.is_finite())
-            && segment.curve.is_none_or(|curve| curve.spin.iter().all(|c| c.is_finite()))
+            && segment.curve.as_ref().is_none_or(|curve| curve.spin.iter().all(|c| c.is_finite()))
     };
     trace.pieces.iter().flatten().all(piece_is_finite)
         && trace.events.iter().all(|event| event.time.is_finite())
@@ -194,7 +194,7 @@ fn contacts(trace: &Trace, figures: &mut Figures) {
 }
 
 fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve.map_or([DVec2::ZERO; 3], |curve| curve.position);
+    let [c3, c4, c5] = segment.curve.as_ref().map_or([DVec2::ZERO; 3], |curve| curve.position);
     [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
 }
 

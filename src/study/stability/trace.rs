@@ -20,7 +20,7 @@ const KEPT: usize = 20_000;
 pub const BREAK_AFTER_SECONDS: f64 = 10.0;
 
 /// A piece of a ball's course with the time at which it ended, s.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Piece {
     /// The course.
     pub segment: Segment,
@@ -117,7 +117,7 @@ impl Observer for Trace {
         self.steps += 1;
         // NaN must not slip through as a piece of no length.
         if end != segment.start && self.kept_until == f64::INFINITY {
-            self.pieces[ball].push(Piece { segment: *segment, end });
+            self.pieces[ball].push(Piece { segment: segment.clone(), end });
             self.fill(self.pieces[ball].len());
         }
     }
