@@ -60,6 +60,8 @@ rows_as_tests! {
     resting_on_another_ball => "a ball resting on another",
     pressed_between_ball_and_cushion => "a ball pressed between ball and cushion",
     resting_on_a_smooth_cushion => "a ball resting on a smooth cushion",
+    resting_on_a_smooth_ball => "a ball resting on another, smooth ball",
+    pressed_between_smooth_things => "a ball pressed between a smooth ball and cushion",
     next_to_no_slip => "next to no slip: relative 1e-16 to 1e-6",
     tiny_spins => "spins of 1e-16 to 1e-9",
     all_speeds => "speeds from 1e-6 to 60 m/s",

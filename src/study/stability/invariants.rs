@@ -214,3 +214,56 @@ fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
     }
     c
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        study::stability::{Limits, Stroke, Violation},
+        table::Layout,
+    };
+
+    /// A shot that meets a ball and cushions, and what the checks say after it has been tampered with.
+    fn violations(tamper: impl Fn(&mut Trace)) -> Vec<Violation> {
+        let table = Table::default();
+        let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
+        let shot = Shot { layout, cue: Stroke { b: 0.3, ..Stroke::centre(0.0, 4.0) } };
+        let mut trace = Trace::new(&table);
+        trace.play(&table, &shot);
+        tamper(&mut trace);
+        measure(&table, &shot, &trace).violations(&Limits::STRICT)
+    }
+
+    /// Where sliding becomes rolling, the cue ball gains a billionth of its spin.
+    fn spin_faster(trace: &mut Trace) {
+        let rolling = |piece: &&mut Piece| piece.segment.motion == Motion::Rolling;
+        trace.pieces[0].iter_mut().rfind(rolling).unwrap().segment.spin *= 1.0 + 1e-9;
+    }
+
+    #[test]
+    fn an_ordinary_shot_breaks_nothing() {
+        assert_eq!(violations(|_| {}), []);
+    }
+
+    #[test]
+    fn every_kind_of_tampering_is_seen() {
+        type Tamper = fn(&mut Trace);
+        type Kind = fn(&Violation) -> bool;
+        let cases: [(Tamper, Kind); 8] = [
+            (|trace| trace.pieces[0][1].segment.position.x += 2e-9, |v| matches!(v, Violation::Jump(_))),
+            (|trace| trace.end.balls[1].position.y += 2e-9, |v| matches!(v, Violation::Jump(_))),
+            (spin_faster, |v| matches!(v, Violation::Energy(_))),
+            (|trace| trace.pieces[2][0].segment.spin.x = f64::NAN, |v| matches!(v, Violation::NotFinite)),
+            (|trace| trace.constants.radius += 1e-8, |v| matches!(v, Violation::Overlap(_))),
+            (|trace| trace.constants.reach.x -= 2e-9, |v| matches!(v, Violation::Outside(_))),
+            (|trace| trace.constants.reach.x += 2e-9, |v| matches!(v, Violation::Apart(_))),
+            (|trace| trace.events.swap(0, 1), |v| matches!(v, Violation::Backwards(_))),
+        ];
+        for (index, (tamper, kind)) in cases.into_iter().enumerate() {
+            let found = violations(tamper);
+            assert!(found.iter().any(kind), "tampering {index} gives {found:?}");
+        }
+        assert_eq!(violations(|trace| trace.finished = false), [Violation::Unfinished]);
+        assert_eq!(violations(|trace| trace.event_count = 501), [Violation::Events(501)]);
+    }
+}

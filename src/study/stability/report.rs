@@ -59,9 +59,9 @@ impl Row {
         let (mut failed, mut example) = (0, None);
         let mut complete = true;
         let figures = case.run(plan.shots(case), plan.seed, |progress, finding| {
-            if let Some(finding) = finding.filter(|finding| !finding.violations.is_empty()) {
+            if let Some(violation) = finding.and_then(|finding| finding.violations.first()) {
                 failed += 1;
-                example.get_or_insert_with(|| finding.what.clone());
+                example.get_or_insert_with(|| violation.to_string());
             }
             complete = watch(progress, finding);
             complete

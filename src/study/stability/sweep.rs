@@ -205,7 +205,9 @@ impl Work {
                 let shot = (sweep.generator)(&sweep.table, &mut rng);
                 desk.set(Some((Instant::now(), shot)));
                 let mut measured = examine(&sweep.table, &shot, &mut trace);
-                let also = sweep.check.map_or(Ok(()), |check| check(&sweep.table, &shot, &trace));
+                // A shot that has been broken off has failed already.
+                let check = sweep.check.filter(|_| trace.finished);
+                let also = check.map_or(Ok(()), |check| check(&sweep.table, &shot, &trace));
                 if sweep.slow.is_finite() && (SLOW..TOO_SLOW_TO_REPEAT).contains(&measured.seconds) {
                     for _ in 0..2 {
                         trace.play(&sweep.table, &shot);
@@ -244,5 +246,50 @@ impl Sweep {
             steps: measured.steps,
             ms: 1e3 * measured.seconds,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::stability::random;
+
+    fn sweep() -> Sweep {
+        Sweep {
+            table: Table::default(),
+            generator: random::shot,
+            check: None,
+            shots: 1050,
+            seed: 3,
+            limits: Limits::STRICT,
+            slow: f64::INFINITY,
+        }
+    }
+
+    #[test]
+    fn the_same_shots_are_played_whatever_thread_plays_them() {
+        let run = || Figures { seconds: 0.0, ..sweep().run(|_, _| true) };
+        let figures = run();
+        assert_eq!((figures.shots, figures), (1050, run()));
+    }
+
+    #[test]
+    fn what_a_case_asks_besides_becomes_a_finding() {
+        let picky = Sweep { check: Some(|_, _, _| Err("not to my taste".to_owned())), shots: 7, ..sweep() };
+        let mut found = Vec::new();
+        picky.run(|_, finding| {
+            found.extend(finding.cloned());
+            true
+        });
+        assert_eq!(found.len(), 7);
+        assert!(found.iter().all(|finding| finding.what == "not to my taste"));
+        let json = serde_json::to_value(&found[0]).unwrap();
+        assert!(json["layout"].is_array() && json["cue"]["theta_deg"].is_number(), "{json}");
+    }
+
+    #[test]
+    fn a_sweep_ends_when_its_watch_says_so() {
+        let long = Sweep { shots: u64::MAX / 2, ..sweep() };
+        assert!(long.run(|_, _| false).shots < 100_000);
     }
 }

@@ -6,6 +6,7 @@ mod lone;
 mod pressed;
 mod rail_course;
 mod simultaneous;
+mod smooth_courses;
 mod strokes;
 mod sweeps;
 mod tables;
@@ -55,6 +56,7 @@ pub fn all() -> Vec<Case> {
         touching::CASES,
         simultaneous::CASES,
         pressed::CASES,
+        smooth_courses::CASES,
         strokes::CASES,
         tables::CASES,
     ]
