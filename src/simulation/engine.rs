@@ -8,10 +8,10 @@ use super::{
     resting::{PAIRS, Resting, STILL_AT_REST},
     savings::{All, Savings},
     segment::{STILL, still},
-    settling::{settles_on_cushion, settles_together},
+    settling::{FASTEST, settles},
 };
 use crate::{
-    physics::{BallState, Impulse, Motion, collide_balls, collide_rail},
+    physics::{BallState, Impulse, Motion, Touch, collide_balls, collide_rail},
     table::{BALLS, Layout, Table},
 };
 
@@ -181,7 +181,8 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let before = state;
         let c = self.constants;
         collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
-        if settles_on_cushion(&c, n, &state) {
+        let touch = Touch { first: index, second: None, rail_normal: n };
+        if state.velocity.dot(n) <= FASTEST && self.settle(now, &freed, &touch, &[(index, state)]) {
             state = before;
             collide_rail(c.radius, 0.0, c.rail_friction, n, &mut state);
             state.velocity -= state.velocity.dot(n) * n;
@@ -211,7 +212,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let before = (a, b);
         let c = self.constants;
         collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
-        if settles_together(&c, &a, &b) {
+        let touch = Touch { first, second: Some(second), rail_normal: glam::DVec2::ZERO };
+        let opening = (a.velocity - b.velocity).dot(a.position - b.position);
+        if opening <= 2.0 * c.radius * FASTEST && self.settle(now, &freed, &touch, &[(first, a), (second, b)]) {
             (a, b) = before;
             collide_balls(c.radius, 0.0, c.ball_friction, &mut a, &mut b);
         }
@@ -222,6 +225,25 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.launch(second, now, &b);
         self.tell(now, EventKind::BallBall(first, second))?;
         self.look_ahead(now, members(freed.is_some(), self.freed_members(), changed))
+    }
+
+    /// Whether a contact that has just bounced comes to rest; `bounced` are its balls after the bounce.
+    #[cold]
+    fn settle(
+        &self,
+        now: f64,
+        freed: &Option<[BallState; BALLS]>,
+        touch: &Touch,
+        bounced: &[(usize, BallState)],
+    ) -> bool {
+        let mut balls = std::array::from_fn(|index| match freed {
+            Some(states) if self.freed_members()[index] => states[index],
+            _ => self.state(index, now),
+        });
+        for (index, state) in bounced {
+            balls[*index] = *state;
+        }
+        settles(self.table, &self.constants, touch, &balls)
     }
 
     /// The next step of the balls in resting contact.
@@ -391,7 +413,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         for index in 0..BALLS {
             let was = std::mem::replace(&mut self.balls[index].resting, members[index]);
             if members[index] {
-                self.rest(index, now, &states[index]);
+                self.rest(index, now);
                 changed[index] = true;
             }
             if members[index] && !was {
@@ -409,8 +431,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     #[cold]
-    fn rest(&mut self, index: usize, now: f64, state: &BallState) {
+    fn rest(&mut self, index: usize, now: f64) {
         let Some(resting) = &self.resting else { return };
+        let state = &resting.begin[index];
         let (half_acceleration, curve) = resting.course(index);
         let step = resting.step;
         let segment = Segment {

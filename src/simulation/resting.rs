@@ -14,8 +14,8 @@ use super::{
 };
 use crate::{
     physics::{
-        BallState, Forces, Laws, MAX_TOUCHES, SLIP_TOLERANCE, Touch, contact_forces, forces_in_regime, rolling_spin,
-        slip,
+        BallState, ENDING_SLIP, Forces, Laws, MAX_TOUCHES, SLIP_TOLERANCE, Touch, contact_forces, forces_in_regime,
+        rolling_spin, slip, stop_by_impulses,
     },
     table::{BALLS, Table},
 };
@@ -45,20 +45,20 @@ const STOPPING_SHARE: f64 = 0.9;
 /// than 1e-10 m for accelerations `a` of a few m/s².
 const LONGEST_STEP: f64 = 0.06;
 
+/// In steps shorter than this many seconds the places at both ends, rounded to 1e-16 m, say less about the velocity than
+/// the velocities themselves.
+const SHORTEST_QUINTIC: f64 = 1e-4;
+
 /// Steps that needed more rounds of extrapolation than this are followed by shorter ones, those with fewer by longer.
 const GOOD_ROUNDS: usize = 5;
 
 /// Contacts that open more slowly than this and are pressed stay closed, m/s: they would close again within 1e-8 s, without
 /// end where two of them feed each other.
-const SLOWEST_OPENING: f64 = 1e-9;
+pub const SLOWEST_OPENING: f64 = 1e-9;
 
 /// Balls in resting contact that are all slower than this many m/s are at rest. They would go on for less than 1e-10 m,
 /// in ever smaller steps as their slips fade with their speeds.
 pub const STILL_AT_REST: f64 = 3e-6;
-
-/// Most rounds in which the rounding of a state is taken out, and the speed that is left over, m/s.
-const SETTLING_ROUNDS: usize = 60;
-const ROUNDING: f64 = 1e-17;
 
 /// Pairs of balls, in the order used everywhere.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -72,9 +72,10 @@ pub struct Resting {
     pub start: f64,
     /// Length of the step, s.
     pub step: f64,
+    /// State at its beginning: what has stopped slipping there has stopped exactly.
+    pub begin: State,
     /// State at its end.
     pub end: State,
-    begin: State,
     touches: Touches,
     laws: Laws,
     first: Forces,
@@ -85,7 +86,7 @@ pub struct Resting {
 
 /// The contacts, in a fixed order.
 #[derive(Clone, Copy, Debug)]
-struct Touches {
+pub struct Touches {
     list: [Touch; MAX_TOUCHES],
     count: usize,
 }
@@ -93,40 +94,40 @@ struct Touches {
 impl Touches {
     const NONE: Touch = Touch { first: 0, second: None, rail_normal: DVec2::ZERO };
 
-    /// All contacts of the balls that do not open.
-    fn of(constants: &Constants, balls: &State) -> Self {
+    /// All contacts of the balls that open and close no faster than `slowest`, m/s.
+    pub fn of(constants: &Constants, balls: &State, slowest: f64) -> Self {
         let mut touches = Self { list: [Self::NONE; MAX_TOUCHES], count: 0 };
         for (first, ball) in balls.iter().enumerate() {
             for rail in Rail::ALL {
                 let normal = rail.normal();
                 let gap = normal.abs().dot(constants.reach) + ball.position.dot(normal);
                 if gap <= TOUCHING {
-                    touches.add(Touch { first, second: None, rail_normal: normal }, balls);
+                    touches.add(Touch { first, second: None, rail_normal: normal }, balls, slowest);
                 }
             }
         }
         for (first, second) in PAIRS {
             let gap = balls[first].position.distance(balls[second].position) - 2.0 * constants.radius;
             if gap <= TOUCHING {
-                touches.add(Touch { first, second: Some(second), rail_normal: DVec2::ZERO }, balls);
+                touches.add(Touch { first, second: Some(second), rail_normal: DVec2::ZERO }, balls, slowest);
             }
         }
         touches
     }
 
-    fn add(&mut self, touch: Touch, balls: &State) {
-        if touch.opening_speed(balls).abs() <= SLOWEST_OPENING && self.count < MAX_TOUCHES {
+    fn add(&mut self, touch: Touch, balls: &State, slowest: f64) {
+        if touch.opening_speed(balls).abs() <= slowest && self.count < MAX_TOUCHES {
             self.list[self.count] = touch;
             self.count += 1;
         }
     }
 
     /// Keeps only the contacts asked for; tells whether any had to go.
-    fn keep(&mut self, wanted: &[bool; MAX_TOUCHES]) -> bool {
+    pub fn retain(&mut self, mut wanted: impl FnMut(&Touch) -> bool) -> bool {
         let before = self.count;
         self.count = 0;
         for index in 0..before {
-            if wanted[index] {
+            if wanted(&self.list[index]) {
                 self.list[self.count] = self.list[index];
                 self.count += 1;
             }
@@ -134,7 +135,8 @@ impl Touches {
         self.count < before
     }
 
-    fn as_slice(&self) -> &[Touch] {
+    /// The contacts.
+    pub fn as_slice(&self) -> &[Touch] {
         &self.list[..self.count]
     }
 }
@@ -149,22 +151,18 @@ impl Resting {
         balls: &State,
         previous: Option<&Self>,
     ) -> Option<Self> {
-        let mut begin = *balls;
-        let mut touches = Touches::of(constants, &begin);
-        if touches.count == 0 {
-            return None;
-        }
-        settle(table, &mut begin, touches.as_slice());
-        let mut laws = Laws::of(table.radius, &begin, touches.as_slice());
-        let mut first = contact_forces(table, &begin, touches.as_slice(), &laws, None);
-        // A contact that does not push holds nothing: it is no part of the step.
-        if touches.keep(&first.normal.map(|normal| normal > SLACK)) {
+        let mut touches = Touches::of(constants, balls, SLOWEST_OPENING);
+        let (begin, laws, first) = loop {
             if touches.count == 0 {
                 return None;
             }
-            laws = Laws::of(table.radius, &begin, touches.as_slice());
-            first = contact_forces(table, &begin, touches.as_slice(), &laws, None);
-        }
+            let (begin, laws, first) = lawful(table, balls, touches.as_slice());
+            // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
+            let mut normals = first.normal.iter();
+            if !touches.retain(|_| normals.next().is_some_and(|normal| *normal > SLACK)) {
+                break (begin, laws, first);
+            }
+        };
         let mut members = [false; BALLS];
         for touch in touches.as_slice() {
             members[touch.first] = true;
@@ -204,8 +202,8 @@ impl Resting {
                 (length, step, last) = self.while_it_holds(table, whole);
             }
         }
-        (self.step, self.end, self.last) = (length, step.end, last);
-        settle(table, &mut self.end, self.touches.as_slice());
+        (self.step, self.last) = (length, last);
+        self.end = self.settled(table, step.end);
     }
 
     /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
@@ -300,8 +298,13 @@ impl Resting {
         if time >= self.step {
             return self.end;
         }
-        let mut balls = self.integrate(table, time).end;
-        settle(table, &mut balls, self.touches.as_slice());
+        self.settled(table, self.integrate(table, time).end)
+    }
+
+    /// Takes the rounding out of a later state.
+    fn settled(&self, table: &Table, mut balls: State) -> State {
+        let laws = Laws::of(table.radius, &balls, self.touches.as_slice(), SLIP_TOLERANCE);
+        settle(table, &mut balls, self.touches.as_slice(), &laws);
         balls
     }
 
@@ -343,11 +346,16 @@ impl Resting {
         let (a0, a1) = (self.first.linear[ball], self.last.linear[ball]);
         let moved = p1.position - p0.position;
         let (v0, v1) = (p0.velocity, p1.velocity);
-        let position = [
-            (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * h.powi(3)),
-            (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * h.powi(4)),
-            (12.0 * moved - 6.0 * h * (v1 + v0) - h * h * (a0 - a1)) / (2.0 * h.powi(5)),
-        ];
+        let position = if h > SHORTEST_QUINTIC {
+            [
+                (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * h.powi(3)),
+                (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * h.powi(4)),
+                (12.0 * moved - 6.0 * h * (v1 + v0) - h * h * (a0 - a1)) / (2.0 * h.powi(5)),
+            ]
+        } else {
+            let mean = (v1 - v0) / h;
+            [(3.0 * mean - 2.0 * a0 - a1) / (3.0 * h), (a0 + a1 - 2.0 * mean) / (4.0 * h * h), DVec2::ZERO]
+        };
         let (w0, w1) = (self.first.angular[ball], self.last.angular[ball]);
         let mean = (p1.spin - p0.spin) / h;
         let spin = [w0, (3.0 * mean - 2.0 * w0 - w1) / h, (w0 + w1 - 2.0 * mean) / (h * h)];
@@ -355,59 +363,50 @@ impl Resting {
     }
 }
 
+/// The state without the slips that end here, the laws that hold then, and the forces.
+fn lawful(table: &Table, balls: &State, touches: &[Touch]) -> (State, Laws, Forces) {
+    let mut balls = *balls;
+    if table.ball_friction.is_none() {
+        // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
+        // where the cloth has no time to take part.
+        stop_by_impulses(table, &mut balls, touches, &Laws::SLIPPING);
+    }
+    let stopped = |none: f64| {
+        let laws = Laws::of(table.radius, &balls, touches, none);
+        let mut begin = balls;
+        settle(table, &mut begin, touches, &laws);
+        let forces = contact_forces(table, &begin, touches, &laws, None);
+        (begin, laws, forces)
+    };
+    let ended = stopped(ENDING_SLIP);
+    // What would begin to slip again at once has not ended.
+    if ended.2.departure > 0.0 { stopped(SLIP_TOLERANCE) } else { ended }
+}
+
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
-/// spinning has stopped exactly.
-fn settle(table: &Table, balls: &mut State, touches: &[Touch]) {
-    let laws = Laws::of(table.radius, balls, touches);
-    // Each correction undoes a little of the others; they converge within a few rounds.
-    for _ in 0..SETTLING_ROUNDS {
-        let mut corrected = 0.0_f64;
-        for (ball, state) in balls.iter_mut().enumerate() {
-            corrected = corrected.max(settle_on_cloth(table, &laws, ball, state));
-        }
-        for (touch, rubs) in touches.iter().zip(laws.rubs) {
-            let never_slips = touch.second.is_some() && table.ball_friction.is_none();
-            if !rubs || never_slips {
-                corrected = corrected.max(touch.slip(table.radius, balls).length());
-                touch.stop_slip(table.radius, balls);
-            }
-            corrected = corrected.max(close(table, touch, balls));
-        }
-        if corrected <= ROUNDING {
-            break;
-        }
-    }
-}
-
-/// Takes the rounding out of a ball's motion on the cloth; returns how much there was, m/s.
-fn settle_on_cloth(table: &Table, laws: &Laws, ball: usize, state: &mut BallState) -> f64 {
-    let mut corrected = 0.0;
-    if !laws.spins[ball] {
-        state.spin.z = 0.0;
-    }
-    if !laws.slips[ball] {
-        // What is left of the slip ends as sliding does.
-        let left = slip(table.radius, state.velocity, state.spin);
-        corrected = left.length();
-        state.velocity = if laws.moves[ball] { state.velocity - left * (2.0 / 7.0) } else { DVec2::ZERO };
-        state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
-    }
-    corrected
-}
-
-/// Closes a contact and stops its opening; returns the opening speed, m/s.
-fn close(table: &Table, touch: &Touch, balls: &mut State) -> f64 {
-    let n = touch.normal(balls);
-    let opening = touch.opening_speed(balls);
-    match touch.second {
-        None => balls[touch.first].velocity -= opening * n,
-        Some(second) => {
-            balls[touch.first].velocity -= 0.5 * opening * n;
-            balls[second].velocity += 0.5 * opening * n;
+/// spinning by `laws` has stopped exactly.
+fn settle(table: &Table, balls: &mut State, touches: &[Touch], laws: &Laws) {
+    for touch in touches {
+        if let Some(second) = touch.second {
+            let n = touch.normal(balls);
             let gap = balls[touch.first].position.distance(balls[second].position) - 2.0 * table.radius;
             balls[touch.first].position -= 0.5 * gap * n;
             balls[second].position += 0.5 * gap * n;
         }
     }
-    opening.abs()
+    stop_by_impulses(table, balls, touches, laws);
+    for (ball, state) in balls.iter_mut().enumerate() {
+        if !touches.iter().any(|touch| touch.first == ball || touch.second == Some(ball)) {
+            continue;
+        }
+        if !laws.spins[ball] {
+            state.spin.z = 0.0;
+        }
+        if !laws.slips[ball] {
+            if !laws.moves[ball] {
+                state.velocity = DVec2::ZERO;
+            }
+            state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
+        }
+    }
 }

@@ -6,10 +6,14 @@
 //! forces that follow the slip see the same slip on average. What is left is of third order: `s` times the square of the
 //! share by which the friction's direction turns in the time `T`.
 
-use glam::DVec2;
-
-use super::{Constants, Segment};
-use crate::physics::{BallState, Motion};
+use super::{
+    Constants, Segment,
+    resting::{SLOWEST_OPENING, Touches},
+};
+use crate::{
+    physics::{BallState, ENDING_SLIP, Laws, Motion, Touch, contact_forces},
+    table::{BALLS, Table},
+};
 
 /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
 const NEGLIGIBLE: f64 = 1e-12;
@@ -22,43 +26,42 @@ const SLOWEST_BOUNCE: f64 = 1e-10;
 const LASTING_FLIGHTS: f64 = 10.0;
 
 /// Speeds above this never settle, m/s: the test costs nothing where it matters.
-const FASTEST: f64 = 1e-4;
+pub const FASTEST: f64 = 1e-4;
 
-/// Whether a ball that has just left the cushion with normal `n` will come to rest on it.
-pub fn settles_on_cushion(constants: &Constants, n: DVec2, ball: &BallState) -> bool {
-    let speed = ball.velocity.dot(n);
+/// The bounces of one contact shake others, and the slip of the balls, by this many times their speed at most.
+const SHAKEN: f64 = 10.0;
+
+/// Whether the balls of a contact that has just bounced, and opens in the state `balls`, will come to rest there.
+#[cold]
+pub fn settles(table: &Table, constants: &Constants, touch: &Touch, balls: &[BallState; BALLS]) -> bool {
+    let speed = touch.opening_speed(balls);
     if speed > FASTEST {
         return false;
     }
-    let (segment, lasts) = Segment::free(constants, 0.0, ball);
-    let pull = -2.0 * segment.half_acceleration.dot(n);
-    settles(speed, pull, constants.rail_restitution, lasts)
-}
-
-/// Whether two balls that have just collided will come to rest against each other.
-pub fn settles_together(constants: &Constants, first: &BallState, second: &BallState) -> bool {
-    let apart = first.position - second.position;
-    let relative = first.velocity - second.velocity;
-    let n = apart.normalize();
-    let speed = relative.dot(n);
-    if speed > FASTEST {
-        return false;
-    }
-    let (a, a_lasts) = Segment::free(constants, 0.0, first);
-    let (b, b_lasts) = Segment::free(constants, 0.0, second);
-    let across = relative.perp_dot(n);
-    let centrifugal = across * across / apart.length();
-    let pull = -2.0 * (a.half_acceleration - b.half_acceleration).dot(n) - centrifugal;
-    // A slip that ends before many bounces is made by them, in proportion: it does not set the pace.
-    let flight = 2.0 * speed / pull;
-    let slide = |segment: &Segment, lasts: f64| {
-        if segment.motion == Motion::Sliding && lasts > LASTING_FLIGHTS * flight { lasts } else { f64::INFINITY }
+    let free = balls.map(|ball| Segment::free(constants, 0.0, &ball));
+    let mut others = Touches::of(constants, balls, SLOWEST_OPENING.max(SHAKEN * speed));
+    others.retain(|other| other != touch && other.shares_a_ball(touch));
+    let accelerations = if others.as_slice().is_empty() {
+        std::array::from_fn(|ball| 2.0 * free[ball].0.half_acceleration)
+    } else {
+        // What the bounces shake loose holds on average.
+        let laws = Laws::of(table.radius, balls, others.as_slice(), ENDING_SLIP.max(SHAKEN * speed));
+        contact_forces(table, balls, others.as_slice(), &laws, None).linear
     };
-    settles(speed, pull, constants.ball_restitution, slide(&a, a_lasts).min(slide(&b, b_lasts)))
+    let pull = -touch.opening_acceleration(balls, &accelerations);
+    let flight = 2.0 * speed / pull;
+    let slide = |ball: usize| {
+        let (segment, lasts) = &free[ball];
+        // A slip that ends before many bounces is made by them, in proportion: it does not set the pace.
+        if segment.motion == Motion::Sliding && *lasts > LASTING_FLIGHTS * flight { *lasts } else { f64::INFINITY }
+    };
+    let slide = slide(touch.first).min(touch.second.map_or(f64::INFINITY, slide));
+    let restitution = if touch.second.is_some() { constants.ball_restitution } else { constants.rail_restitution };
+    settles_in_time(speed, pull, restitution, slide)
 }
 
 /// `slide` is the time in which the slip, and so the direction of its friction, is used up.
-fn settles(speed: f64, pull: f64, restitution: f64, slide: f64) -> bool {
+fn settles_in_time(speed: f64, pull: f64, restitution: f64, slide: f64) -> bool {
     if speed <= SLOWEST_BOUNCE {
         return true;
     }
@@ -76,14 +79,14 @@ mod tests {
 
     #[test]
     fn a_slow_ball_that_is_pulled_back_settles_and_one_that_is_not_leaves() {
-        assert!(settles(1e-9, 2.0, 0.3, 0.5));
-        assert!(!settles(1e-9, -2.0, 0.3, 0.5));
-        assert!(!settles(1e-3, 2.0, 0.3, 0.5));
+        assert!(settles_in_time(1e-9, 2.0, 0.3, 0.5));
+        assert!(!settles_in_time(1e-9, -2.0, 0.3, 0.5));
+        assert!(!settles_in_time(1e-3, 2.0, 0.3, 0.5));
     }
 
     #[test]
     fn without_loss_a_bounce_settles_only_when_it_cannot_be_seen() {
-        assert!(!settles(1e-9, 2.0, 1.0, 0.5));
-        assert!(settles(1e-10, 2.0, 1.0, 0.5));
+        assert!(!settles_in_time(1e-9, 2.0, 1.0, 0.5));
+        assert!(settles_in_time(1e-10, 2.0, 1.0, 0.5));
     }
 }

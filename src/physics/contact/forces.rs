@@ -102,6 +102,27 @@ pub fn forces_in_regime(
     }
 }
 
+/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `touches` and the slips that
+/// do not last by `laws`, by impulses in those contacts, as the ends of slips do. Where they cannot all vanish, all stay.
+pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch], laws: &Laws) {
+    let problem = Problem::new(table, balls, touches, laws);
+    let unknown =
+        |direction: Direction, place| Unknown { force: direction, rate: direction, bias: 0.0, size: 0.0, place };
+    let normals =
+        problem.contacts.iter().enumerate().map(|(index, contact)| unknown(contact.normal, Place::Normal(index)));
+    let grips = problem.grips.iter().enumerate().flat_map(|(index, grip)| {
+        (0..grip.axes).map(move |axis| unknown(grip.directions[axis], Place::Grip(index, axis)))
+    });
+    let mut unknowns: Vec<Unknown> = normals.chain(grips).collect();
+    let speeds = Accelerations { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| ball.spin) };
+    let stopped = System::new(&problem, speeds, &unknowns).and_then(|system| system.balance(&mut unknowns));
+    if let Some(Accelerations { linear, angular }) = stopped {
+        for (ball, (velocity, spin)) in balls.iter_mut().zip(linear.into_iter().zip(angular)) {
+            (ball.velocity, ball.spin) = (velocity, spin);
+        }
+    }
+}
+
 impl Forces {
     fn of(problem: &Problem, mut regime: Regime, solution: &Solution) -> Self {
         let departure = regime.share(problem, solution);
@@ -316,14 +337,14 @@ impl System {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::slip;
+    use crate::physics::{SLIP_TOLERANCE, slip};
 
     const ALONE: [BallState; 2] = [BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
 
     fn forces(ball: BallState, touches: &[Touch]) -> Forces {
         let table = Table::preset("thesis").unwrap();
         let balls = [ball, ALONE[0], ALONE[1]];
-        contact_forces(&table, &balls, touches, &Laws::of(table.radius, &balls, touches), None)
+        contact_forces(&table, &balls, touches, &Laws::of(table.radius, &balls, touches, SLIP_TOLERANCE), None)
     }
 
     #[test]

@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 
 use super::{BallState, slip};
 use crate::table::BALLS;
-pub use forces::{Forces, contact_forces, forces_in_regime};
+pub use forces::{Forces, contact_forces, forces_in_regime, stop_by_impulses};
 
 /// Most contacts that three balls can have: with each other and with two cushions each.
 pub const MAX_TOUCHES: usize = 9;
@@ -24,6 +24,10 @@ pub const MAX_TOUCHES: usize = 9;
 /// integration, so that what sticks is seen to stick; the slip that is cut off would have moved a ball by less than
 /// 1e-10 m.
 pub const SLIP_TOLERANCE: f64 = 1e-10;
+
+/// A slip below this is stopped at once if it then holds, m/s: what it still does until it ends, an impulse does too, but
+/// for the change of the other forces meanwhile, which is of second order.
+pub const ENDING_SLIP: f64 = 1e-7;
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,9 +49,29 @@ impl Touch {
         }
     }
 
+    /// Whether a ball takes part in both contacts.
+    pub fn shares_a_ball(&self, other: &Self) -> bool {
+        let has = |ball| other.first == ball || other.second == Some(ball);
+        has(self.first) || self.second.is_some_and(has)
+    }
+
     /// Speed at which the contact opens, m/s.
     pub fn opening_speed(&self, balls: &[BallState; BALLS]) -> f64 {
         self.relative_velocity(balls).dot(self.normal(balls))
+    }
+
+    /// Rate at which the opening speed grows under the accelerations of all balls, m/s²: two balls that pass each other
+    /// part, too.
+    pub fn opening_acceleration(&self, balls: &[BallState; BALLS], linear: &[DVec2; BALLS]) -> f64 {
+        let n = self.normal(balls);
+        match self.second {
+            None => linear[self.first].dot(n),
+            Some(second) => {
+                let apart = balls[self.first].position.distance(balls[second].position);
+                let across = self.relative_velocity(balls).perp_dot(n);
+                (linear[self.first] - linear[second]).dot(n) + across * across / apart
+            }
+        }
     }
 
     /// Velocity of the first ball's surface over the other at the contact, along `t = z×n` and along z, m/s (thesis
@@ -55,17 +79,6 @@ impl Touch {
     pub fn slip(&self, radius: f64, balls: &[BallState; BALLS]) -> DVec2 {
         let (_, along, up) = contact_slip(radius, balls, self);
         DVec2::new(along, up)
-    }
-
-    /// Takes what is left of a slip out of the balls' spins.
-    pub fn stop_slip(&self, radius: f64, balls: &mut [BallState; BALLS]) {
-        let (n, along, up) = contact_slip(radius, balls, self);
-        let share = if self.second.is_some() { 0.5 } else { 1.0 };
-        let change = (share / radius) * (-up * n.perp()).extend(along);
-        balls[self.first].spin += change;
-        if let Some(second) = self.second {
-            balls[second].spin += change;
-        }
     }
 
     fn relative_velocity(&self, balls: &[BallState; BALLS]) -> DVec2 {
@@ -87,17 +100,21 @@ pub struct Laws {
 }
 
 impl Laws {
-    /// The laws that hold in the state `balls` with the given contacts.
-    pub fn of(radius: f64, balls: &[BallState; BALLS], touches: &[Touch]) -> Self {
+    /// Everything slips but contacts that never do.
+    pub const SLIPPING: Self =
+        Self { slips: [true; BALLS], moves: [true; BALLS], spins: [true; BALLS], rubs: [true; MAX_TOUCHES] };
+
+    /// The laws that hold in the state `balls` with the given contacts, if slips and speeds below `none`, m/s, are zero.
+    pub fn of(radius: f64, balls: &[BallState; BALLS], touches: &[Touch], none: f64) -> Self {
         let mut rubs = [false; MAX_TOUCHES];
         for (rub, touch) in rubs.iter_mut().zip(touches) {
             let (_, along, up) = contact_slip(radius, balls, touch);
-            *rub = along.hypot(up) > SLIP_TOLERANCE;
+            *rub = along.hypot(up) > none;
         }
         Self {
-            slips: balls.map(|ball| slip(radius, ball.velocity, ball.spin).length() > SLIP_TOLERANCE),
-            moves: balls.map(|ball| ball.velocity.length() > SLIP_TOLERANCE),
-            spins: balls.map(|ball| radius * ball.spin.z.abs() > SLIP_TOLERANCE),
+            slips: balls.map(|ball| slip(radius, ball.velocity, ball.spin).length() > none),
+            moves: balls.map(|ball| ball.velocity.length() > none),
+            spins: balls.map(|ball| radius * ball.spin.z.abs() > none),
             rubs,
         }
     }

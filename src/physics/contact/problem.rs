@@ -161,12 +161,12 @@ impl Problem {
         let grip = |directions, axes, limit| Grip { directions, axes, bias: DVec2::ZERO, limit: Limit::Fixed(limit) };
         let known = &mut self.known;
         if laws.slips[ball] {
-            let against = -slip(radius, state.velocity, state.spin).normalize();
+            let against = -slip(radius, state.velocity, state.spin).normalize_or_zero();
             at_cloth(against).push(sliding, self.twist, known);
         } else {
             self.grips.push(grip([at_cloth(DVec2::X), at_cloth(DVec2::Y)], 2, sliding));
             if laws.moves[ball] {
-                along(-state.velocity.normalize(), DVec3::ZERO).push(resistance, self.twist, known);
+                along(-state.velocity.normalize_or_zero(), DVec3::ZERO).push(resistance, self.twist, known);
             } else {
                 let still = [along(DVec2::X, DVec3::ZERO), along(DVec2::Y, DVec3::ZERO)];
                 self.grips.push(grip(still, 2, resistance));
@@ -200,7 +200,7 @@ impl Problem {
             friction = table.ball_friction;
         }
         let rub = match friction {
-            Some(mu) if rubs => DVec2::new(along, up).normalize() * -mu,
+            Some(mu) if rubs => DVec2::new(along, up).normalize_or_zero() * -mu,
             _ => DVec2::ZERO,
         };
         if !rubs || friction.is_none() {

@@ -2,8 +2,6 @@
 //!
 //! It converges from anywhere, which the active-set method does not, but only geometrically.
 
-use glam::DVec2;
-
 use super::{
     problem::Problem,
     regime::{NEGLIGIBLE, Regime, Solution, limit_of},
