@@ -17,7 +17,7 @@ mod trace;
 pub use cases::{Case, Size, all as cases};
 pub use figures::{Figures, Limits, Violation, Worst};
 pub use invariants::examine;
-pub use progress::ProgressLine;
+pub use progress::{ProgressLine, rows_with_progress};
 pub use report::{Plan, Row, markdown, rows, text};
 pub use shot::{Shot, Stroke};
 pub use sweep::{Check, Finding, Generator, Progress, Sweep};

@@ -2,10 +2,11 @@
 
 use std::{
     io::{IsTerminal, Write},
+    sync::atomic::{AtomicBool, Ordering},
     time::{Duration, Instant},
 };
 
-use super::Progress;
+use super::{Plan, Progress, Row, rows};
 
 /// Time between two lines where nobody sits before them.
 const SELDOM: Duration = Duration::from_secs(60);
@@ -52,4 +53,16 @@ impl ProgressLine {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
         }
     }
+}
+
+/// All rows of the stability table, with a [`ProgressLine`]. Setting `stop` from elsewhere ends the run: the row at work is
+/// then the last.
+pub fn rows_with_progress(plan: &Plan, stop: &AtomicBool) -> Vec<Row> {
+    let mut line = ProgressLine::default();
+    let rows = rows(plan, |name, progress, _| {
+        line.show(name, progress);
+        !stop.load(Ordering::Relaxed)
+    });
+    line.clear();
+    rows
 }
