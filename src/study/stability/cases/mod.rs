@@ -95,10 +95,11 @@ fn presets() -> Vec<Table> {
     PRESETS.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
-/// A bundled table with other numbers; none if they are refused.
-fn variant(name: &str, change: impl Fn(&mut Table)) -> Option<Table> {
+/// A bundled table with other numbers, of which its name tells; none if they are refused.
+fn variant(name: &str, what: &str, change: impl Fn(&mut Table)) -> Option<Table> {
     let mut table = Table::preset(name).ok()?;
     change(&mut table);
+    table.name = format!("{name}, {what}");
     // Through its file, which checks the values.
     Table::from_toml(&toml::to_string(&table).ok()?).ok()
 }

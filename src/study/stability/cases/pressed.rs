@@ -36,14 +36,14 @@ pub const CASES: &[Case] = &[
 /// The bundled tables, and the thesis' with contacts that do not bounce at all.
 fn lively_and_dead() -> Vec<Table> {
     let mut tables = presets();
-    tables.extend(variant("thesis", |table| (table.ball_restitution, table.rail_restitution) = (0.0, 0.0)));
+    tables.extend(variant("thesis", "dead", |table| (table.ball_restitution, table.rail_restitution) = (0.0, 0.0)));
     tables
 }
 
 /// Cushions without friction and bounce, on which a pressed ball's course is known but for two integrals.
 fn smooth() -> Vec<Table> {
     let smooth = |table: &mut Table| (table.rail_restitution, table.rail_friction) = (0.0, 0.0);
-    PRESETS.iter().filter_map(|name| variant(name, smooth)).collect()
+    PRESETS.iter().filter_map(|name| variant(name, "smooth and dead cushions", smooth)).collect()
 }
 
 /// Follow and some side: the slip at the cloth presses the ball on to what it has met.

@@ -43,7 +43,7 @@ fn smooth() -> Vec<Table> {
         (table.ball_restitution, table.rail_restitution) = (0.0, 0.0);
         (table.ball_friction, table.rail_friction) = (Some(0.0), 0.0);
     };
-    PRESETS.iter().filter_map(|name| variant(name, smooth)).collect()
+    PRESETS.iter().filter_map(|name| variant(name, "smooth and dead", smooth)).collect()
 }
 
 /// Level, with follow: the slip at the cloth drives the ball on.

@@ -36,12 +36,12 @@ pub const CASES: &[Case] = &[
     case("balls of one millimetre and of one metre", "", all_balls, Limits::STRICT),
 ];
 
-fn of_presets(change: impl Fn(&mut Table)) -> Vec<Table> {
-    PRESETS.iter().filter_map(|name| variant(name, &change)).collect()
+fn of_presets(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
+    PRESETS.iter().filter_map(|name| variant(name, what, &change)).collect()
 }
 
 fn next_to_no_friction() -> Vec<Table> {
-    of_presets(|table| {
+    of_presets("mu = 0.0001", |table| {
         (table.sliding_friction, table.rolling_friction) = (1e-4, 1e-4);
         (table.spinning_friction, table.rail_friction, table.ball_friction) = (0.0, 0.0, Some(0.0));
     })
@@ -49,7 +49,7 @@ fn next_to_no_friction() -> Vec<Table> {
 
 fn large_friction() -> Vec<Table> {
     let all = |mu: f64| {
-        of_presets(move |table| {
+        of_presets(&format!("mu = {mu}"), move |table| {
             (table.sliding_friction, table.rolling_friction, table.spinning_friction) = (mu, mu, mu);
             (table.rail_friction, table.ball_friction) = (mu, Some(mu));
         })
@@ -58,30 +58,30 @@ fn large_friction() -> Vec<Table> {
 }
 
 fn restitution(e: f64) -> Vec<Table> {
-    of_presets(|table| (table.ball_restitution, table.rail_restitution) = (e, e))
+    of_presets(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
 }
 
 fn lossless() -> Vec<Table> {
-    of_presets(|table| {
+    of_presets("lossless", |table| {
         (table.ball_restitution, table.rail_restitution) = (1.0, 1.0);
         (table.rail_friction, table.ball_friction) = (0.0, Some(0.0));
     })
 }
 
 fn smallest() -> Vec<Table> {
-    of_presets(|table| {
+    of_presets("smallest", |table| {
         (table.length, table.width) = (6.0 * table.radius, 6.0 * table.radius);
         table.opening_offset = 2.0 * table.radius;
     })
 }
 
 fn huge() -> Vec<Table> {
-    of_presets(|table| (table.length, table.width) = (1000.0, 500.0))
+    of_presets("1 km", |table| (table.length, table.width) = (1000.0, 500.0))
 }
 
 fn all_balls() -> Vec<Table> {
     let scaled = |scale: f64| {
-        of_presets(move |table| {
+        of_presets(&format!("scaled by {scale:.3}"), move |table| {
             table.radius *= scale;
             (table.length, table.width, table.opening_offset) =
                 (table.length * scale, table.width * scale, table.opening_offset * scale);
