@@ -12,9 +12,8 @@ use std::{
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
-use serde::Serialize;
 
-use super::{Figures, Limits, Shot, Trace, Violation, examine, trace::BREAK_AFTER_SECONDS};
+use super::{Figures, Finding, Limits, Shot, Trace, Violation, examine, finding::HANG};
 use crate::table::Table;
 
 /// Shots that are drawn from one seed: a unit of work for a thread.
@@ -55,26 +54,6 @@ pub struct Sweep {
     pub limits: Limits,
     /// Shots slower than this become findings even if nothing is wrong with them, s.
     pub slow: f64,
-}
-
-/// A shot that does something that it should not, or is extreme.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Finding {
-    /// The table's name.
-    pub table: String,
-    /// The shot.
-    #[serde(flatten)]
-    pub shot: Shot,
-    /// What is wrong, in words; "slow" or "hang" where nothing but the time is.
-    pub what: String,
-    /// Its violations.
-    pub violations: Vec<Violation>,
-    /// Events that it needs.
-    pub events: usize,
-    /// Pieces of course that it needs.
-    pub steps: usize,
-    /// Time that it took, ms: the least of three attempts where that was affordable.
-    pub ms: f64,
 }
 
 /// How far a sweep is.
@@ -142,7 +121,7 @@ impl Sweep {
                 looked = Instant::now();
                 for place in &mut crew {
                     if let Some(shot) = place.1.hangs() {
-                        let finding = self.hang(&shot);
+                        let finding = Finding::hang(&self.table, &shot);
                         figures.merge(&Figures {
                             shots: 1,
                             unfinished: 1,
@@ -162,25 +141,13 @@ impl Sweep {
         }
         figures
     }
-
-    fn hang(&self, shot: &Shot) -> Finding {
-        Finding {
-            table: self.table.name.clone(),
-            shot: *shot,
-            what: format!("hang: no end after {} s", 3.0 * BREAK_AFTER_SECONDS),
-            violations: vec![Violation::Unfinished],
-            events: 0,
-            steps: 0,
-            ms: f64::INFINITY,
-        }
-    }
 }
 
 impl Desk {
     /// The shot that this thread has been busy with for too long.
     fn hangs(&self) -> Option<Shot> {
         let busy = self.busy.lock().unwrap_or_else(PoisonError::into_inner);
-        busy.and_then(|(since, shot)| (since.elapsed().as_secs_f64() > 3.0 * BREAK_AFTER_SECONDS).then_some(shot))
+        busy.and_then(|(since, shot)| (since.elapsed().as_secs_f64() > HANG).then_some(shot))
     }
 
     fn set(&self, busy: Option<(Instant, Shot)>) {
@@ -220,7 +187,9 @@ impl Work {
                 let mut violations = measured.violations(&sweep.limits);
                 violations.extend(also.err().map(Violation::Wrong));
                 if (!violations.is_empty() || measured.seconds > sweep.slow)
-                    && sender.send(Message::Finding(Box::new(sweep.finding(&shot, &measured, violations)))).is_err()
+                    && sender
+                        .send(Message::Finding(Box::new(Finding::new(&sweep.table, &shot, &measured, violations))))
+                        .is_err()
                 {
                     return;
                 }
@@ -230,21 +199,6 @@ impl Work {
             if sender.send(Message::Chunk(figures)).is_err() {
                 return;
             }
-        }
-    }
-}
-
-impl Sweep {
-    fn finding(&self, shot: &Shot, measured: &Figures, violations: Vec<Violation>) -> Finding {
-        let words: Vec<String> = violations.iter().map(ToString::to_string).collect();
-        Finding {
-            table: self.table.name.clone(),
-            shot: *shot,
-            what: if words.is_empty() { "slow".to_owned() } else { words.join("; ") },
-            violations,
-            events: measured.events,
-            steps: measured.steps,
-            ms: 1e3 * measured.seconds,
         }
     }
 }
