@@ -1,60 +1,75 @@
 //! Shots per second on one core: `cargo bench --bench shots`.
 //!
 //! Random layouts and random strokes at the centre of the ball (phi over the whole circle, V 0.5 to 6 m/s), scored under
-//! r3 as in training, and recorded in full. Numbers are of this machine at this moment; compare two builds in one run.
+//! r3 as in training, or recorded in full, and recommendations. Numbers are of this machine at this moment: compare with
+//! the baseline that criterion keeps (`-- --save-baseline NAME`, `-- --baseline NAME`), or two builds in one run.
 
-use std::{f64::consts::PI, time::Instant};
+use std::{f64::consts::PI, hint::black_box, time::Duration};
 
 use carom::{
     coach::{Coach, Request},
     game::Reward,
     physics::CueInputs,
     simulation::Recording,
-    table::{Layout, PRESETS, Table},
+    table::{Layout, Table},
 };
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-const SHOTS: usize = 50_000;
+fn random_shots(table: &Table, count: usize) -> Vec<(Layout, CueInputs)> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
+    (0..count)
+        .map(|_| {
+            let layout = Layout::random(table, &mut rng);
+            let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
+            (layout, CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed })
+        })
+        .collect()
+}
 
-fn main() {
-    for name in PRESETS {
+/// One iteration is all shots, so that every measurement is of the same mixture.
+fn shots(criterion: &mut Criterion) {
+    for (name, count) in [("match", 20_000), ("thesis", 400)] {
         let table = Table::preset(name).expect("presets are valid");
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
-        let shots: Vec<(Layout, CueInputs)> = (0..SHOTS)
-            .map(|_| {
-                let layout = Layout::random(&table, &mut rng);
-                let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
-                (layout, CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed })
-            })
-            .collect();
-        let mut points = 0.0;
-        let scored = rate(SHOTS, || {
-            points = shots.iter().map(|(layout, cue)| Reward::R3.of(&table, layout, cue)).sum::<f64>();
+        let shots = random_shots(&table, count);
+        let mut group = criterion.benchmark_group(name);
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function("scored", |bencher| {
+            bencher.iter(|| shots.iter().map(|(layout, cue)| Reward::R3.of(&table, layout, cue)).sum::<f64>());
         });
-        let share = 100.0 * points / SHOTS as f64;
-        println!("{name}: {scored:.0} scored shots/s, of which {share:.2} % make a point");
-        let recorded = rate(SHOTS, || {
-            for (layout, cue) in &shots {
-                std::hint::black_box(Recording::new(&table, layout, cue).map(|recording| recording.duration()).ok());
-            }
+        group.bench_function("recorded", |bencher| {
+            let (layout, cue) = &shots[0];
+            let mut recording = Recording::new(&table, layout, cue).expect("random shots are possible");
+            bencher.iter(|| {
+                for (layout, cue) in &shots {
+                    recording.play_next(&table, layout, cue).expect("random shots are possible");
+                    black_box(recording.duration());
+                }
+            });
         });
-        println!("{name}: {recorded:.0} recorded shots/s");
+        group.finish();
     }
+}
+
+fn recommendations(criterion: &mut Criterion) {
     let coach = Coach::new(Table::default()).expect("the bundled policy is valid");
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
-    let layouts: Vec<Layout> = (0..2000).map(|_| Layout::random(coach.table(), &mut rng)).collect();
-    let advised = rate(layouts.len(), || {
-        for layout in &layouts {
-            std::hint::black_box(coach.recommend(layout, &Request::default()).is_ok());
-        }
+    let layouts: Vec<Layout> = (0..200).map(|_| Layout::random(coach.table(), &mut rng)).collect();
+    let mut group = criterion.benchmark_group("match");
+    group.throughput(Throughput::Elements(layouts.len() as u64));
+    group.bench_function("recommended", |bencher| {
+        bencher.iter(|| layouts.iter().filter(|layout| coach.recommend(layout, &Request::default()).is_ok()).count());
     });
-    println!("match: {advised:.0} recommendations/s");
+    group.finish();
 }
 
-/// How many of `count` things a second `work` does.
-fn rate(count: usize, work: impl FnOnce()) -> f64 {
-    let start = Instant::now();
-    work();
-    count as f64 / start.elapsed().as_secs_f64()
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(5));
+    targets = shots, recommendations
 }
+criterion_main!(benches);

@@ -104,7 +104,7 @@ impl Tally {
 
     /// Whether it has met both.
     pub fn met_both(&self) -> bool {
-        self.met[0] && self.met[1]
+        self.met[0] & self.met[1]
     }
 
     /// Whether this is a point; it can still become one until both object balls are met.

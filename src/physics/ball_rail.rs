@@ -18,7 +18,9 @@ pub fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball
     let slip_t = ball.velocity.dot(t) - radius * ball.spin.z;
     let slip_z = radius * (ball.spin.x * t.x + ball.spin.y * t.y);
     let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
-    let factor = if 3.5 * friction * normal < slip { friction * normal / slip } else { 2.0 / 7.0 };
+    // Whether it slips is as good as random: the lesser of both costs less than a branch.
+    let (slips, holds) = (friction * normal / slip, 2.0 / 7.0);
+    let factor = if slips < holds { slips } else { holds };
     ball.velocity += normal * n - factor * slip_t * t;
     ball.spin += contact_twist(radius, factor * slip_t, factor * slip_z, t);
     normal

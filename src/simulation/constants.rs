@@ -14,6 +14,8 @@ pub struct Constants {
     pub radius: f64,
     /// `1/R`, 1/m.
     pub per_radius: f64,
+    /// Ball diameter, m.
+    pub diameter: f64,
     /// Largest |x| and |y| of a ball's centre, m.
     pub reach: DVec2,
     /// `mu_s g`, m/s².
@@ -43,6 +45,7 @@ impl Constants {
         Self {
             radius: table.radius,
             per_radius: 1.0 / table.radius,
+            diameter: 2.0 * table.radius,
             reach: table.reach(),
             sliding,
             slide_time: 1.0 / (3.5 * sliding),

@@ -4,7 +4,6 @@ use std::{marker::PhantomData, ops::ControlFlow};
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
-    predict::{Ahead, balls_ahead, curved_cushion_ahead, cushion_ahead},
     resting::{PAIRS, Resting, STILL_AT_REST},
     savings::{All, Savings},
     segment::{STILL, still},
@@ -14,9 +13,6 @@ use crate::{
     physics::{BallState, Impulse, Motion, Touch, collide_balls, collide_rail},
     table::{BALLS, Layout, Table},
 };
-
-/// A horizon beyond which nobody looks, s: no ball moves for so long.
-const LONGEST: f64 = 1e9;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,62 +49,56 @@ pub fn simulate_with<S: Savings, O: Observer>(
 }
 
 /// A ball's present course and what it alone will do next.
-struct Ball {
-    segment: Segment,
+pub(super) struct Ball {
+    pub(super) segment: Segment,
     /// How long the motion can last, s after the segment's start.
-    lasts: f64,
+    pub(super) lasts: f64,
     /// When the ball meets `rail`, s after the segment's start; infinity if never.
-    rail_after: f64,
-    rail: Rail,
-    /// The earlier of the two as a time, s.
-    next: f64,
+    pub(super) rail_after: f64,
+    pub(super) rail: Rail,
     /// Whether a resting contact holds it.
-    resting: bool,
+    pub(super) resting: bool,
 }
 
 /// When a pair of balls meets: `after` seconds after `since`. Both are kept, since their sum is rounded.
 #[derive(Clone, Copy)]
-struct Meeting {
-    since: f64,
-    after: f64,
-    time: f64,
+pub(super) struct Meeting {
+    pub(super) since: f64,
+    pub(super) after: f64,
     /// Whether the balls might have come to rest against each other when this was predicted.
-    may_rest: bool,
+    pub(super) may_rest: bool,
 }
 
 impl Meeting {
-    const NEVER: Self = Self { since: 0.0, after: 0.0, time: f64::INFINITY, may_rest: false };
+    /// No meeting, as far as was known at `since`.
+    pub(super) const fn unseen(since: f64, may_rest: bool) -> Self {
+        Self { since, after: f64::INFINITY, may_rest }
+    }
 }
 
-struct Engine<'a, S, O> {
+pub(super) struct Engine<'a, S, O> {
     table: &'a Table,
-    constants: Constants,
+    pub(super) constants: Constants,
     observer: &'a mut O,
-    balls: [Ball; BALLS],
-    pairs: [Meeting; 3],
-    resting: Option<Box<Resting>>,
+    pub(super) balls: [Ball; BALLS],
+    pub(super) pairs: [Meeting; 3],
+    /// When each ball, and then each pair, has its next event, s; infinity for none.
+    pub(super) times: [f64; 2 * BALLS],
+    pub(super) resting: Option<Box<Resting>>,
     /// Whether a prediction has found balls pressed together that are not yet in `resting`.
-    pressed: bool,
+    pub(super) pressed: bool,
     savings: PhantomData<S>,
 }
 
 impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
-        let balls = layout.balls.map(|position| Ball {
-            segment: Segment::at_rest(position),
-            lasts: f64::INFINITY,
-            rail_after: f64::INFINITY,
-            rail: Rail::Left,
-            next: f64::INFINITY,
-            resting: false,
-        });
-        let constants = Constants::of(table);
         Self {
             table,
-            constants,
+            constants: Constants::of(table),
             observer,
-            balls,
-            pairs: [Meeting::NEVER; 3],
+            balls: layout.balls.map(Ball::at_rest),
+            pairs: [Meeting::unseen(0.0, false); 3],
+            times: [f64::INFINITY; 2 * BALLS],
             resting: None,
             pressed: false,
             savings: PhantomData,
@@ -119,28 +109,23 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let cue_ball =
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
         self.launch(0, 0.0, &cue_ball);
-        let mut flow = self.look_ahead(0.0, [true, false, false]);
+        let mut flow = self.look_ahead_of(0.0, 0);
         let mut now = 0.0;
         while flow.is_continue() {
             let (mut next, mut source) = (f64::INFINITY, usize::MAX);
-            for (index, ball) in self.balls.iter().enumerate() {
-                if ball.next < next {
-                    (next, source) = (ball.next, index);
-                }
-            }
-            for (index, pair) in self.pairs.iter().enumerate() {
-                if pair.time < next {
-                    (next, source) = (pair.time, BALLS + index);
+            for (index, &time) in self.times.iter().enumerate() {
+                if time < next {
+                    (next, source) = (time, index);
                 }
             }
             if source == usize::MAX {
                 break;
             }
             flow = match source.checked_sub(BALLS) {
-                Some(pair) => self.collide(pair),
-                None if self.balls[source].rail_after < self.balls[source].lasts => self.rebound(source),
+                Some(pair) => self.collide(pair, next),
+                None if self.balls[source].rail_after < self.balls[source].lasts => self.rebound(source, next),
                 None if self.balls[source].segment.motion == Motion::Resting => self.rest_on(next),
-                None => self.change_motion(source),
+                None => self.change_motion(source, next),
             };
             now = next;
         }
@@ -149,27 +134,25 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
 
     /// The end of sliding or rolling.
     #[inline(always)]
-    fn change_motion(&mut self, index: usize) -> ControlFlow<()> {
+    fn change_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         let ball = &self.balls[index];
+        let ended = ball.segment.motion;
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
-        let kind = match ball.segment.motion {
-            Motion::Sliding => EventKind::SlidingRolling(index),
-            _ => EventKind::RollingStationary(index),
-        };
-        let (ended, now) = (ball.segment.motion, ball.next);
+        segment.start = now;
         self.close(index, now);
-        self.tell(now, kind)?;
-        if ended == Motion::Sliding && segment.motion == Motion::Stationary {
+        if ended == Motion::Sliding {
+            self.tell(now, EventKind::SlidingRolling(index))?;
+        }
+        if segment.motion == Motion::Stationary {
             self.tell(now, EventKind::RollingStationary(index))?;
         }
-        segment.start = now;
         self.set(index, segment, lasts);
-        self.look_ahead(now, only(index))
+        self.look_ahead_of(now, index)
     }
 
     #[inline(always)]
-    fn rebound(&mut self, index: usize) -> ControlFlow<()> {
-        let Ball { rail_after, rail, next: now, .. } = self.balls[index];
+    fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        let Ball { rail_after, rail, .. } = self.balls[index];
         let n = rail.normal();
         let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
         let mut state = match &freed {
@@ -178,8 +161,8 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         };
         // The ball stands exactly at the cushion: the prediction's rounding must not leave a gap to fall through.
         state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
+        let c = &self.constants;
         let before = state;
-        let c = self.constants;
         collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
         let touch = Touch { first: index, second: None, rail_normal: n };
         if state.velocity.dot(n) <= FASTEST && self.settle(now, &freed, &touch, &[(index, state)]) {
@@ -191,13 +174,16 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.close(index, now);
         self.launch(index, now, &state);
         self.tell(now, EventKind::BallRail(index, rail))?;
-        self.look_ahead(now, members(freed.is_some(), self.freed_members(), only(index)))
+        if freed.is_some() {
+            self.look_ahead(now, members(true, self.freed_members(), only(index)))
+        } else {
+            self.look_ahead_of(now, index)
+        }
     }
 
-    #[inline(always)]
-    fn collide(&mut self, pair: usize) -> ControlFlow<()> {
+    fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
         let (first, second) = PAIRS[pair];
-        let Meeting { since, after, time: now, .. } = self.pairs[pair];
+        let Meeting { since, after, .. } = self.pairs[pair];
         let mut changed = only(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
@@ -292,102 +278,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.set(index, segment, lasts);
     }
 
-    #[inline(always)]
-    fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
-        let resting = self.balls[index].resting;
-        let next = segment.start + lasts;
-        self.balls[index] = Ball { segment, lasts, rail_after: f64::INFINITY, rail: Rail::Left, next, resting };
-        if self.predict_cushion(index) {
-            self.pressed = true;
-        }
-    }
-
-    /// Predicts which cushion a ball will meet; returns whether it is pressed against one instead.
-    #[inline(always)]
-    fn predict_cushion(&mut self, index: usize) -> bool {
-        let ball = &mut self.balls[index];
-        if S::BALLS_AT_REST && ball.segment.motion == Motion::Stationary {
-            return false;
-        }
-        let (ahead, rail) = match &self.resting {
-            Some(resting) if ball.segment.motion == Motion::Resting => {
-                curved_cushion_ahead(&self.constants, &ball.segment, ball.lasts, |rail| resting.holds_at(index, rail))
-            }
-            _ => cushion_ahead::<S>(&self.constants, &ball.segment, ball.lasts),
-        };
-        if let Ahead::Meeting(after) = ahead {
-            ball.rail_after = after;
-            ball.rail = rail;
-            ball.next = ball.segment.start + after;
-        }
-        ahead == Ahead::Pressed
-    }
-
-    /// Predicts what the `changed` balls will meet, after their courses have been set.
-    #[inline(always)]
-    fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
-        let mut changed = changed;
-        if !S::KEPT_PREDICTIONS {
-            self.predict_all_again(changed);
-        }
-        self.predict_pairs(now, changed, true);
-        if self.pressed || self.resting.is_some() {
-            self.press(now, &mut changed)?;
-            self.predict_pairs(now, changed, false);
-            self.pressed = false;
-        }
-        ControlFlow::Continue(())
-    }
-
-    #[inline(always)]
-    fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS], may_rest: bool) {
-        for (index, &(first, second)) in PAIRS.iter().enumerate() {
-            if changed[first] || changed[second] {
-                self.predict_pair(index, now, may_rest);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn predict_pair(&mut self, index: usize, now: f64, may_rest: bool) {
-        let (first, second) = PAIRS[index];
-        let (a, b) = (&self.balls[first], &self.balls[second]);
-        self.pairs[index] = Meeting { since: now, may_rest, ..Meeting::NEVER };
-        if S::BALLS_AT_REST && a.segment.motion == Motion::Stationary && b.segment.motion == Motion::Stationary {
-            return;
-        }
-        if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
-            return;
-        }
-        let horizon = (a.next.min(b.next) - now).min(LONGEST);
-        match balls_ahead::<S>(&self.constants, &a.segment, &b.segment, now, horizon, may_rest) {
-            Ahead::Nothing => {}
-            Ahead::Meeting(after) => {
-                self.pairs[index].after = after;
-                self.pairs[index].time = now + after;
-            }
-            Ahead::Pressed => self.pressed = true,
-        }
-    }
-
-    /// Works out once more what is known already, where that saving is switched off. What presses has been dealt with.
-    fn predict_all_again(&mut self, changed: [bool; BALLS]) {
-        let pressed = self.pressed;
-        for index in (0..BALLS).filter(|&index| !changed[index]) {
-            self.predict_cushion(index);
-        }
-        for (index, &(first, second)) in PAIRS.iter().enumerate() {
-            if !changed[first] && !changed[second] {
-                let Meeting { since, may_rest, .. } = self.pairs[index];
-                self.predict_pair(index, since, may_rest);
-            }
-        }
-        self.pressed = pressed;
-    }
-
     /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.
     #[cold]
-    fn press(&mut self, now: f64, changed: &mut [bool; BALLS]) -> ControlFlow<()> {
+    pub(super) fn press(&mut self, now: f64, changed: &mut [bool; BALLS]) -> ControlFlow<()> {
         if let Some(resting) = &self.resting
             && !self.pressed
             && !(0..BALLS).any(|index| changed[index] && resting.members[index])

@@ -1,9 +1,12 @@
 //! When things happen: event prediction, the engine, and playback of what it recorded.
 
 mod constants;
+mod cushions;
 mod engine;
 mod events;
 mod extrapolation;
+mod foresight;
+mod meetings;
 mod playback;
 mod predict;
 mod resting;

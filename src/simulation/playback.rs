@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::{Constants, Event, Observer, Segment, simulate};
 use crate::{
@@ -26,8 +26,7 @@ pub enum ShotError {
 pub struct Recording {
     constants: Constants,
     impulse: Impulse,
-    events: Vec<Event>,
-    segments: [Vec<Segment>; BALLS],
+    kept: Recorder,
     duration: f64,
 }
 
@@ -37,18 +36,32 @@ impl Recording {
     /// # Errors
     /// What is wrong with the layout or the stroke.
     pub fn new(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
+        let constants = Constants::of(table);
+        let impulse = Impulse { velocity: DVec2::ZERO, spin: DVec3::ZERO };
+        let mut recording = Self { constants, impulse, kept: Recorder::with_room(), duration: 0.0 };
+        recording.play_next(table, layout, cue)?;
+        Ok(recording)
+    }
+
+    /// Checks and plays another shot in the place of this one. It takes the memory that this one has: whoever plays many
+    /// shots spares most of what recording costs. After an error the recording is what it was.
+    ///
+    /// # Errors
+    /// What is wrong with the layout or the stroke.
+    pub fn play_next(&mut self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(), ShotError> {
         layout.validate(table)?;
         cue.validate()?;
-        let impulse = strike(table, cue);
-        let mut recorder = Recorder::default();
-        let end = simulate(table, layout, &impulse, &mut recorder);
-        let Recorder { events, mut segments } = recorder;
-        for (ball, segments) in segments.iter_mut().enumerate() {
-            let last =
-                Segment { start: end.time, spin: end.balls[ball].spin, ..Segment::at_rest(end.balls[ball].position) };
-            segments.push(last);
+        self.kept.events.clear();
+        self.kept.segments.iter_mut().for_each(Vec::clear);
+        self.constants = Constants::of(table);
+        self.impulse = strike(table, cue);
+        let end = simulate(table, layout, &self.impulse, &mut self.kept);
+        for (ball, segments) in self.kept.segments.iter_mut().enumerate() {
+            let BallState { position, spin, .. } = end.balls[ball];
+            segments.push(Segment { start: end.time, spin, ..Segment::at_rest(position) });
         }
-        Ok(Self { constants: Constants::of(table), impulse, events, segments, duration: end.time })
+        self.duration = end.time;
+        Ok(())
     }
 
     /// What the stroke gave the cue ball.
@@ -58,7 +71,7 @@ impl Recording {
 
     /// All events in order of time.
     pub fn events(&self) -> &[Event] {
-        &self.events
+        &self.kept.events
     }
 
     /// Time until the last ball stands still, s.
@@ -92,13 +105,13 @@ impl Recording {
 
     /// The recorded segments of a ball, in order of time; each holds until the next one starts.
     pub fn segments(&self, ball: usize) -> &[Segment] {
-        &self.segments[ball]
+        &self.kept.segments[ball]
     }
 
     /// The segment that holds at time `t`, and how long it has then lasted, s.
     fn segment(&self, ball: usize, t: f64) -> (&Segment, f64) {
         let t = t.clamp(0.0, self.duration);
-        let segments = &self.segments[ball];
+        let segments = &self.kept.segments[ball];
         let begun = segments.partition_point(|segment| segment.start <= t);
         let segment = &segments[begun.saturating_sub(1)];
         (segment, t - segment.start)
@@ -106,20 +119,29 @@ impl Recording {
 }
 
 /// Keeps everything.
-#[derive(Default)]
+#[derive(Clone, Debug)]
 struct Recorder {
     events: Vec<Event>,
     segments: [Vec<Segment>; BALLS],
 }
 
+impl Recorder {
+    /// Room for what an ordinary shot has: a dozen events, most of them the cue ball's.
+    fn with_room() -> Self {
+        Self { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) }
+    }
+}
+
 impl Observer for Recorder {
     const SEGMENTS: bool = true;
 
+    #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.events.push(event);
         ControlFlow::Continue(())
     }
 
+    #[inline]
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
         if end > segment.start {
             self.segments[ball].push(segment.clone());

@@ -1,0 +1,161 @@
+//! When a free ball will meet a cushion, if nothing else happens first.
+
+use super::{
+    Constants, Rail, Segment,
+    predict::{Ahead, PRESSING, RESTING_SPEED, SURELY_APART, TOUCHING, lesser},
+    savings::Savings,
+};
+use crate::physics::Motion;
+
+/// The first cushion that a free `segment` meets within `horizon` seconds of its start.
+///
+/// Which side a ball goes to cannot be guessed by the processor, so that all four are worked out without branches.
+#[inline(always)]
+pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+    if segment.motion == Motion::Rolling {
+        return cushion_ahead_of_rolling::<S>(constants, segment, horizon);
+    }
+    let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
+    let reach = constants.reach;
+    if S::CUSHIONS_IN_REACH {
+        // The course lies within the triangle of its start and these two points. One that touches a cushion at its
+        // start and has them inside leaves it for as long.
+        let bend = (p + 0.5 * horizon * v).abs();
+        let end = (p + horizon * (v + horizon * k)).abs();
+        let inside = |bend: f64, end: f64, reach: f64| -lesser(-bend, -end) < reach - SURELY_APART;
+        if inside(bend.x, end.x, reach.x) & inside(bend.y, end.y, reach.y) {
+            return (Ahead::Nothing, Rail::Left);
+        }
+    }
+    let across = axis_ahead(reach.x, p.x, v.x, k.x);
+    let along = axis_ahead(reach.y, p.y, v.y, k.y);
+    let along_first = along.time < across.time;
+    let time = lesser(along.time, across.time);
+    let rail = rail_of(across.upwards, along.upwards, along_first);
+    if time == PRESSED {
+        (Ahead::Pressed, rail)
+    } else if time < horizon {
+        (Ahead::Meeting(time), rail)
+    } else {
+        (Ahead::Nothing, rail)
+    }
+}
+
+/// The cushion on the given side of the x axis, or of the y axis.
+#[inline(always)]
+fn rail_of(right: bool, top: bool, on_y: bool) -> Rail {
+    let (x, y) = (usize::from(right), 2 + usize::from(top));
+    Rail::ALL[x ^ ((x ^ y) * usize::from(on_y))]
+}
+
+/// The same for a ball that rolls straight on: the cushion whose line it would cross first without slowing down. Which one
+/// that is, its signs tell.
+#[inline(always)]
+fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+    let (p, v, reach) = (segment.position, segment.velocity, constants.reach);
+    let ahead = |reach: f64, p: f64, v: f64| at_full_speed(reach - p * 1.0_f64.copysign(v), v.abs());
+    let (mut to_x, mut to_y) = (ahead(reach.x, p.x, v.x), ahead(reach.y, p.y, v.y));
+    if !S::CUSHIONS_IN_REACH {
+        // The ones behind, which the ball leaves.
+        to_x = lesser(at_full_speed(reach.x + p.x * 1.0_f64.copysign(v.x), -v.x.abs()), to_x);
+        to_y = lesser(at_full_speed(reach.y + p.y * 1.0_f64.copysign(v.y), -v.y.abs()), to_y);
+    }
+    let straight = lesser(to_y, to_x);
+    let rail = rail_of(v.x > 0.0, v.y > 0.0, to_y < to_x);
+    // `straight = t - t² / 2 horizon`, since the speed is used up at the horizon.
+    let share = 1.0 - 2.0 * straight / horizon;
+    if share > 0.0 { (Ahead::Meeting(2.0 * straight / (1.0 + share.sqrt())), rail) } else { (Ahead::Nothing, rail) }
+}
+
+/// When a ball of constant speed closes a gap, s; infinity if it touches already without moving against the cushion.
+#[inline(always)]
+fn at_full_speed(gap: f64, speed: f64) -> f64 {
+    let open = if gap > 0.0 { gap } else { 0.0 };
+    if speed > RESTING_SPEED || (speed > 0.0 && gap > TOUCHING) { open / speed } else { f64::INFINITY }
+}
+
+/// What a course meets on one axis of the table.
+struct OnAxis {
+    /// When, s; infinity for never, [`PRESSED`] for a resting contact.
+    time: f64,
+    /// Whether it is the cushion on the positive side.
+    upwards: bool,
+}
+
+const PRESSED: f64 = -1.0;
+
+/// The first of two opposite cushions, at `±reach`, that a ball meets whose coordinate is `p + v t + k t²`.
+#[inline(always)]
+fn axis_ahead(reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
+    let sign = 1.0_f64.copysign(v);
+    let (p, v, k) = (sign * p, v.abs(), sign * k);
+    let (forward_gap, backward_gap) = (reach - p, reach + p);
+    let (forward, backward) = if v <= RESTING_SPEED && lesser(forward_gap, backward_gap) <= TOUCHING {
+        (gap_closes(forward_gap, v, k), gap_closes(backward_gap, -v, -k))
+    } else {
+        (first_closes(forward_gap, v, k), closes_on_return(backward_gap, v, -k))
+    };
+    OnAxis { time: lesser(forward, backward), upwards: (sign > 0.0) == (forward <= backward) }
+}
+
+/// When `gap - speed t - half_acceleration t²` first falls to zero, for a speed that is not negative: infinity if never.
+#[inline(always)]
+fn first_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
+    let gap = -lesser(-gap, 0.0);
+    let discriminant = speed * speed + 4.0 * half_acceleration * gap;
+    // The root of a negative number, which is none, is never used.
+    let time = 2.0 * gap / (speed + discriminant.sqrt());
+    if discriminant < 0.0 { f64::INFINITY } else { time }
+}
+
+/// When a ball that leaves a cushion with `speed`, at a distance of `gap` from it, comes back under `half_pull`: infinity
+/// if never.
+#[inline(always)]
+fn closes_on_return(gap: f64, speed: f64, half_pull: f64) -> f64 {
+    let gap = -lesser(-gap, 0.0);
+    let discriminant = speed * speed + 4.0 * half_pull * gap;
+    let time = (speed + discriminant.sqrt()) / (2.0 * half_pull);
+    if half_pull > 0.0 { time } else { f64::INFINITY }
+}
+
+/// The same for any speed, where rounding decides whether a ball touches: infinity if never, [`PRESSED`] for a resting
+/// contact.
+#[cold]
+fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
+    if gap <= TOUCHING {
+        return if speed > RESTING_SPEED {
+            0.0
+        } else if 2.0 * half_acceleration <= PRESSING {
+            f64::INFINITY
+        } else if speed >= -RESTING_SPEED {
+            PRESSED
+        } else {
+            -speed / half_acceleration
+        };
+    }
+    if speed <= 0.0 && half_acceleration <= 0.0 {
+        return f64::INFINITY;
+    }
+    let discriminant = speed * speed + 4.0 * half_acceleration * gap;
+    if discriminant < 0.0 {
+        f64::INFINITY
+    } else if speed > 0.0 {
+        2.0 * gap / (speed + discriminant.sqrt())
+    } else {
+        // Without cancellation, since speed is not positive.
+        (discriminant.sqrt() - speed) / (2.0 * half_acceleration)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ball_that_leaves_the_cushion_it_touches_does_not_hit_it() {
+        assert_eq!(gap_closes(0.0, -1.0, 0.0), f64::INFINITY);
+        assert_eq!(gap_closes(0.0, -1.0, 0.5), 2.0);
+        assert_eq!(gap_closes(0.0, 0.0, 0.5), PRESSED);
+        assert_eq!(gap_closes(-1e-10, 1.0, 0.0), 0.0);
+    }
+}

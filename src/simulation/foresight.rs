@@ -1,0 +1,162 @@
+//! What the engine knows of the future: every ball's next event of its own, and every pair's next meeting.
+
+use std::ops::ControlFlow;
+
+use super::{
+    Observer, Rail, Segment,
+    cushions::cushion_ahead,
+    engine::{Ball, Engine, Meeting},
+    meetings::{Triangle, balls_ahead},
+    predict::{Ahead, curved_cushion_ahead},
+    resting::PAIRS,
+    savings::Savings,
+};
+use crate::{physics::Motion, table::BALLS};
+
+/// A horizon beyond which nobody looks, s: no ball moves for so long.
+const LONGEST: f64 = 1e9;
+
+/// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
+const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
+
+impl<S: Savings, O: Observer> Engine<'_, S, O> {
+    /// Puts a ball on a course that can last for `lasts` seconds, and predicts which cushion it will meet.
+    #[inline(always)]
+    pub(super) fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
+        let ball = &mut self.balls[index];
+        ball.segment = segment;
+        ball.lasts = lasts;
+        if self.predict_cushion(index) {
+            self.pressed = true;
+        }
+    }
+
+    /// Predicts which cushion a ball will meet; returns whether it is pressed against one instead.
+    #[inline(always)]
+    fn predict_cushion(&mut self, index: usize) -> bool {
+        let Ball { segment, lasts, rail_after, rail, .. } = &mut self.balls[index];
+        *rail_after = f64::INFINITY;
+        self.times[index] = segment.start + *lasts;
+        if S::BALLS_AT_REST && segment.motion == Motion::Stationary {
+            return false;
+        }
+        let (ahead, which) = match &self.resting {
+            Some(resting) if segment.motion == Motion::Resting => {
+                curved_cushion_ahead(&self.constants, segment, *lasts, |rail| resting.holds_at(index, rail))
+            }
+            _ => cushion_ahead::<S>(&self.constants, segment, *lasts),
+        };
+        let pressed = ahead == Ahead::Pressed;
+        // A ball pressed against one cushion can meet another; and if nothing holds it after all, the same one.
+        let (ahead, which) =
+            if pressed { curved_cushion_ahead(&self.constants, segment, *lasts, |_| false) } else { (ahead, which) };
+        if let Ahead::Meeting(after) = ahead {
+            *rail_after = after;
+            *rail = which;
+            self.times[index] = segment.start + after;
+        }
+        pressed
+    }
+
+    /// Predicts what one ball will meet, after its course has been set at `now`.
+    #[inline(always)]
+    pub(super) fn look_ahead_of(&mut self, now: f64, index: usize) -> ControlFlow<()> {
+        if !S::KEPT_PREDICTIONS || self.pressed || self.resting.is_some() {
+            return self.look_ahead(now, std::array::from_fn(|other| other == index));
+        }
+        let ball = &self.balls[index];
+        let still = ball.segment.motion == Motion::Stationary;
+        let horizon = self.times[index] - now;
+        let way = Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
+        let diameter = self.constants.diameter;
+        for (pair, other) in PAIRS_OF[index] {
+            let other = &self.balls[other].segment;
+            let at_rest = other.motion == Motion::Stationary;
+            // Most pairs end here: one ball passes another, which lies still.
+            if at_rest && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && way.clears(other.position, diameter))) {
+                self.times[BALLS + pair] = f64::INFINITY;
+                self.pairs[pair] = Meeting::unseen(now, true);
+            } else {
+                self.predict_pair(pair, now, true);
+            }
+        }
+        if self.pressed {
+            // Only now is it known that balls press each other.
+            return self.look_ahead(now, std::array::from_fn(|other| other == index));
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Predicts what the `changed` balls will meet, after their courses have been set.
+    pub(super) fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
+        let mut changed = changed;
+        if !S::KEPT_PREDICTIONS {
+            self.predict_all_again(changed);
+        }
+        self.predict_pairs(now, changed, true);
+        if self.pressed || self.resting.is_some() {
+            self.press(now, &mut changed)?;
+            self.predict_pairs(now, changed, false);
+            self.pressed = false;
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS], may_rest: bool) {
+        for (index, &(first, second)) in PAIRS.iter().enumerate() {
+            if changed[first] || changed[second] {
+                self.predict_pair(index, now, may_rest);
+            }
+        }
+    }
+
+    fn predict_pair(&mut self, index: usize, now: f64, may_rest: bool) {
+        let (first, second) = PAIRS[index];
+        let (a, b) = (&self.balls[first].segment, &self.balls[second].segment);
+        self.pairs[index] = Meeting::unseen(now, may_rest);
+        self.times[BALLS + index] = f64::INFINITY;
+        if S::BALLS_AT_REST && a.motion == Motion::Stationary && b.motion == Motion::Stationary {
+            return;
+        }
+        if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {
+            return;
+        }
+        let horizon = (self.times[first].min(self.times[second]) - now).min(LONGEST);
+        match balls_ahead::<S>(&self.constants, a, b, now, horizon, may_rest) {
+            Ahead::Nothing => {}
+            Ahead::Meeting(after) => {
+                self.pairs[index].after = after;
+                self.times[BALLS + index] = now + after;
+            }
+            Ahead::Pressed => self.pressed = true,
+        }
+    }
+
+    /// Works out once more what is known already, where that saving is switched off. What presses has been dealt with.
+    fn predict_all_again(&mut self, changed: [bool; BALLS]) {
+        let pressed = self.pressed;
+        for index in (0..BALLS).filter(|&index| !changed[index]) {
+            self.predict_cushion(index);
+        }
+        for (index, &(first, second)) in PAIRS.iter().enumerate() {
+            if !changed[first] && !changed[second] {
+                let Meeting { since, may_rest, .. } = self.pairs[index];
+                self.predict_pair(index, since, may_rest);
+            }
+        }
+        self.pressed = pressed;
+    }
+}
+
+impl Ball {
+    /// A ball that lies still for ever.
+    pub(super) const fn at_rest(position: glam::DVec2) -> Self {
+        Self {
+            segment: Segment::at_rest(position),
+            lasts: f64::INFINITY,
+            rail_after: f64::INFINITY,
+            rail: Rail::Left,
+            resting: false,
+        }
+    }
+}

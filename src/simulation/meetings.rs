@@ -1,0 +1,148 @@
+//! When two balls will meet, if nothing else happens first.
+
+use glam::DVec2;
+
+use super::{
+    Constants, Segment,
+    predict::{Ahead, PRESSING, RESTING_SPEED, SURELY_APART, TOUCHING, curved_balls_ahead, lesser, polynomial_closes},
+    roots::first_crossing,
+    savings::Savings,
+};
+use crate::physics::Motion;
+
+/// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
+/// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
+#[inline(never)]
+pub fn balls_ahead<S: Savings>(
+    constants: &Constants,
+    first: &Segment,
+    second: &Segment,
+    now: f64,
+    horizon: f64,
+    may_rest: bool,
+) -> Ahead {
+    if first.curve.is_some() || second.curve.is_some() {
+        return curved_balls_ahead(constants, first, second, now, horizon);
+    }
+    let (t1, t2) = (now - first.start, now - second.start);
+    let d = first.position_after(t1) - second.position_after(t2);
+    let dv = first.velocity_after(t1) - second.velocity_after(t2);
+    let dk = first.half_acceleration - second.half_acceleration;
+    let diameter = 2.0 * constants.radius;
+    if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, diameter) {
+        return Ahead::Nothing;
+    }
+    let gap = d.length_squared() - diameter * diameter;
+    if gap <= 2.0 * diameter * TOUCHING {
+        return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
+    }
+    if matches!(
+        (first.motion, second.motion),
+        (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
+    ) {
+        return straight_ahead(d, dv, dk, gap, diameter, horizon);
+    }
+    let c1 = 2.0 * d.dot(dv);
+    let c2 = dv.length_squared() + 2.0 * d.dot(dk);
+    let c3 = 2.0 * dv.dot(dk);
+    let c4 = dk.length_squared();
+    let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
+    let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
+    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+}
+
+/// A triangle that contains a stretch of a course: the control points of its parabola.
+#[derive(Clone, Copy)]
+pub struct Triangle {
+    start: DVec2,
+    bend: DVec2,
+    end: DVec2,
+}
+
+impl Triangle {
+    /// The triangle around `p + v t + k t²` from zero to `horizon`.
+    #[inline(always)]
+    pub fn new(p: DVec2, v: DVec2, k: DVec2, horizon: f64) -> Self {
+        Self { start: p, bend: p + 0.5 * horizon * v, end: p + horizon * (v + horizon * k) }
+    }
+
+    /// Whether a line separates the triangle from all that is nearer to `place` than `distance`. The lines that are
+    /// tried stand across the way from its start to the place, and along the course.
+    #[inline(always)]
+    pub fn clears(&self, place: DVec2, distance: f64) -> bool {
+        let (start, bend, end) = (self.start - place, self.bend - place, self.end - place);
+        let closest = distance + SURELY_APART;
+        let bound = closest * closest;
+        // All three points beyond the first line. Branches on the single comparisons would be guessed wrong too often.
+        let away = start.length_squared();
+        let least = lesser(lesser(start.dot(bend), start.dot(end)), away);
+        let leaves = least * least.abs() > bound * away;
+        // All three on one side of the second, which the first and the last are equally far from.
+        let n = (end - start).perp();
+        let (ends, middle) = (n.dot(start), n.dot(bend));
+        let passes = (ends * middle > 0.0) & (lesser(ends * ends, middle * middle) > bound * n.length_squared());
+        leaves | passes
+    }
+}
+
+/// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
+fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64, may_rest: bool) -> Ahead {
+    let c1 = 2.0 * d.dot(dv);
+    let c2 = dv.length_squared() + 2.0 * d.dot(dk);
+    let separation = c1 / (2.0 * diameter);
+    if separation < -RESTING_SPEED {
+        return Ahead::Meeting(0.0);
+    }
+    if may_rest && separation <= RESTING_SPEED && c2 / diameter < -PRESSING {
+        return Ahead::Pressed;
+    }
+    // Coefficients of rounding's size would close and open the gap without end.
+    let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
+    polynomial_closes(
+        &[0.0, c1, clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
+        true,
+        2.0 * diameter,
+        horizon,
+    )
+}
+
+/// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
+fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Ahead {
+    let speed = dv.length();
+    let direction = dv / speed;
+    let along = -d.dot(direction);
+    let beside = d.perp_dot(direction);
+    let half_chord_squared = diameter * diameter - beside * beside;
+    if along <= 0.0 || half_chord_squared < 0.0 {
+        return Ahead::Nothing;
+    }
+    // The nearer of the two crossings, written as the product of both over the farther one.
+    let distance = gap / (along + half_chord_squared.sqrt());
+    let half_deceleration = -dk.dot(direction);
+    let discriminant = speed * speed - 4.0 * half_deceleration * distance;
+    if discriminant < 0.0 {
+        return Ahead::Nothing;
+    }
+    let time = 2.0 * distance / (speed + discriminant.sqrt());
+    if time <= horizon { Ahead::Meeting(time) } else { Ahead::Nothing }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::savings::All, *};
+    use crate::{physics::BallState, table::Table};
+
+    #[test]
+    fn a_straight_meeting_takes_the_time_of_the_constant_deceleration() {
+        let constants = Constants::of(&Table::default());
+        let velocity = DVec2::new(0.5, 0.0);
+        let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
+        let (roll, _) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
+        let rest = Segment::at_rest(DVec2::new(0.5, 0.0));
+        let Ahead::Meeting(time) = balls_ahead::<All>(&constants, &roll, &rest, 0.0, 10.0, true) else {
+            panic!("no meeting")
+        };
+        let position = roll.position_after(time);
+        assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
+    }
+}
