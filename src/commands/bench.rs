@@ -1,0 +1,98 @@
+//! `carom bench`: what this machine does in a second.
+
+use std::{
+    io::{self, Write},
+    time::Duration,
+};
+
+use serde::Serialize;
+
+use super::Failure;
+use crate::study::throughput::{Figure, Machine, measure};
+
+/// Measure this machine: shots, recommendations and network updates a second. Takes about ten seconds.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Seconds for each figure.
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
+    seconds: f64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is printed as JSON.
+#[derive(Serialize)]
+struct Report<'a> {
+    version: &'static str,
+    machine: &'a Machine,
+    seconds: f64,
+    figures: &'a [Figure],
+}
+
+/// Longest time for a figure, s.
+const LONGEST: f64 = 3600.0;
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let accepted = args.seconds > 0.0 && args.seconds <= LONGEST;
+    let time = Duration::try_from_secs_f64(args.seconds).ok().filter(|_| accepted).ok_or_else(|| {
+        Failure::wrong_input(format_args!(
+            "--seconds {} is no time to measure; accepted is above 0 and at most {LONGEST}",
+            args.seconds
+        ))
+    })?;
+    let machine = Machine::this();
+    let mut out = io::stdout().lock();
+    if !args.json {
+        writeln!(out, "{}, {} threads, {}", machine.cpu, machine.threads, machine.os)?;
+    }
+    // A closed pipe is told after the measurement: there is nothing else to end it with.
+    let mut written = Ok(());
+    let figures = measure(time, |figure| {
+        if !args.json && written.is_ok() {
+            written = writeln!(out, "{}", words(figure));
+        }
+    })
+    .map_err(Failure::failed)?;
+    written?;
+    if args.json {
+        let report =
+            Report { version: env!("CARGO_PKG_VERSION"), machine: &machine, seconds: args.seconds, figures: &figures };
+        serde_json::to_writer(&mut out, &report).map_err(io::Error::from)?;
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// A figure for people to read.
+fn words(figure: &Figure) -> String {
+    let threads = if figure.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", figure.threads) };
+    let line = format!("{:<18} {:<7} {threads:<10} {:>12} /s", figure.what, figure.table, grouped(figure.per_second));
+    figure.sizes.map_or_else(|| line.clone(), |sizes| format!("{line}  {sizes}"))
+}
+
+/// A number with thousands set apart.
+fn grouped(number: f64) -> String {
+    let digits = format!("{number:.0}");
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(
+            [grouped(7.2), grouped(812.0), grouped(1234.4), grouped(1_234_567.0)],
+            ["7", "812", "1 234", "1 234 567"]
+        );
+    }
+}

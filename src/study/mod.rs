@@ -1,0 +1,4 @@
+//! The program measuring itself: error against run time, stability, throughput.
+
+pub mod stability;
+pub mod throughput;

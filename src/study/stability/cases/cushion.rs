@@ -1,0 +1,173 @@
+//! Balls exactly on a cushion and in a corner.
+
+use std::f64::consts::{FRAC_PI_4, PI};
+
+use glam::DVec2;
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Case, Size, presets};
+use crate::{
+    simulation::{EventKind, Rail},
+    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    table::{Layout, Table},
+};
+
+const fn case(
+    name: &'static str,
+    holds: &'static str,
+    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
+    check: fn(&Table, &Shot, &Trace) -> Result<(), String>,
+) -> Case {
+    Case { name, holds, tables: presets, shot, check: Some(check), limits: Limits::STRICT, size: Size::Case }
+}
+
+pub const CASES: &[Case] = &[
+    case(
+        "object ball exactly on a cushion",
+        "what is driven into the cushion comes back from it at once",
+        object_ball,
+        returns,
+    ),
+    case(
+        "cue ball exactly on a cushion",
+        "struck into the cushion it comes back, away from it it leaves",
+        cue_ball,
+        leaves,
+    ),
+    case("object ball exactly in a corner", "both cushions are hit at the same moment", corner_ball, returns),
+    case("a shot exactly into a corner at 45°", "both cushions are hit at the same moment", into_corner, hits_both),
+];
+
+/// Times that differ by less are the same moment, s: a ball moves 1e-12 m meanwhile, the rounding of a table's length many
+/// times over.
+const MOMENT: f64 = 1e-13;
+
+fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (DVec2, Rail) {
+    let rail = draw::one_of(rng, &Rail::ALL);
+    let n = rail.normal();
+    let anywhere = draw::place(table, rng);
+    (anywhere * (DVec2::ONE - n.abs()) - n * table.reach(), rail)
+}
+
+/// A shot that drives the ball at `target` `towards` some direction, if there is room for it.
+fn driving(table: &Table, target: DVec2, towards: DVec2, rng: &mut Xoshiro256PlusPlus) -> Option<Shot> {
+    let direction = DVec2::from_angle(rng.random_range(-0.5..0.5)).rotate(towards);
+    let from = target - 2.0 * table.radius * towards - rng.random_range(0.0..0.6) * direction;
+    let b = draw::one_of(rng, &[-0.5, 0.0, 0.4, 0.9]);
+    let cue = Stroke { b, ..Stroke::centre(direction.to_angle().to_degrees(), rng.random_range(0.5..8.0)) };
+    let layout = Layout::new([from, target, draw::place(table, rng)]);
+    layout.validate(table).is_ok().then_some(Shot { layout, cue })
+}
+
+fn object_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    loop {
+        let (target, rail) = on_cushion(table, rng);
+        // Into the cushion, from straight to nearly along it.
+        let towards = DVec2::from_angle(rng.random_range(-1.2..1.2)).rotate(-rail.normal());
+        if let Some(shot) = driving(table, target, towards, rng) {
+            return shot;
+        }
+    }
+}
+
+fn corner_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    loop {
+        let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+        let turn = draw::one_of(rng, &[0.0, 0.0, 0.3, -0.3]) * rng.random::<f64>();
+        let towards = DVec2::from_angle(FRAC_PI_4 + turn) * signs;
+        if let Some(shot) = driving(table, signs * table.reach(), towards, rng) {
+            return shot;
+        }
+    }
+}
+
+/// The first time ball 1 is hit: every cushion that it touches and is driven into answers at that moment.
+fn returns(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    let Some(first) = trace.events.iter().find(|event| matches!(event.kind, EventKind::BallBall(..))) else {
+        return Ok(());
+    };
+    if first.kind != EventKind::BallBall(0, 1)
+        || trace.events.iter().any(|e| e.kind.rail().is_some() && e.time < first.time)
+    {
+        return Ok(());
+    }
+    let place = trace.pieces[0]
+        .iter()
+        .rfind(|piece| piece.end <= first.time)
+        .map_or(shot.layout.balls[0], |piece| piece.segment.position_after(piece.end - piece.segment.start));
+    let target = shot.layout.balls[1];
+    let pushed = (target - place).normalize();
+    for rail in Rail::ALL {
+        let n = rail.normal();
+        let stands_there = n.abs().dot(table.reach()) + target.dot(n) == 0.0;
+        let answers = |e: &crate::simulation::Event| {
+            e.kind == EventKind::BallRail(1, rail) && (e.time - first.time).abs() <= MOMENT
+                || e.kind == EventKind::ContactBegins(1) && (e.time - first.time).abs() <= MOMENT
+        };
+        // Friction between the balls turns the direction by 7° at most, since the ball has no side spin.
+        if stands_there && pushed.dot(n) < -0.3 && !trace.events.iter().any(answers) {
+            return Err(format!(
+                "ball 1 is driven into the {} cushion at {} s, which does not answer",
+                rail.name(),
+                first.time
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn cue_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let (from, rail) = on_cushion(table, rng);
+    let direction = DVec2::from_angle(rng.random_range(-PI..PI)).rotate(rail.normal());
+    let layout = draw::with_others(table, &[from], rng);
+    Shot { layout, cue: Stroke { phi_deg: direction.to_angle().to_degrees(), ..draw::stroke(rng) } }
+}
+
+fn leaves(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    let from = shot.layout.balls[0];
+    for rail in Rail::ALL {
+        let n = rail.normal();
+        let speed = trace.impulse.velocity.dot(n);
+        if n.abs().dot(table.reach()) + from.dot(n) != 0.0 {
+            continue;
+        }
+        let answers = trace.events.iter().any(|e| e.time == 0.0 && e.kind == EventKind::BallRail(0, rail));
+        // Below this speed it rests rather than bounces.
+        if speed < -1e-9 && !answers {
+            return Err(format!("struck into the {} cushion, which does not answer", rail.name()));
+        }
+        if speed > 0.0 && answers {
+            return Err(format!("struck away from the {} cushion, which answers", rail.name()));
+        }
+    }
+    Ok(())
+}
+
+/// Along the diagonal of a corner, from a distance that is exact in binary.
+fn into_corner(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+    let distance = f64::from(rng.random_range(1..64)) / 256.0;
+    let from = signs * (table.reach() - DVec2::splat(distance));
+    let layout = loop {
+        let layout = draw::with_others(table, &[from], rng);
+        // Nothing may stand in the way.
+        let clear = layout.balls[1..].iter().all(|ball| (signs * table.reach()).distance(*ball) > 0.6);
+        if clear {
+            break layout;
+        }
+    };
+    let phi_deg = if signs.x > 0.0 { 45.0 * signs.y } else { 135.0 * signs.y };
+    let b = draw::one_of(rng, &[-0.3, 0.0, 0.2, 0.4]);
+    Shot { layout, cue: Stroke { b, ..Stroke::centre(phi_deg, rng.random_range(2.0..8.0)) } }
+}
+
+fn hits_both(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
+    let mut cushions = trace.events.iter().filter(|event| matches!(event.kind, EventKind::BallRail(0, _)));
+    match (cushions.next(), cushions.next()) {
+        (Some(first), Some(second)) if (second.time - first.time).abs() <= MOMENT && first.kind != second.kind => {
+            Ok(())
+        }
+        (first, second) => Err(format!("the cushions are hit at different moments: {first:?}, {second:?}")),
+    }
+}

@@ -1,0 +1,105 @@
+//! The stiff and extreme cases: each draws many shots and knows what must hold of them besides the invariants.
+
+mod cushion;
+mod grazing;
+mod lone;
+mod pressed;
+mod rail_course;
+mod simultaneous;
+mod smooth_courses;
+mod strokes;
+mod sweeps;
+mod tables;
+mod touching;
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Check, Figures, Finding, Limits, Progress, Shot, Sweep};
+use crate::table::{PRESETS, Table};
+
+/// One row of the stability table.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// What is hard about it.
+    pub name: &'static str,
+    /// What must hold besides the invariants.
+    pub holds: &'static str,
+    /// The tables on which it is played.
+    pub tables: fn() -> Vec<Table>,
+    /// Draws a shot.
+    pub shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
+    /// Checks what must hold besides, if anything.
+    pub check: Option<Check>,
+    /// Limits of the invariants.
+    pub limits: Limits,
+    /// How many shots it gets.
+    pub size: Size,
+}
+
+/// Which number of a [`super::Plan`] tells how many shots a case gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// That of the random shots.
+    Random,
+    /// That of the adversarial shots.
+    Adversarial,
+    /// That of each stiff or extreme case.
+    Case,
+}
+
+/// All cases, in the order of the report.
+pub fn all() -> Vec<Case> {
+    [
+        sweeps::CASES,
+        grazing::CASES,
+        cushion::CASES,
+        touching::CASES,
+        simultaneous::CASES,
+        pressed::CASES,
+        smooth_courses::CASES,
+        strokes::CASES,
+        tables::CASES,
+    ]
+    .concat()
+}
+
+impl Case {
+    /// Plays `shots` shots on each of its tables and returns the worst that was measured. `watch` is that of [`Sweep::run`].
+    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Figures {
+        let mut figures = Figures::default();
+        let mut goes_on = true;
+        for table in (self.tables)() {
+            let sweep = Sweep {
+                table,
+                generator: self.shot,
+                check: self.check,
+                shots,
+                seed,
+                limits: self.limits,
+                slow: f64::INFINITY,
+            };
+            figures.merge(&sweep.run(|progress, finding| {
+                goes_on = watch(progress, finding);
+                goes_on
+            }));
+            if !goes_on {
+                break;
+            }
+        }
+        figures
+    }
+}
+
+/// The bundled tables.
+fn presets() -> Vec<Table> {
+    PRESETS.iter().filter_map(|name| Table::preset(name).ok()).collect()
+}
+
+/// A bundled table with other numbers, of which its name tells; none if they are refused.
+fn variant(name: &str, what: &str, change: impl Fn(&mut Table)) -> Option<Table> {
+    let mut table = Table::preset(name).ok()?;
+    change(&mut table);
+    table.name = format!("{name}, {what}");
+    // Through its file, which checks the values.
+    Table::from_toml(&toml::to_string(&table).ok()?).ok()
+}

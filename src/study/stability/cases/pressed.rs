@@ -1,0 +1,120 @@
+//! Resting contacts in all their forms: on a cushion, on two, ball on ball, a ball between.
+
+use std::f64::consts::FRAC_PI_4;
+
+use glam::DVec2;
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Case, Size, presets, rail_course, variant};
+use crate::{
+    simulation::Rail,
+    study::stability::{Limits, Shot, Stroke, draw},
+    table::{Layout, PRESETS, Table},
+};
+
+const fn case(name: &'static str, shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot) -> Case {
+    Case { name, holds: "", tables: lively_and_dead, shot, check: None, limits: Limits::STRICT, size: Size::Case }
+}
+
+pub const CASES: &[Case] = &[
+    case("a ball resting on a cushion", on_cushion),
+    case("a ball resting on two cushions", on_two_cushions),
+    case("a ball resting on another", on_ball),
+    case("a ball pressed between ball and cushion", between),
+    Case {
+        name: "a ball resting on a smooth cushion",
+        holds: "leaves it when, and stops where, quadrature says, to 1e-9 s and m",
+        tables: smooth,
+        shot: against_smooth_cushion,
+        check: Some(rail_course::follows_quadrature),
+        limits: Limits::STRICT,
+        size: Size::Case,
+    },
+];
+
+/// The bundled tables, and the thesis' with contacts that do not bounce at all.
+fn lively_and_dead() -> Vec<Table> {
+    let mut tables = presets();
+    tables.extend(variant("thesis", "dead", |table| (table.ball_restitution, table.rail_restitution) = (0.0, 0.0)));
+    tables
+}
+
+/// Cushions without friction and bounce, on which a pressed ball's course is known but for two integrals.
+fn smooth() -> Vec<Table> {
+    let smooth = |table: &mut Table| (table.rail_restitution, table.rail_friction) = (0.0, 0.0);
+    PRESETS.iter().filter_map(|name| variant(name, "smooth and dead cushions", smooth)).collect()
+}
+
+/// Follow and some side: the slip at the cloth presses the ball on to what it has met.
+fn pressing(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> Stroke {
+    Stroke {
+        a: rng.random_range(-0.4..0.4),
+        b: rng.random_range(0.4..0.9),
+        theta_deg: draw::one_of(rng, &[0.0, 5.0, 20.0]),
+        phi_deg,
+        speed: draw::log_uniform(rng, 0.05, 8.0),
+    }
+}
+
+fn place_on(rail: Rail, table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
+    let n = rail.normal();
+    0.9 * draw::place(table, rng) * (DVec2::ONE - n.abs()) - n * table.reach()
+}
+
+fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let rail = draw::one_of(rng, &Rail::ALL);
+    let direction = DVec2::from_angle(rng.random_range(-1.2..1.2)).rotate(-rail.normal());
+    let back = if rng.random_bool(0.3) { 0.0 } else { rng.random_range(0.0..0.3) };
+    let from = place_on(rail, table, rng) + back * rail.normal();
+    Shot { layout: draw::with_others(table, &[from], rng), cue: pressing(direction.to_angle().to_degrees(), rng) }
+}
+
+fn on_two_cushions(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let signs = DVec2::new(draw::one_of(rng, &[-1.0, 1.0]), draw::one_of(rng, &[-1.0, 1.0]));
+    let turn = draw::one_of(rng, &[0.0, 1e-9, 0.3]) * rng.random_range(-1.0..1.0);
+    let direction = DVec2::from_angle(FRAC_PI_4 + turn) * signs;
+    let back = if rng.random_bool(0.3) { 0.0 } else { rng.random_range(0.0..0.3) };
+    let from = signs * table.reach() - signs * back;
+    Shot { layout: draw::with_others(table, &[from], rng), cue: pressing(direction.to_angle().to_degrees(), rng) }
+}
+
+fn on_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    loop {
+        let from = 0.8 * draw::place(table, rng);
+        let direction = DVec2::from_angle(rng.random_range(-3.2..3.2));
+        let apart = 2.0 * table.radius + if rng.random_bool(0.5) { 0.0 } else { rng.random_range(0.0..0.3) };
+        let layout = Layout::new([from, from + apart * direction, draw::place(table, rng)]);
+        if layout.validate(table).is_ok() {
+            let turn = draw::one_of(rng, &[0.0, 0.0, 1e-6, 0.05]) * rng.random_range(-1.0..1.0);
+            return Shot { layout, cue: pressing((direction.to_angle() + turn).to_degrees(), rng) };
+        }
+    }
+}
+
+fn between(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    loop {
+        let rail = draw::one_of(rng, &Rail::ALL);
+        let target = place_on(rail, table, rng);
+        let direction = DVec2::from_angle(draw::one_of(rng, &[0.0, 0.1, 0.8]) * rng.random_range(-1.0..1.0));
+        let direction = direction.rotate(-rail.normal());
+        let apart = 2.0 * table.radius + if rng.random_bool(0.5) { 0.0 } else { rng.random_range(0.0..0.3) };
+        let layout = Layout::new([target - apart * direction, target, draw::place(table, rng)]);
+        if layout.validate(table).is_ok() {
+            let turn = draw::one_of(rng, &[0.0, 0.0, 0.05]) * rng.random_range(-1.0..1.0);
+            return Shot { layout, cue: pressing((direction.to_angle() + turn).to_degrees(), rng) };
+        }
+    }
+}
+
+/// From the very cushion into it, softly enough that no other ball or cushion is met as a rule.
+fn against_smooth_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let rail = draw::one_of(rng, &Rail::ALL);
+    let along = rng.random_range(-1.3..1.3_f64);
+    let direction = DVec2::from_angle(along).rotate(-rail.normal());
+    let from = 0.2 * place_on(rail, table, rng) * (DVec2::ONE - rail.normal().abs()) - rail.normal() * table.reach();
+    let far = (0.9 * table.reach()) * rail.normal();
+    let layout = Layout::new([from, far, far + 4.0 * table.radius * rail.normal().perp()]);
+    let speed = rng.random_range(0.05..0.8);
+    Shot { layout, cue: Stroke { speed, ..pressing(direction.to_angle().to_degrees(), rng) } }
+}

@@ -1,0 +1,72 @@
+//! The course of a ball pressed on a cushion without friction, from two integrals: written apart from the engine.
+//!
+//! With nothing but the cloth's friction and the cushion's normal force, the slip's part along the cushion falls at
+//! `7/2 μ g û_t` and the other at `5/2 μ g û_n`: so `u_n = c |u_t|^(5/7)`, both end together, and the time is an integral over
+//! `u_t`. The speed along the cushion follows from the slip: `v_t = v_t0 + 2/7 (u_t - u_t0)`.
+
+use glam::DVec2;
+
+use crate::{
+    simulation::EventKind,
+    study::stability::{Shot, Trace},
+    table::Table,
+};
+
+/// Error that the engine's resting contacts may have, s and m.
+const ALLOWED: f64 = 1e-9;
+
+/// Points of Simpson's rule: the integrands are smooth, and doubling the points changes less than 1e-14.
+const POINTS: u32 = 2000;
+
+/// If the ball is pressed on the cushion on which it starts and meets nothing else, it must stop where and when the integrals
+/// say; otherwise nothing is asked.
+pub fn follows_quadrature(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    let from = shot.layout.balls[0];
+    let (v, w) = (trace.impulse.velocity, trace.impulse.spin);
+    let Some(n) = cushion(table, from).filter(|n| v.dot(*n) < 0.0) else { return Ok(()) };
+    let t = n.perp();
+    // The impact, which does not bounce, leaves the speed along the cushion.
+    let slip = DVec2::new(-table.radius * w.y, table.radius * w.x) + v.dot(t) * t;
+    let (across, along) = (slip.dot(n), slip.dot(t));
+    let meets_more = |e: &crate::simulation::Event| {
+        e.kind.balls().1.is_some()
+            || matches!(e.kind, EventKind::BallRail(_, rail) if rail.normal() != n)
+            || e.kind.balls().0 != 0
+    };
+    // A slip towards the cushion drives the ball away from it; one along it only does not press.
+    if across <= 1e-3 || along.abs() <= 1e-3 || trace.events.iter().any(meets_more) {
+        return Ok(());
+    }
+    let friction = table.sliding_friction * table.gravity;
+    // With u_t = along y⁷ and k = across/along: dt = 2/(7μg) √(1 + (u_n/u_t)²) du_t = 2|along|/(μg) y⁴ √(y⁴ + k²) dy.
+    let k = across / along;
+    let weight = |y: f64| y.powi(4) * (y.powi(4) + k * k).sqrt();
+    let time = 2.0 * along.abs() / friction * simpson(weight);
+    let slid = 2.0 * along.abs() / friction * along * simpson(|y| y.powi(7) * weight(y));
+    let end = v.dot(t) - 2.0 / 7.0 * along;
+    let deceleration = 5.0 / 7.0 * table.rolling_friction * table.gravity;
+    let place = from.dot(t) + end * time + 2.0 / 7.0 * slid + end * end.abs() / (2.0 * deceleration);
+    let off = (trace.end.balls[0].position.dot(t) - place).abs();
+    let late = (trace.end.time - (time + end.abs() / deceleration)).abs();
+    // What rolls with next to no speed takes for ever to lose it: the time is worth less than the place.
+    if off > ALLOWED || late > ALLOWED * (1.0 + 1.0 / deceleration) {
+        return Err(format!("pressed on a smooth cushion for {time} s, it stops {off:e} m and {late:e} s off"));
+    }
+    Ok(())
+}
+
+/// Normal of the cushion on which a ball stands.
+fn cushion(table: &Table, place: DVec2) -> Option<DVec2> {
+    let stands = |rail: &crate::simulation::Rail| {
+        let n = rail.normal();
+        n.abs().dot(table.reach()) + place.dot(n) == 0.0
+    };
+    crate::simulation::Rail::ALL.iter().find(|rail| stands(rail)).map(|rail| rail.normal())
+}
+
+/// Integral from 0 to 1.
+fn simpson(f: impl Fn(f64) -> f64) -> f64 {
+    let h = 1.0 / f64::from(POINTS);
+    let inner: f64 = (1..POINTS).map(|i| f(f64::from(i) * h) * if i % 2 == 1 { 4.0 } else { 2.0 }).sum();
+    h / 3.0 * (f(0.0) + inner + f(1.0))
+}

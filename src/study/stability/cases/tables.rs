@@ -1,0 +1,129 @@
+//! Extreme tables: friction, restitution and size at the ends of what is accepted.
+
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Case, Size, variant};
+use crate::{
+    physics::Motion,
+    study::stability::{Limits, Shot, Stroke, Trace, adversarial, draw, random},
+    table::{BALLS, PRESETS, Table},
+};
+
+const fn case(name: &'static str, holds: &'static str, tables: fn() -> Vec<Table>, limits: Limits) -> Case {
+    Case { name, holds, tables, shot, check: None, limits, size: Size::Case }
+}
+
+const ENDS: &str = "every shot ends; no friction on the cloth at all is refused";
+
+pub const CASES: &[Case] = &[
+    case("next to no friction", ENDS, next_to_no_friction, Limits::ANY_EVENTS),
+    case("friction coefficients of 10 and 1000", "", large_friction, Limits::STRICT),
+    case("no restitution, e = 0", "", || restitution(0.0), Limits::STRICT),
+    case("restitution e = 0.3", "", || restitution(0.3), Limits::STRICT),
+    case("full restitution, e = 1", "", || restitution(1.0), Limits::ANY_EVENTS),
+    Case {
+        name: "full restitution without friction in contacts",
+        holds: "no collision changes the energy",
+        tables: lossless,
+        shot,
+        check: Some(keeps_energy),
+        limits: Limits::ANY_EVENTS,
+        size: Size::Case,
+    },
+    case("the smallest table, six ball radii wide", "", smallest, Limits::ANY_EVENTS),
+    case("a table of one kilometre", "", huge, Limits::STRICT),
+    case("balls of one millimetre and of one metre", "", all_balls, Limits::STRICT),
+];
+
+fn of_presets(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
+    PRESETS.iter().filter_map(|name| variant(name, what, &change)).collect()
+}
+
+fn next_to_no_friction() -> Vec<Table> {
+    of_presets("mu = 0.0001", |table| {
+        (table.sliding_friction, table.rolling_friction) = (1e-4, 1e-4);
+        (table.spinning_friction, table.rail_friction, table.ball_friction) = (0.0, 0.0, Some(0.0));
+    })
+}
+
+fn large_friction() -> Vec<Table> {
+    let all = |mu: f64| {
+        of_presets(&format!("mu = {mu}"), move |table| {
+            (table.sliding_friction, table.rolling_friction, table.spinning_friction) = (mu, mu, mu);
+            (table.rail_friction, table.ball_friction) = (mu, Some(mu));
+        })
+    };
+    [all(10.0), all(1000.0)].concat()
+}
+
+fn restitution(e: f64) -> Vec<Table> {
+    of_presets(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
+}
+
+fn lossless() -> Vec<Table> {
+    of_presets("lossless", |table| {
+        (table.ball_restitution, table.rail_restitution) = (1.0, 1.0);
+        (table.rail_friction, table.ball_friction) = (0.0, Some(0.0));
+    })
+}
+
+fn smallest() -> Vec<Table> {
+    of_presets("smallest", |table| {
+        (table.length, table.width) = (6.0 * table.radius, 6.0 * table.radius);
+        table.opening_offset = 2.0 * table.radius;
+    })
+}
+
+fn huge() -> Vec<Table> {
+    of_presets("1 km", |table| (table.length, table.width) = (1000.0, 500.0))
+}
+
+fn all_balls() -> Vec<Table> {
+    let scaled = |scale: f64| {
+        of_presets(&format!("scaled by {scale:.3}"), move |table| {
+            table.radius *= scale;
+            (table.length, table.width, table.opening_offset) =
+                (table.length * scale, table.width * scale, table.opening_offset * scale);
+        })
+    };
+    [scaled(1e-3 / 0.03), scaled(1.0 / 0.03)].concat()
+}
+
+fn shot(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let speed = if rng.random_bool(0.5) { rng.random_range(0.3..8.0) } else { draw::log_uniform(rng, 1e-4, 8.0) };
+    let Shot { layout, cue } =
+        if rng.random_bool(0.5) { random::shot(table, rng) } else { adversarial::shot(table, rng) };
+    Shot { layout, cue: Stroke { speed, ..cue } }
+}
+
+/// Rounding of an energy in a collision, in ε.
+const OPERATIONS: f64 = 64.0;
+
+/// Below this speed a ball that touches something is brought to rest against it, m/s.
+const SETTLES: f64 = 1e-4;
+
+/// Whenever balls go on with other speeds and none of them begins or ends to rest or stops, the sum of their energies stays.
+fn keeps_energy(table: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
+    for event in trace.events.iter().filter(|event| event.kind.balls().1.is_some() || event.kind.rail().is_some()) {
+        let (mut change, mut scale, mut settles) = (0.0, 0.0, false);
+        for pieces in trace.pieces.iter().take(BALLS) {
+            let Some(next) = pieces.iter().position(|piece| piece.segment.start == event.time).filter(|next| *next > 0)
+            else {
+                continue;
+            };
+            let (last, next) = (&pieces[next - 1], &pieces[next]);
+            let before = last.segment.state_after(&trace.constants, last.end - last.segment.start);
+            let after = next.segment.state_after(&trace.constants, 0.0);
+            change += after.specific_energy(table.radius) - before.specific_energy(table.radius);
+            scale += last.segment.state_after(&trace.constants, 0.0).specific_energy(table.radius)
+                + after.specific_energy(table.radius);
+            settles |= [last, next].iter().any(|piece| piece.segment.motion == Motion::Resting)
+                || before.velocity.length().min(after.velocity.length()) < SETTLES;
+        }
+        if !settles && change.abs() > OPERATIONS * f64::EPSILON * scale {
+            return Err(format!("{:?} changes the energy by {change:e} m²/s²", event.kind));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,131 @@
+//! Balls that touch exactly or almost.
+
+use std::f64::consts::{FRAC_PI_3, PI};
+
+use glam::DVec2;
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Case, Size, presets};
+use crate::{
+    simulation::EventKind,
+    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    table::{BALLS, Layout, Table},
+};
+
+const fn case(
+    name: &'static str,
+    holds: &'static str,
+    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
+    check: fn(&Table, &Shot, &Trace) -> Result<(), String>,
+) -> Case {
+    Case { name, holds, tables: presets, shot, check: Some(check), limits: Limits::STRICT, size: Size::Case }
+}
+
+pub const CASES: &[Case] = &[
+    case("two balls exactly touching", "momentum is kept and goes along the line of centres", two, passes_on),
+    case("three balls exactly touching", "momentum is kept", three, keeps_momentum),
+    case("three balls in line, touching or 1e-16 to 1e-6 m apart", "momentum is kept", line, keeps_momentum),
+    case("two balls 1e-16 to 1e-6 m apart", "they meet after just that distance", gap, meets_after_the_gap),
+];
+
+/// Rounding of sums of velocities, in ε of the fastest.
+const OPERATIONS: f64 = 64.0;
+
+/// Where all three balls of a small group are clear of the cushions.
+fn middle(table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
+    draw::place(table, rng) * 0.6
+}
+
+fn any_stroke(rng: &mut Xoshiro256PlusPlus) -> Stroke {
+    Stroke { speed: rng.random_range(0.3..8.0), ..draw::stroke(rng) }
+}
+
+fn two(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let from = middle(table, rng);
+    let target = from + 2.0 * table.radius * DVec2::from_angle(rng.random_range(-PI..PI));
+    Shot { layout: draw::with_others(table, &[from, target], rng), cue: any_stroke(rng) }
+}
+
+fn three(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let from = middle(table, rng);
+    let around = rng.random_range(-PI..PI);
+    let side = 2.0 * table.radius;
+    let second = from + side * DVec2::from_angle(around);
+    let third = from + side * DVec2::from_angle(around + FRAC_PI_3);
+    Shot { layout: Layout::new([from, second, third]), cue: any_stroke(rng) }
+}
+
+fn some_gap(rng: &mut Xoshiro256PlusPlus) -> f64 {
+    if rng.random_bool(0.5) { 0.0 } else { draw::log_uniform(rng, 1e-16, 1e-6) }
+}
+
+fn line(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let from = middle(table, rng);
+    let angle = if rng.random_bool(0.5) { 0.0 } else { rng.random_range(-PI..PI) };
+    let along = DVec2::from_angle(angle);
+    let second = from + (2.0 * table.radius + some_gap(rng)) * along;
+    let third = second + (2.0 * table.radius + some_gap(rng)) * along;
+    let b = draw::one_of(rng, &[-0.4, 0.0, 0.4]);
+    Shot {
+        layout: Layout::new([from, second, third]),
+        cue: Stroke { b, ..Stroke::centre(angle.to_degrees(), rng.random_range(0.3..8.0)) },
+    }
+}
+
+fn gap(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let from = middle(table, rng);
+    let along = DVec2::from_angle(rng.random_range(-PI..PI));
+    let second = from + (2.0 * table.radius + draw::log_uniform(rng, 1e-16, 1e-6)) * along;
+    let b = draw::one_of(rng, &[-0.4, 0.0, 0.4]);
+    Shot {
+        layout: draw::with_others(table, &[from, second], rng),
+        cue: Stroke { b, ..Stroke::centre(along.to_angle().to_degrees(), rng.random_range(0.3..8.0)) },
+    }
+}
+
+/// Velocities just after time zero, when all collisions at that time are over.
+fn after_the_stroke(trace: &Trace) -> [DVec2; BALLS] {
+    std::array::from_fn(|ball| {
+        let own = if ball == 0 { trace.impulse.velocity } else { DVec2::ZERO };
+        trace.pieces[ball].first().map_or(own, |piece| piece.segment.velocity)
+    })
+}
+
+fn keeps_momentum(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
+    let gained = after_the_stroke(trace).iter().sum::<DVec2>() - trace.impulse.velocity;
+    let allowed = OPERATIONS * f64::EPSILON * trace.impulse.velocity.length();
+    if gained.length() <= allowed {
+        Ok(())
+    } else {
+        Err(format!("momentum changes by {:e} m/s at once", gained.length()))
+    }
+}
+
+fn passes_on(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    keeps_momentum(table, shot, trace)?;
+    let along = (shot.layout.balls[1] - shot.layout.balls[0]).normalize();
+    let approach = trace.impulse.velocity.dot(along);
+    let speed = trace.impulse.velocity.length();
+    let given = after_the_stroke(trace)[1].dot(along);
+    let expected = 0.5 * (1.0 + table.ball_restitution) * approach.max(0.0);
+    // Where the balls hardly approach, rounding or the settling of a resting contact decides.
+    let certain = approach.abs() > 1e-2;
+    if certain && (given - expected).abs() > OPERATIONS * f64::EPSILON * speed {
+        return Err(format!("the other ball starts with {given} m/s along the line of centres, not {expected}"));
+    }
+    Ok(())
+}
+
+fn meets_after_the_gap(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
+    let gap = shot.layout.balls[0].distance(shot.layout.balls[1]) - 2.0 * table.radius;
+    let Some(first) = trace.events.first() else { return Err("nothing happens".to_owned()) };
+    if first.kind != EventKind::BallBall(0, 1) {
+        return Err(format!("the first event is {first:?}"));
+    }
+    // The gap is known to the rounding of the balls' places; friction slows the ball by less than that on the way.
+    let travelled = first.time * trace.impulse.velocity.length();
+    let allowed = OPERATIONS * f64::EPSILON * table.length + 2e-5 * gap.abs();
+    let off = (travelled - gap.max(0.0)).abs();
+    if off <= allowed { Ok(()) } else { Err(format!("meets after {travelled:e} m, not {gap:e} m")) }
+}

@@ -1,0 +1,151 @@
+//! What the checks measure of a shot or of many, and which of it is a violation.
+
+use serde::Serialize;
+
+/// The largest of some error, and when in its shot it happened.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// Size of the error, in the unit of its figure.
+    pub value: f64,
+    /// Time since the stroke, s.
+    pub time: f64,
+}
+
+impl Default for Worst {
+    fn default() -> Self {
+        Self { value: f64::NEG_INFINITY, time: 0.0 }
+    }
+}
+
+impl Worst {
+    /// Takes note of an error. NaN counts as the largest of all.
+    pub fn note(&mut self, value: f64, time: f64) {
+        if value.is_nan() && !self.value.is_nan() || value > self.value {
+            *self = Self { value, time };
+        }
+    }
+}
+
+/// The largest errors of one shot or of many.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Figures {
+    /// Shots that were checked.
+    pub shots: u64,
+    /// How deep two balls overlap, m. It is less than zero where they stay apart.
+    pub overlap: Worst,
+    /// How far a ball's centre is beyond its reach, m.
+    pub outside: Worst,
+    /// Energy gained at an event or on the way to the next, in units of what rounding explains.
+    pub energy: Worst,
+    /// The same in m²/s², energy per mass of a ball.
+    pub gained: Worst,
+    /// How far a ball is displaced from one piece of its course to the next, m.
+    pub jump: Worst,
+    /// How far apart balls, or ball and cushion, are that are told to collide, m.
+    pub apart: Worst,
+    /// How far time runs backwards, s.
+    pub backwards: Worst,
+    /// Shots in which some number was not finite.
+    pub not_finite: u64,
+    /// Shots that were broken off, or whose balls still moved at the end.
+    pub unfinished: u64,
+    /// Most events of a shot.
+    pub events: usize,
+    /// Most pieces of course of a shot.
+    pub steps: usize,
+    /// Longest time that the simulation of a shot took, s.
+    pub seconds: f64,
+}
+
+/// What a shot may not do.
+#[derive(Clone, Debug, PartialEq, Serialize, thiserror::Error)]
+#[serde(rename_all = "kebab-case", tag = "kind", content = "value")]
+pub enum Violation {
+    /// Some number is NaN or infinite.
+    #[error("a number is not finite")]
+    NotFinite,
+    /// Two balls overlap.
+    #[error("two balls overlap by {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
+    Overlap(Worst),
+    /// A ball leaves the table.
+    #[error("a ball is {value:.3e} m outside at {time} s", value = .0.value, time = .0.time)]
+    Outside(Worst),
+    /// Energy is gained.
+    #[error("energy grows by {value:.1} times what rounding explains at {time} s", value = .0.value, time = .0.time)]
+    Energy(Worst),
+    /// A ball is put somewhere else.
+    #[error("a ball jumps by {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
+    Jump(Worst),
+    /// A collision of what does not touch.
+    #[error("a collision over a gap of {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
+    Apart(Worst),
+    /// Events out of order.
+    #[error("time runs back by {value:.3e} s at {time} s", value = .0.value, time = .0.time)]
+    Backwards(Worst),
+    /// The shot did not end by itself.
+    #[error("the shot does not end")]
+    Unfinished,
+    /// The shot needs more events than any real one.
+    #[error("the shot needs {0} events")]
+    Events(usize),
+    /// What its case asks of it besides does not hold.
+    #[error("{0}")]
+    Wrong(String),
+}
+
+/// The largest errors that are none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Overlaps, distances outside, jumps and gaps in collisions, m.
+    pub distance: f64,
+    /// Events of a shot.
+    pub events: usize,
+}
+
+impl Limits {
+    /// What the issue asks for: a billionth of a metre, five hundred events.
+    pub const STRICT: Self = Self { distance: 1e-9, events: 500 };
+
+    /// For tables on which a shot has more events by nature.
+    pub const ANY_EVENTS: Self = Self { events: usize::MAX, ..Self::STRICT };
+}
+
+impl Figures {
+    /// Adds the figures of other shots.
+    pub fn merge(&mut self, other: &Self) {
+        self.shots += other.shots;
+        for (mine, theirs) in [
+            (&mut self.overlap, other.overlap),
+            (&mut self.outside, other.outside),
+            (&mut self.energy, other.energy),
+            (&mut self.gained, other.gained),
+            (&mut self.jump, other.jump),
+            (&mut self.apart, other.apart),
+            (&mut self.backwards, other.backwards),
+        ] {
+            mine.note(theirs.value, theirs.time);
+        }
+        self.not_finite += other.not_finite;
+        self.unfinished += other.unfinished;
+        self.events = self.events.max(other.events);
+        self.steps = self.steps.max(other.steps);
+        self.seconds = self.seconds.max(other.seconds);
+    }
+
+    /// What is beyond `limits`, worst things first.
+    pub fn violations(&self, limits: &Limits) -> Vec<Violation> {
+        let beyond = |worst: Worst, limit: f64| worst.value.is_nan() || worst.value > limit;
+        let candidates = [
+            (self.not_finite > 0, Violation::NotFinite),
+            (self.unfinished > 0, Violation::Unfinished),
+            (beyond(self.outside, limits.distance), Violation::Outside(self.outside)),
+            (beyond(self.overlap, limits.distance), Violation::Overlap(self.overlap)),
+            (beyond(self.jump, limits.distance), Violation::Jump(self.jump)),
+            (beyond(self.apart, limits.distance), Violation::Apart(self.apart)),
+            (beyond(self.energy, 1.0), Violation::Energy(self.energy)),
+            (beyond(self.backwards, 0.0), Violation::Backwards(self.backwards)),
+            (self.events > limits.events, Violation::Events(self.events)),
+        ];
+        candidates.into_iter().filter_map(|(is, violation)| is.then_some(violation)).collect()
+    }
+}

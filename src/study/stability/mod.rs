@@ -1,0 +1,26 @@
+//! Stability: what must hold in every shot, and shots made to break it.
+
+pub mod adversarial;
+mod cases;
+mod draw;
+mod energy;
+mod figures;
+mod finding;
+mod invariants;
+mod polynomial;
+mod progress;
+pub mod random;
+mod report;
+mod shot;
+mod sweep;
+mod trace;
+
+pub use cases::{Case, Size, all as cases};
+pub use figures::{Figures, Limits, Violation, Worst};
+pub use finding::Finding;
+pub use invariants::examine;
+pub use progress::{ProgressLine, rows_with_progress};
+pub use report::{Plan, Row, markdown, rows, text};
+pub use shot::{Shot, Stroke};
+pub use sweep::{Check, Generator, Progress, Sweep};
+pub use trace::Trace;

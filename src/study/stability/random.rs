@@ -1,0 +1,12 @@
+//! Random shots: layouts and strokes over the whole of what is accepted.
+
+use rand::Rng;
+
+use super::{Shot, draw};
+use crate::table::{Layout, Table};
+
+/// A random layout and a stroke from the full range of every input: the tip anywhere on the ball and, one time in eight, at
+/// its rim; the cue up to 89.9° steep; speeds from 1e-6 to 60 m/s, half of them as people play.
+pub fn shot<R: Rng>(table: &Table, rng: &mut R) -> Shot {
+    Shot { layout: Layout::random(table, rng), cue: draw::stroke(rng) }
+}

@@ -1,0 +1,183 @@
+//! The stability table: one row a case, and how it is printed.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::{Case, Figures, Finding, Progress, cases};
+
+/// How many shots to play, on each of a case's tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Random shots.
+    pub random: u64,
+    /// Adversarial shots.
+    pub adversarial: u64,
+    /// Shots of each stiff or extreme case.
+    pub each_case: u64,
+    /// Seed of everything.
+    pub seed: u64,
+}
+
+impl Plan {
+    /// A look that takes some minutes.
+    pub const QUICK: Self = Self { random: 100_000, adversarial: 10_000, each_case: 1_000, seed: 1 };
+
+    /// What is on record in the report.
+    pub const FULL: Self = Self { random: 10_000_000, adversarial: 100_000, each_case: 10_000, seed: 1 };
+
+    /// Shots of this case.
+    pub const fn shots(&self, case: &Case) -> u64 {
+        match case.size {
+            super::Size::Random => self.random,
+            super::Size::Adversarial => self.adversarial,
+            super::Size::Case => self.each_case,
+        }
+    }
+}
+
+/// One row.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// What is hard about it.
+    pub name: &'static str,
+    /// What is checked besides the invariants.
+    pub checked: &'static str,
+    /// The worst that was measured.
+    pub figures: Figures,
+    /// Shots that fail.
+    pub failed: u64,
+    /// What is wrong with the first of them.
+    pub example: Option<String>,
+    /// Whether all shots were played: the run was not interrupted.
+    pub complete: bool,
+}
+
+impl Row {
+    /// Plays a case. `watch` is that of [`super::Sweep::run`].
+    pub fn of(case: &Case, plan: &Plan, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Self {
+        let (mut failed, mut example) = (0, None);
+        let mut complete = true;
+        let figures = case.run(plan.shots(case), plan.seed, |progress, finding| {
+            if let Some(violation) = finding.and_then(|finding| finding.violations.first()) {
+                failed += 1;
+                example.get_or_insert_with(|| violation.to_string());
+            }
+            complete = watch(progress, finding);
+            complete
+        });
+        Self { name: case.name, checked: case.holds, figures, failed, example, complete }
+    }
+
+    /// Whether nothing failed.
+    pub const fn passed(&self) -> bool {
+        self.failed == 0
+    }
+
+    /// The largest of all errors in places, m.
+    pub fn distance(&self) -> f64 {
+        let Figures { overlap, outside, jump, apart, .. } = self.figures;
+        // Balls that stay apart have no error.
+        [overlap, outside, jump, apart].iter().fold(0.0, |worst, figure| figure.value.max(worst))
+    }
+
+    fn verdict(&self) -> String {
+        let verdict = match &self.example {
+            None => "holds".to_owned(),
+            Some(example) => format!("{} fail: {example}", self.failed),
+        };
+        if self.complete { verdict } else { format!("{verdict} (interrupted)") }
+    }
+
+    fn cells(&self) -> [String; 7] {
+        [
+            self.name.to_owned(),
+            self.figures.shots.to_string(),
+            format!("{:.1e}", self.distance()),
+            format!("{:.2}", self.figures.energy.value.max(0.0)),
+            self.figures.events.to_string(),
+            format!("{:.1}", 1e3 * self.figures.seconds),
+            self.verdict(),
+        ]
+    }
+}
+
+const HEADS: [&str; 7] = [
+    "case",
+    "shots",
+    "worst overlap, escape, jump or gap, m",
+    "energy gained / rounding",
+    "most events",
+    "longest, ms",
+    "verdict",
+];
+
+/// All rows, in order. `watch` hears the row's name with the progress, and ends the run by returning `false`.
+pub fn rows(plan: &Plan, mut watch: impl FnMut(&str, Progress, Option<&Finding>) -> bool) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for case in cases() {
+        let row = Row::of(&case, plan, |progress, finding| watch(case.name, progress, finding));
+        let complete = row.complete;
+        rows.push(row);
+        if !complete {
+            break;
+        }
+    }
+    rows
+}
+
+/// The table for a terminal.
+pub fn text(rows: &[Row]) -> String {
+    let cells: Vec<[String; 7]> =
+        std::iter::once(HEADS.map(str::to_owned)).chain(rows.iter().map(Row::cells)).collect();
+    let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; 7] = std::array::from_fn(width);
+    let mut text = String::new();
+    for row in &cells {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let width = widths[column];
+            // Writing to a string cannot fail. Words stand left, numbers right.
+            let _ = match column {
+                0 => write!(line, "{cell:<width$}"),
+                6 => write!(line, "  {cell}"),
+                _ => write!(line, "  {cell:>width$}"),
+            };
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// The table in Markdown, with what each row checks.
+pub fn markdown(rows: &[Row]) -> String {
+    let mut text = format!("| {} | what must hold besides the invariants |\n", HEADS.join(" | "));
+    text.push_str("|---|---:|---:|---:|---:|---:|---|---|\n");
+    for row in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| {} | {} |", row.cells().join(" | "), row.checked);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row() -> Row {
+        let figures = Figures { shots: 12, events: 7, ..Figures::default() };
+        Row { name: "a case", checked: "something", figures, failed: 0, example: None, complete: true }
+    }
+
+    #[test]
+    fn a_row_says_what_it_is_and_whether_it_holds() {
+        let good = row();
+        let bad = Row { failed: 2, example: Some("a ball is outside".to_owned()), ..row() };
+        let table = text(&[good.clone(), bad.clone()]);
+        assert_eq!(table.lines().count(), 3);
+        assert!(table.contains("a case") && table.contains("holds") && table.contains("2 fail: a ball is outside"));
+        let table = markdown(&[good, bad]);
+        assert!(table.lines().all(|line| line.matches('|').count() == 9), "{table}");
+    }
+}

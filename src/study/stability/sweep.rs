@@ -1,0 +1,249 @@
+//! Many shots on all cores, watched over: the same shots on every run, whatever the number of threads.
+
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+        mpsc::{self, RecvTimeoutError},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Figures, Finding, Limits, Shot, Trace, Violation, examine, finding::HANG};
+use crate::table::Table;
+
+/// Shots that are drawn from one seed: a unit of work for a thread.
+const CHUNK: u64 = 100;
+
+/// How often the watch looks after the threads.
+const WATCH_EVERY: Duration = Duration::from_millis(500);
+
+/// How long it listens for news before it sees whether all threads have gone home.
+const LISTEN: Duration = Duration::from_millis(5);
+
+/// A shot that is slower than this is played again to see whether it was the machine, s.
+const SLOW: f64 = 5e-3;
+
+/// Shots slower than this are not played again, s.
+const TOO_SLOW_TO_REPEAT: f64 = 1.0;
+
+/// Draws one shot.
+pub type Generator = fn(&Table, &mut Xoshiro256PlusPlus) -> Shot;
+
+/// What must hold of a shot besides the invariants; the error says what is wrong.
+pub type Check = fn(&Table, &Shot, &Trace) -> Result<(), String>;
+
+/// Shots to play and check.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The table.
+    pub table: Table,
+    /// What draws the shots.
+    pub generator: Generator,
+    /// What must hold besides, if anything.
+    pub check: Option<Check>,
+    /// How many.
+    pub shots: u64,
+    /// Seed of all of them.
+    pub seed: u64,
+    /// What counts as a violation.
+    pub limits: Limits,
+    /// Shots slower than this become findings even if nothing is wrong with them, s.
+    pub slow: f64,
+}
+
+/// How far a sweep is.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Shots done.
+    pub done: u64,
+    /// Shots in all.
+    pub of: u64,
+    /// Findings so far.
+    pub findings: u64,
+}
+
+/// What a thread is busy with.
+#[derive(Default)]
+struct Desk {
+    busy: Mutex<Option<(Instant, Shot)>>,
+    given_up: AtomicBool,
+}
+
+/// What all threads share.
+struct Work {
+    sweep: Sweep,
+    next_chunk: AtomicU64,
+    stop: AtomicBool,
+}
+
+enum Message {
+    Chunk(Figures),
+    Finding(Box<Finding>),
+}
+
+impl Sweep {
+    /// Plays and checks all shots on all cores. `watch` hears of every finding at once and of the progress now and then; it
+    /// ends the sweep by returning `false`. A shot that hangs becomes a finding and costs a thread, which another replaces.
+    pub fn run(&self, mut watch: impl FnMut(Progress, Option<&Finding>) -> bool) -> Figures {
+        let work = Arc::new(Work { sweep: self.clone(), next_chunk: AtomicU64::new(0), stop: AtomicBool::new(false) });
+        let (sender, receiver) = mpsc::channel();
+        let threads = thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let start = |work: &Arc<Work>| {
+            let (work, sender, desk) = (Arc::clone(work), sender.clone(), Arc::new(Desk::default()));
+            let own = Arc::clone(&desk);
+            (thread::spawn(move || work.through(&own, &sender)), desk)
+        };
+        let mut crew: Vec<_> = (0..threads).map(|_| start(&work)).collect();
+        let (mut figures, mut findings) = (Figures::default(), 0_u64);
+        let mut looked = Instant::now();
+        loop {
+            let message = receiver.recv_timeout(LISTEN);
+            let progress = |figures: &Figures, findings| Progress { done: figures.shots, of: self.shots, findings };
+            let mut go_on = true;
+            match message {
+                Ok(Message::Chunk(chunk)) => {
+                    figures.merge(&chunk);
+                    go_on = watch(progress(&figures, findings), None);
+                }
+                Ok(Message::Finding(finding)) => {
+                    findings += 1;
+                    go_on = watch(progress(&figures, findings), Some(&finding));
+                }
+                Err(RecvTimeoutError::Timeout) if crew.iter().all(|(thread, _)| thread.is_finished()) => break,
+                Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
+            }
+            if looked.elapsed() >= WATCH_EVERY {
+                looked = Instant::now();
+                for place in &mut crew {
+                    if let Some(shot) = place.1.hangs() {
+                        let finding = Finding::hang(&self.table, &shot);
+                        figures.merge(&Figures {
+                            shots: 1,
+                            unfinished: 1,
+                            seconds: f64::INFINITY,
+                            ..Figures::default()
+                        });
+                        findings += 1;
+                        go_on &= watch(progress(&figures, findings), Some(&finding));
+                        place.1.given_up.store(true, Ordering::Relaxed);
+                        *place = start(&work);
+                    }
+                }
+            }
+            if !go_on {
+                work.stop.store(true, Ordering::Relaxed);
+            }
+        }
+        figures
+    }
+}
+
+impl Desk {
+    /// The shot that this thread has been busy with for too long.
+    fn hangs(&self) -> Option<Shot> {
+        let busy = self.busy.lock().unwrap_or_else(PoisonError::into_inner);
+        busy.and_then(|(since, shot)| (since.elapsed().as_secs_f64() > HANG).then_some(shot))
+    }
+
+    fn set(&self, busy: Option<(Instant, Shot)>) {
+        *self.busy.lock().unwrap_or_else(PoisonError::into_inner) = busy;
+    }
+}
+
+impl Work {
+    /// A thread's work, chunk by chunk.
+    fn through(&self, desk: &Desk, sender: &mpsc::Sender<Message>) {
+        let sweep = &self.sweep;
+        let mut trace = Trace::new(&sweep.table);
+        while !self.stop.load(Ordering::Relaxed) {
+            let chunk = self.next_chunk.fetch_add(1, Ordering::Relaxed);
+            let begin = chunk * CHUNK;
+            if begin >= sweep.shots {
+                return;
+            }
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(sweep.seed ^ chunk.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+            let mut figures = Figures::default();
+            for _ in begin..sweep.shots.min(begin + CHUNK) {
+                let shot = (sweep.generator)(&sweep.table, &mut rng);
+                desk.set(Some((Instant::now(), shot)));
+                let mut measured = examine(&sweep.table, &shot, &mut trace);
+                // A shot that has been broken off has failed already.
+                let check = sweep.check.filter(|_| trace.finished);
+                let also = check.map_or(Ok(()), |check| check(&sweep.table, &shot, &trace));
+                if sweep.slow.is_finite() && (SLOW..TOO_SLOW_TO_REPEAT).contains(&measured.seconds) {
+                    for _ in 0..2 {
+                        trace.play(&sweep.table, &shot);
+                        measured.seconds = measured.seconds.min(trace.seconds);
+                    }
+                }
+                if desk.given_up.load(Ordering::Relaxed) {
+                    return;
+                }
+                let mut violations = measured.violations(&sweep.limits);
+                violations.extend(also.err().map(Violation::Wrong));
+                if (!violations.is_empty() || measured.seconds > sweep.slow)
+                    && sender
+                        .send(Message::Finding(Box::new(Finding::new(&sweep.table, &shot, &measured, violations))))
+                        .is_err()
+                {
+                    return;
+                }
+                figures.merge(&measured);
+            }
+            desk.set(None);
+            if sender.send(Message::Chunk(figures)).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::stability::random;
+
+    fn sweep() -> Sweep {
+        Sweep {
+            table: Table::default(),
+            generator: random::shot,
+            check: None,
+            shots: 1050,
+            seed: 3,
+            limits: Limits::STRICT,
+            slow: f64::INFINITY,
+        }
+    }
+
+    #[test]
+    fn the_same_shots_are_played_whatever_thread_plays_them() {
+        let run = || Figures { seconds: 0.0, ..sweep().run(|_, _| true) };
+        let figures = run();
+        assert_eq!((figures.shots, figures), (1050, run()));
+    }
+
+    #[test]
+    fn what_a_case_asks_besides_becomes_a_finding() {
+        let picky = Sweep { check: Some(|_, _, _| Err("not to my taste".to_owned())), shots: 7, ..sweep() };
+        let mut found = Vec::new();
+        picky.run(|_, finding| {
+            found.extend(finding.cloned());
+            true
+        });
+        assert_eq!(found.len(), 7);
+        assert!(found.iter().all(|finding| finding.what == "not to my taste"));
+        let json = serde_json::to_value(&found[0]).unwrap();
+        assert!(json["layout"].is_array() && json["cue"]["theta_deg"].is_number(), "{json}");
+    }
+
+    #[test]
+    fn a_sweep_ends_when_its_watch_says_so() {
+        let long = Sweep { shots: u64::MAX / 2, ..sweep() };
+        assert!(long.run(|_, _| false).shots < 100_000);
+    }
+}

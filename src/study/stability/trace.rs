@@ -1,0 +1,124 @@
+//! The observer that keeps a shot's whole course for the checks, and breaks a shot off that does not end.
+
+use std::{ops::ControlFlow, time::Instant};
+
+use crate::{
+    physics::{Impulse, strike},
+    simulation::{Constants, End, Event, Observer, Segment, simulate},
+    table::{BALLS, Table},
+};
+
+use super::Shot;
+
+/// Events after which a shot is broken off. It is no limit of the engine: nothing but a loop without progress comes near.
+const BREAK_AFTER_EVENTS: usize = 2_000_000;
+
+/// Events, and pieces of one ball's course, that are kept; the rest of a shot that needs more are counted.
+const KEPT: usize = 20_000;
+
+/// A shot is broken off after this long, s.
+pub const BREAK_AFTER_SECONDS: f64 = 10.0;
+
+/// A piece of a ball's course with the time at which it ended, s.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// The course.
+    pub segment: Segment,
+    /// When it ended, s.
+    pub end: f64,
+}
+
+/// One shot's course. It is used again for the next shot, so that a sweep does not allocate.
+#[derive(Debug)]
+pub struct Trace {
+    /// The table's numbers.
+    pub constants: Constants,
+    /// What the stroke gave the cue ball.
+    pub impulse: Impulse,
+    /// Events in order, until [`Trace::kept_until`].
+    pub events: Vec<Event>,
+    /// The pieces of every ball's course that last longer than nothing, in order.
+    pub pieces: [Vec<Piece>; BALLS],
+    /// Time until which everything is kept, s: infinity but for shots with far too many events.
+    pub kept_until: f64,
+    /// How many events there were.
+    pub event_count: usize,
+    /// How many pieces there were, those of no length too.
+    pub steps: usize,
+    /// How the shot ended.
+    pub end: End,
+    /// Whether all balls came to rest; otherwise the shot was broken off.
+    pub finished: bool,
+    /// Time that the simulation took, s.
+    pub seconds: f64,
+    started: Instant,
+}
+
+impl Trace {
+    /// An empty trace for shots on `table`.
+    pub fn new(table: &Table) -> Self {
+        let still = crate::physics::BallState::at_rest(glam::DVec2::ZERO);
+        Self {
+            constants: Constants::of(table),
+            impulse: Impulse { velocity: glam::DVec2::ZERO, spin: glam::DVec3::ZERO },
+            events: Vec::new(),
+            pieces: [const { Vec::new() }; BALLS],
+            kept_until: f64::INFINITY,
+            event_count: 0,
+            steps: 0,
+            end: End { time: 0.0, balls: [still; BALLS] },
+            finished: true,
+            seconds: 0.0,
+            started: Instant::now(),
+        }
+    }
+
+    /// Plays `shot`, which is taken as it is, and keeps its course.
+    pub fn play(&mut self, table: &Table, shot: &Shot) {
+        self.events.clear();
+        self.pieces.iter_mut().for_each(Vec::clear);
+        (self.event_count, self.steps, self.finished, self.kept_until) = (0, 0, true, f64::INFINITY);
+        self.impulse = strike(table, &shot.cue.inputs());
+        let impulse = self.impulse;
+        self.started = Instant::now();
+        self.end = simulate(table, &shot.layout, &impulse, self);
+        self.seconds = self.started.elapsed().as_secs_f64();
+    }
+
+    /// Keeps no more once there are `count` of something.
+    fn fill(&mut self, count: usize) {
+        if count >= KEPT && self.kept_until == f64::INFINITY {
+            let ends = self.pieces.iter().map(|pieces| pieces.last().map_or(0.0, |piece| piece.end));
+            self.kept_until = ends.fold(f64::INFINITY, f64::min);
+        }
+    }
+}
+
+impl Observer for Trace {
+    const SEGMENTS: bool = true;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.event_count += 1;
+        if self.kept_until == f64::INFINITY {
+            self.events.push(event);
+        }
+        self.fill(self.events.len());
+        // The clock is read rarely: it would cost as much as the physics.
+        let too_long =
+            self.event_count.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
+        if too_long || self.event_count >= BREAK_AFTER_EVENTS {
+            self.finished = false;
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
+        self.steps += 1;
+        // NaN must not slip through as a piece of no length.
+        if end != segment.start && self.kept_until == f64::INFINITY {
+            self.pieces[ball].push(Piece { segment: segment.clone(), end });
+            self.fill(self.pieces[ball].len());
+        }
+    }
+}

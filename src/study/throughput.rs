@@ -1,0 +1,185 @@
+//! How much this machine does in a second: shots, recommendations, decisions and updates of the networks.
+
+use std::{
+    f64::consts::PI,
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Serialize;
+
+use crate::{
+    coach::{Coach, Request},
+    game::Reward,
+    learning::{ddpg::Ddpg, hyperparameters::Hyperparameters, scenes::Scenes, view::VIEWS, view::View},
+    physics::CueInputs,
+    simulation::Recording,
+    table::{Layout, PRESETS, Table},
+};
+
+/// Shots or layouts that are drawn beforehand; they are played again and again.
+const DRAWN: usize = 4096;
+
+/// Seed of everything that is drawn: every run measures the same.
+const SEED: u64 = 7;
+
+/// Why the networks could not be measured.
+#[derive(Debug, thiserror::Error)]
+pub enum ThroughputError {
+    /// The bundled policy is damaged.
+    #[error(transparent)]
+    Policy(#[from] crate::learning::PolicyError),
+    /// The networks refuse to work.
+    #[error("the networks cannot be measured: {0}")]
+    Networks(#[from] candle_core::Error),
+}
+
+/// One figure.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Figure {
+    /// What is counted.
+    pub what: &'static str,
+    /// Layers and batch, where networks learn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<&'static str>,
+    /// The table.
+    pub table: String,
+    /// Threads that worked at it.
+    pub threads: usize,
+    /// How many of it a second.
+    pub per_second: f64,
+}
+
+/// The machine that was measured.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Machine {
+    /// Name of the processor, or its architecture where the name is not to be had.
+    pub cpu: String,
+    /// Threads that it runs at once.
+    pub threads: usize,
+    /// Operating system.
+    pub os: &'static str,
+}
+
+impl Machine {
+    /// This one.
+    pub fn this() -> Self {
+        let listed = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let name = listed.lines().filter_map(|line| line.split_once(':')).find(|(key, _)| key.trim() == "model name");
+        Self {
+            cpu: name.map_or_else(|| std::env::consts::ARCH.to_owned(), |(_, name)| name.trim().to_owned()),
+            threads: thread::available_parallelism().map_or(1, std::num::NonZero::get),
+            os: std::env::consts::OS,
+        }
+    }
+}
+
+/// Measures everything, each figure for `time`, and hands each over as soon as it is known.
+///
+/// # Errors
+/// Where the networks cannot be used.
+pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figure>, ThroughputError> {
+    let mut figures = Vec::new();
+    let mut note = |what, sizes, table: &Table, threads, per_second| {
+        let figure = Figure { what, sizes, table: table.name.clone(), threads, per_second };
+        tell(&figure);
+        figures.push(figure);
+    };
+    let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    for table in PRESETS.iter().filter_map(|name| Table::preset(name).ok()) {
+        let shots = shots(&table);
+        let score = |(layout, cue): &(Layout, CueInputs)| Reward::R3.of(&table, layout, cue);
+        note("scored shots", None, &table, 1, rate(time, &shots, score));
+        note("scored shots", None, &table, cores, rate_on(cores, time, &shots, score));
+        let record =
+            |(layout, cue): &(Layout, CueInputs)| Recording::new(&table, layout, cue).map(|r| r.duration()).ok();
+        note("recorded shots", None, &table, 1, rate(time, &shots, record));
+    }
+    let coach = Coach::new(Table::default())?;
+    let layouts: Vec<Layout> = shots(coach.table()).into_iter().map(|(layout, _)| layout).collect();
+    let request = Request::default();
+    let advise = |layout: &Layout| coach.recommend(layout, &request).is_ok();
+    note("recommendations", None, coach.table(), 1, rate(time, &layouts, advise));
+    let decide = |layout: &Layout| coach.policy_shot(layout);
+    note("network decisions", None, coach.table(), 1, rate(time, &layouts, decide));
+    for (sizes, actor, critic, batch) in [
+        // The batch of thesis Table 4 and the layers of the example to which it refers (its reference 20).
+        ("actor 16-16-16, critic 32-32-32, batch 32", vec![16; 3], vec![32; 3], 32),
+        ("actor and critic 256-256, batch 256", vec![256; 2], vec![256; 2], 256),
+    ] {
+        let per_second = updates(time, coach.table(), &layouts, (actor, critic), batch)?;
+        note("network updates", Some(sizes), coach.table(), 1, per_second);
+    }
+    Ok(figures)
+}
+
+/// Random layouts, and strokes at the centre of the ball in any direction with 0.5 to 6 m/s, as in training.
+fn shots(table: &Table) -> Vec<(Layout, CueInputs)> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
+    let mut shot = || {
+        let layout = Layout::random(table, &mut rng);
+        let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
+        (layout, CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed })
+    };
+    (0..DRAWN).map(|_| shot()).collect()
+}
+
+/// How many of `items` a second `work` does.
+fn rate<T, R>(time: Duration, items: &[T], work: impl Fn(&T) -> R) -> f64 {
+    let start = Instant::now();
+    let mut done = 0_u64;
+    for item in items.iter().cycle() {
+        std::hint::black_box(work(item));
+        done += 1;
+        // The clock is cheap beside any of this work.
+        if start.elapsed() >= time {
+            break;
+        }
+    }
+    done as f64 / start.elapsed().as_secs_f64()
+}
+
+/// The same on several threads, each of which begins elsewhere in the list.
+fn rate_on<T: Sync, R>(threads: usize, time: Duration, items: &[T], work: impl Fn(&T) -> R + Sync) -> f64 {
+    let work = &work;
+    thread::scope(|scope| {
+        let own = |thread: usize| items.split_at(thread * items.len() / threads).1;
+        let crew: Vec<_> = (0..threads).map(|thread| scope.spawn(move || rate(time, own(thread), work))).collect();
+        crew.into_iter().map(|thread| thread.join().unwrap_or(0.0)).sum()
+    })
+}
+
+/// Updates a second of critic, actor and their averaged copies, from a batch that is at hand.
+fn updates(
+    time: Duration,
+    table: &Table,
+    layouts: &[Layout],
+    (actor_layers, critic_layers): (Vec<usize>, Vec<usize>),
+    batch: usize,
+) -> Result<f64, candle_core::Error> {
+    let hyper = Hyperparameters {
+        heads: 1,
+        actor_layers,
+        critic_layers,
+        batch,
+        actor_batch: batch,
+        ..Hyperparameters::default()
+    };
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
+    let mut agent = Ddpg::new(hyper, &mut rng)?;
+    let views =
+        layouts.iter().take(batch).enumerate().map(|(index, layout)| View::new(layout, index % VIEWS)).collect();
+    let scenes = Scenes::new(&Arc::new(table.clone()), views)?;
+    let actions: Vec<_> = (0..batch).map(|_| [rng.random_range(-0.9..0.9), rng.random_range(-0.9..0.9)]).collect();
+    let successes: Vec<_> = (0..batch).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
+    let start = Instant::now();
+    let mut done = 0_u64;
+    while done == 0 || start.elapsed() < time {
+        agent.update(&scenes, &actions, &successes, 1.0)?;
+        done += 1;
+    }
+    Ok(done as f64 / start.elapsed().as_secs_f64())
+}
