@@ -11,5 +11,6 @@ pub mod learning;
 pub mod physics;
 pub mod simulation;
 pub mod storage;
+pub mod study;
 pub mod table;
 pub mod terminal;

@@ -1,0 +1,3 @@
+//! The program measuring itself: error against run time.
+
+pub mod plain;
