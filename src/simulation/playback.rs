@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::{Constants, Event, Observer, Segment, simulate};
+use super::{Constants, End, Event, Observer, Segment, Stepped, Steps, simulate};
 use crate::{
     physics::{BallState, CueError, CueInputs, Impulse, Motion, strike},
     table::{BALLS, Layout, LayoutError, Table},
@@ -42,13 +42,35 @@ impl Recording {
         let impulse = strike(table, cue);
         let mut recorder = Recorder::default();
         let end = simulate(table, layout, &impulse, &mut recorder);
+        Ok(Self::of(table, impulse, recorder, &end))
+    }
+
+    /// The same by the intuitive method of fixed steps, and what the steps did.
+    ///
+    /// # Errors
+    /// What is wrong with the layout or the stroke.
+    pub fn stepped(
+        table: &Table,
+        layout: &Layout,
+        cue: &CueInputs,
+        steps: Steps,
+    ) -> Result<(Self, Stepped), ShotError> {
+        layout.validate(table)?;
+        cue.validate()?;
+        let impulse = strike(table, cue);
+        let mut recorder = Recorder::default();
+        let stepped = steps.simulate(table, layout, &impulse, &mut recorder);
+        Ok((Self::of(table, impulse, recorder, &stepped.end), stepped))
+    }
+
+    fn of(table: &Table, impulse: Impulse, recorder: Recorder, end: &End) -> Self {
         let Recorder { events, mut segments } = recorder;
         for (ball, segments) in segments.iter_mut().enumerate() {
             let last =
                 Segment { start: end.time, spin: end.balls[ball].spin, ..Segment::at_rest(end.balls[ball].position) };
             segments.push(last);
         }
-        Ok(Self { constants: Constants::of(table), impulse, events, segments, duration: end.time })
+        Self { constants: Constants::of(table), impulse, events, segments, duration: end.time }
     }
 
     /// What the stroke gave the cue ball.

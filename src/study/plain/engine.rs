@@ -65,7 +65,8 @@ pub fn play<R: Real>(
     spin: Vector<R>,
     finder: Finder<R>,
 ) -> Result<Shot<R>, Unjudged> {
-    let still = |position| Ball { position, velocity: Vector::zero(), spin: Vector::zero(), motion: Motion::Stationary };
+    let still =
+        |position| Ball { position, velocity: Vector::zero(), spin: Vector::zero(), motion: Motion::Stationary };
     let mut balls = positions.map(still);
     (balls[0].velocity, balls[0].spin) = (velocity, spin);
     balls[0].set_off(numbers);

@@ -3,12 +3,7 @@
 use super::{Ball, Numbers, Real, Vector};
 
 /// Two balls collide, with the given restitution (the table's, or zero at the end of a chatter).
-pub fn balls_collide<R: Real>(
-    numbers: &Numbers<R>,
-    restitution: R,
-    first: &mut Ball<R>,
-    second: &mut Ball<R>,
-) -> R {
+pub fn balls_collide<R: Real>(numbers: &Numbers<R>, restitution: R, first: &mut Ball<R>, second: &mut Ball<R>) -> R {
     let one = R::of(1.0);
     let n = (first.position - second.position).direction();
     let relative = first.velocity - second.velocity;

@@ -130,9 +130,13 @@ impl<R: Real> Press<R> {
                 let previous = std::mem::replace(&mut row[k], best);
                 best = std::array::from_fn(|i| best[i] + (best[i] - previous[i]) * factor);
             }
+            let settled = row.last().is_some_and(|last| agree(last, &best));
             row.push(best);
+            if settled {
+                break;
+            }
         }
-        row[COLUMNS - 1]
+        row[row.len() - 1]
     }
 
     fn ball_of(&self, state: &State<R>) -> Ball<R> {
@@ -187,6 +191,11 @@ impl<R: Real> Press<R> {
             ball.spin.z = R::zero();
         }
     }
+}
+
+/// Whether two columns differ by no more than rounding.
+fn agree<R: Real>(one: &State<R>, other: &State<R>) -> bool {
+    one.iter().zip(other).all(|(a, b)| (*a - *b).abs() <= R::of(R::ROUNDING) * a.abs())
 }
 
 fn combine<R: Real>(state: &State<R>, factor: R, rates: &State<R>) -> State<R> {
