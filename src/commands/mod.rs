@@ -1,5 +1,6 @@
 //! The command line, one file a subcommand.
 
+mod accuracy;
 mod evaluate;
 mod failure;
 mod input;
@@ -29,6 +30,7 @@ enum Command {
     Recommend(recommend::Args),
     Train(train::Args),
     Evaluate(evaluate::Args),
+    Accuracy(accuracy::Args),
 }
 
 impl Cli {
@@ -43,6 +45,7 @@ impl Cli {
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),
             Some(Command::Evaluate(args)) => evaluate::run(&args),
+            Some(Command::Accuracy(args)) => accuracy::run(&args),
         }
     }
 }
