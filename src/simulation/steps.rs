@@ -93,6 +93,11 @@ impl Ball {
         self.segment.motion != Motion::Stationary
     }
 
+    /// Whether time changes anything about it: it may spin where it stands.
+    fn turns(&self) -> bool {
+        self.moves() || self.state.spin.z != 0.0
+    }
+
     /// The state `time` later, with velocity and acceleration as they are now.
     fn after(&self, constants: &Constants, time: f64) -> BallState {
         Segment { position: self.state.position, velocity: self.state.velocity, spin: self.state.spin, ..self.segment }
@@ -138,7 +143,7 @@ impl<'a, O: Observer> Stepper<'a, O> {
     }
 
     fn advance(&mut self, to: f64) {
-        for ball in self.balls.iter_mut().filter(|ball| ball.moves()) {
+        for ball in self.balls.iter_mut().filter(|ball| ball.turns()) {
             ball.state = ball.after(&self.constants, to - self.now);
         }
         self.now = to;

@@ -38,8 +38,21 @@ pub struct Series {
     pub color: &'static str,
     /// Its marks; all but dots are joined by a line.
     pub mark: Mark,
-    /// x, y, and an upper value to which a thin line is drawn.
-    pub points: Vec<(f64, f64, Option<f64>)>,
+    /// Its points.
+    pub points: Vec<Spot>,
+}
+
+/// One point of a series.
+#[derive(Clone, Debug, Default)]
+pub struct Spot {
+    /// Along the x axis.
+    pub x: f64,
+    /// Along the y axis.
+    pub y: f64,
+    /// An upper value of y, to which a thin line is drawn.
+    pub upper: Option<f64>,
+    /// What stands below it.
+    pub label: String,
 }
 
 /// One panel.
@@ -210,7 +223,7 @@ impl Frame<'_> {
 
     fn series(&self, svg: &mut String, series: &Series) {
         let Series { color, mark, points, .. } = series;
-        let places: Vec<(f64, f64)> = points.iter().map(|(x, y, _)| (self.at_x(*x), self.at_y(*y))).collect();
+        let places: Vec<(f64, f64)> = points.iter().map(|spot| (self.at_x(spot.x), self.at_y(spot.y))).collect();
         if *mark == Mark::Dots {
             let dots: String = places.iter().fold(String::new(), |mut path, (x, y)| {
                 let _ = write!(path, "M{x:.1} {y:.1}h0");
@@ -229,12 +242,20 @@ impl Frame<'_> {
         if *mark == Mark::Dashes {
             return;
         }
-        for ((x, y), (_, _, upper)) in places.iter().zip(points) {
+        for ((x, y), Spot { upper, label, .. }) in places.iter().zip(points) {
             if let Some(upper) = upper {
                 let top = self.at_y(*upper);
                 let _ = writeln!(svg, r#"<path d="M{x:.1} {y:.1}V{top:.1}m-3 0h6" stroke="{color}" fill="none"/>"#);
             }
             let _ = writeln!(svg, r##"<path d="{}" fill="{color}" stroke="#ffffff"/>"##, shape(*mark, *x, *y));
+            if !label.is_empty() {
+                let below = y + 19.0;
+                let _ = writeln!(
+                    svg,
+                    r#"<text x="{x:.1}" y="{below:.1}" text-anchor="middle" font-size="10" fill="{color}">{}</text>"#,
+                    escaped(label)
+                );
+            }
         }
     }
 }
@@ -286,8 +307,12 @@ mod tests {
 
     #[test]
     fn a_name_that_svg_would_misread_is_escaped_and_every_series_is_in_the_legend_once() {
-        let series =
-            |mark| Series { name: "a < b".to_owned(), color: "#000000", mark, points: vec![(1.0, 1.0, Some(5.0))] };
+        let series = |mark| Series {
+            name: "a < b".to_owned(),
+            color: "#000000",
+            mark,
+            points: vec![Spot { x: 1.0, y: 1.0, upper: Some(5.0), label: "1 < 2".to_owned() }],
+        };
         let panel = |title: &str| Panel { title: title.to_owned(), series: vec![series(Mark::Star)] };
         let labels = || "label".to_owned();
         let panels = vec![panel("one"), panel("two")];

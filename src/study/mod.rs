@@ -15,6 +15,7 @@ mod statistics;
 mod truth;
 
 pub use clock::CLOCK;
+pub use errors::Errors;
 pub use methods::Method;
 pub use plots::{error_against_condition, error_against_time};
 pub use precision::{Plan, Point, Row, Study};

@@ -1,7 +1,9 @@
 //! The study's two pictures: what exactness costs, and what limits it.
 
+use std::ops::RangeInclusive;
+
 use super::{
-    chart::{Chart, Mark, Panel, Series, decades},
+    chart::{Chart, Mark, Panel, Series, Spot, decades},
     plain::Real,
     precision::{Row, Study},
 };
@@ -40,8 +42,8 @@ pub fn error_against_time(studies: &[Study]) -> String {
     let panels: Vec<Panel> = panels.collect();
     let points = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
     let (x, y) = (
-        decades(points().map(|point| point.0), -2, 9),
-        decades(points().flat_map(|point| [point.1, point.2.unwrap_or(point.1)]), -17, 1),
+        decades(points().map(|spot| spot.x), -2, 9),
+        decades(points().flat_map(|spot| [spot.y, spot.upper.unwrap_or(spot.y)]), -17, 1),
     );
     Chart {
         title: "Error at rest against run time, by method and time step".to_owned(),
@@ -54,9 +56,10 @@ pub fn error_against_time(studies: &[Study]) -> String {
     .svg(SIZE.0, SIZE.1)
 }
 
-fn point_of(row: &Row) -> Option<(f64, f64, Option<f64>)> {
+fn point_of(row: &Row) -> Option<Spot> {
     let rest = row.rest_m?;
-    Some((row.cost_us, rest.median.max(LEAST), Some(rest.p99.max(LEAST))))
+    let label = row.dt.map_or_else(String::new, |dt| format!("{dt:e} s"));
+    Some(Spot { x: row.cost_us, y: rest.median.max(LEAST), upper: Some(rest.p99.max(LEAST)), label })
 }
 
 /// Error at rest against the shot's own amplification, shot by shot.
@@ -66,8 +69,8 @@ pub fn error_against_condition(studies: &[Study]) -> String {
         let mut series: Vec<Series> = shown.iter().filter_map(|&(family, dt)| dots(study, family, dt)).collect();
         for (name, color, factor) in [("1 unit", "#24292f", 1.0), ("64 units", "#8c959f", 64.0)] {
             let conditions = (-20..120).map(|tenth| 10_f64.powf(f64::from(tenth) / 10.0));
-            let points =
-                conditions.map(|condition| (condition, factor * (1.0 + condition) * f64::ROUNDING, None)).collect();
+            let line = |x: f64| Spot { x, y: factor * (1.0 + x) * f64::ROUNDING, ..Spot::default() };
+            let points = conditions.map(line).collect();
             series.push(Series { name: name.to_owned(), color, mark: Mark::Dashes, points });
         }
         Panel { title: format!("\"{}\" table", study.table), series }
@@ -77,15 +80,15 @@ pub fn error_against_condition(studies: &[Study]) -> String {
         let series = panels.iter().flat_map(|panel| &panel.series);
         series.filter(|series| series.mark == Mark::Dots).flat_map(|series| &series.points)
     };
-    let (x, y) = (decades(dots().map(|point| point.0), -1, 9), decades(dots().map(|point| point.1), -17, 1));
+    let (x, y) = (decades(dots().map(|spot| spot.x), -1, 9), decades(dots().map(|spot| spot.y), -17, 1));
     let clipped = |panel: &Panel| {
-        let inside = |point: &&(f64, f64, Option<f64>)| {
-            let (low, high) = (10_f64.powi(*x.start()), 10_f64.powi(*x.end()));
-            point.0 >= low && point.0 <= high && point.1 <= 10_f64.powi(*y.end()) && point.1 >= 10_f64.powi(*y.start())
+        let within = |value: f64, range: &RangeInclusive<i32>| {
+            value >= 10_f64.powi(*range.start()) && value <= 10_f64.powi(*range.end())
         };
+        let inside = |spot: &&Spot| within(spot.x, &x) && within(spot.y, &y);
         let series = panel.series.iter().map(|series| {
             let points = if series.mark == Mark::Dashes {
-                series.points.iter().filter(inside).copied().collect()
+                series.points.iter().filter(inside).cloned().collect()
             } else {
                 series.points.clone()
             };
@@ -108,7 +111,7 @@ fn dots(study: &Study, family: &str, dt: Option<f64>) -> Option<Series> {
     let index = study.rows.iter().position(|row| row.method == family && row.dt == dt)?;
     let color = LOOKS.iter().find(|look| look.0 == family)?.1;
     let points = study.points[index].iter().take(MOST_DOTS);
-    let points = points.map(|point| (point.condition, point.rest.max(LEAST), None)).collect();
+    let points = points.map(|point| Spot { x: point.condition, y: point.rest.max(LEAST), ..Spot::default() }).collect();
     let name = dt.map_or_else(|| family.to_owned(), |dt| format!("{family}, dt {dt:e} s"));
     Some(Series { name, color, mark: Mark::Dots, points })
 }
