@@ -40,7 +40,9 @@ impl Errors {
         let late = mine.iter().zip(&theirs).take(same).map(|(mine, theirs)| (mine.0 - theirs.0).abs());
         let outcome = |events: &[(f64, EventKind)]| {
             let mut tally = Tally::default();
-            events.iter().for_each(|&(time, kind)| tally.note(&Event { time, kind }));
+            for &(time, kind) in events {
+                tally.note(&Event { time, kind });
+            }
             RULES.map(|rule| tally.is_point(rule))
         };
         let (ours, right) = (outcome(&run.events), outcome(&truth.events));

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::{
-    clock::thread_time,
-    errors::{Errors, RULES},
+    clock::timed,
+    errors::Errors,
     methods::{Method, Run},
     plain::Unjudged,
     shots::StudyShot,
@@ -56,6 +56,8 @@ pub struct Row {
     pub rest_m: Option<Spread>,
     /// The same over `(1 + condition) 2^-53`.
     pub rest_units: Option<Spread>,
+    /// Shots that are off by more than a billionth of a metre at rest.
+    pub beyond_1e_9_m: Share,
     /// Error of event times, s.
     pub time_s: Option<Spread>,
     /// The same over `(1 + condition) 2^-53`.
@@ -98,7 +100,7 @@ pub struct Study {
     pub judged: usize,
     /// Of those, the share in which balls chatter or rest against something while they move.
     pub chatters: Share,
-    /// Points among the judged shots under each of the rules.
+    /// Spread of their condition, m.
     pub amplification: Option<Spread>,
     /// Spread of the truth's own energy balance.
     pub truth_energy: Option<Spread>,
@@ -128,18 +130,18 @@ impl Plan {
         let mut truth_cost = 0.0;
         for start in (0..self.shots.len()).step_by(BLOCK) {
             let block = start..(start + BLOCK).min(self.shots.len());
-            let before = thread_time();
-            truths.extend(self.shots[block.clone()].iter().map(|shot| Truth::of(&self.table, shot)));
-            truth_cost += (thread_time() - before).as_secs_f64();
+            let shots = self.shots[block.clone()].iter().map(|shot| Truth::of(&self.table, shot));
+            truth_cost += timed(|| truths.extend(shots)).1;
             let judged: Vec<usize> = block.clone().filter(|&index| truths[index].is_ok()).collect();
             let mut fastest = vec![f64::INFINITY; self.methods.len()];
             let mut runs: Vec<Vec<Option<Run>>> = vec![Vec::new(); self.methods.len()];
             for _ in 0..self.rounds {
                 for (index, &method) in self.methods.iter().enumerate() {
                     let shots = judged.iter().filter(|&&shot| shot < self.limit(method));
-                    let before = thread_time();
-                    runs[index] = shots.map(|&shot| method.play(&self.table, &self.shots[shot])).collect();
-                    fastest[index] = fastest[index].min((thread_time() - before).as_secs_f64());
+                    let play = |&shot: &usize| method.play(&self.table, &self.shots[shot]);
+                    let seconds;
+                    (runs[index], seconds) = timed(|| shots.map(play).collect());
+                    fastest[index] = fastest[index].min(seconds);
                 }
             }
             for (index, gathered) in gathered.iter_mut().enumerate() {
@@ -198,7 +200,6 @@ impl Plan {
             let size = |shot: &(usize, Option<Errors>, _)| shot.1.map_or(0.0, |errors: Errors| errors.rest_units);
             size(one).total_cmp(&size(other))
         });
-        debug_assert_eq!(RULES.len(), 2);
         Row {
             table: self.table.name.clone(),
             method: method.family(),
@@ -209,6 +210,7 @@ impl Plan {
             cost_spread_us: Spread::of(gathered.blocks.iter().copied()),
             rest_m: Spread::of(errors().map(|errors| errors.rest)),
             rest_units: Spread::of(errors().map(|errors| errors.rest_units)),
+            beyond_1e_9_m: Share::of(errors().map(|errors| errors.rest > 1e-9)),
             time_s: Spread::of(timed().map(|(_, time)| time)),
             time_units: Spread::of(timed().map(|(shot, time)| time / unit(shot))),
             wrong_sequence: Share::of(errors().map(|errors| errors.differs_at.is_some())),

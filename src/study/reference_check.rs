@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     physics::CueInputs,
-    simulation::{EventKind, Recording},
+    simulation::{EventKind, Rail, Recording},
     table::{Layout, Table},
 };
 
@@ -121,7 +121,5 @@ fn distance(one: &Layout, other: &Layout) -> f64 {
 fn is(kind: EventKind, written: &ReferenceEvent) -> bool {
     let (first, second) = kind.balls();
     let balls: Vec<usize> = [Some(first), second].into_iter().flatten().collect();
-    kind.name() == written.kind
-        && balls == written.balls
-        && kind.rail().map(|rail| rail.name()) == written.rail.as_deref()
+    kind.name() == written.kind && balls == written.balls && kind.rail().map(Rail::name) == written.rail.as_deref()
 }

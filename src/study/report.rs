@@ -73,17 +73,18 @@ fn study_text(out: &mut String, study: &Study) {
         study.truth_cost_us,
         spread(study.truth_energy)
     );
-    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {:<27}{:<27}", "", "", "µs a shot", "error at rest, m", "in units");
-    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {THREE:<27}{THREE:<27}", "method", "shots", "mean");
+    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {:<27}{:<27}off by", "", "", "µs a shot", "error at rest, m", "in units");
+    let _ = writeln!(out, "{:<36}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
     for row in &study.rows {
         let _ = writeln!(
             out,
-            "{:<36}{:>6}{:>11.2}  {:<27}{:<27}",
+            "{:<36}{:>6}{:>11.2}  {:<27}{:<27}{}",
             name(row),
             row.shots,
             row.cost_us,
             spread(row.rest_m),
-            spread(row.rest_units)
+            spread(row.rest_units),
+            wrong(row.beyond_1e_9_m)
         );
     }
     let _ = writeln!(out, "\n{:<36}{:<27}{:>9}{:>7}  {:<27}", "", "event times, s", "wrong", "first", "energy balance");
@@ -158,7 +159,7 @@ fn flips(share: Share) -> String {
 /// One line a table and method.
 pub fn csv(studies: &[Study]) -> String {
     let spreads = ["cost_us", "rest_m", "rest_units", "time_s", "time_units", "energy"];
-    let shares = ["wrong_sequence", "flips_straight", "flips_three_cushion"];
+    let shares = ["beyond_1e_9_m", "wrong_sequence", "flips_straight", "flips_three_cushion"];
     let mut out = "table,method,dt_s,shots,failed,mean_cost_us".to_owned();
     for name in spreads {
         let _ = write!(out, ",{name}_median,{name}_p99,{name}_worst");
@@ -178,7 +179,7 @@ pub fn csv(studies: &[Study]) -> String {
                 None => write!(out, ",,,"),
             };
         }
-        for share in [row.wrong_sequence, row.flips_straight, row.flips_three_cushion] {
+        for share in [row.beyond_1e_9_m, row.wrong_sequence, row.flips_straight, row.flips_three_cushion] {
             let _ = write!(out, ",{},{},{:.5},{:.5}", share.count, share.of, share.low, share.high);
         }
         out.push('\n');

@@ -101,6 +101,7 @@ impl<R: Real> Ball<R> {
 
 impl Motion {
     /// The motion that follows when this one has lasted its full time; what has ended is made to end exactly.
+    #[must_use]
     pub fn successor<R: Real>(self, ball: &mut Ball<R>, numbers: &Numbers<R>) -> Self {
         if self == Self::Rolling {
             ball.velocity = Vector::zero();

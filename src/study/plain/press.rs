@@ -124,10 +124,10 @@ impl<R: Real> Press<R> {
                 (last, now) = (now, combine(&last, R::of(2.0) * step, &self.rates(&now)));
             }
             let mut best = now;
-            for k in 0..column {
+            for (k, entry) in row.iter_mut().enumerate() {
                 let ratio = R::ratio(count as f64, (2 * (column - k)) as f64);
                 let factor = R::of(1.0) / (ratio * ratio - R::of(1.0));
-                let previous = std::mem::replace(&mut row[k], best);
+                let previous = std::mem::replace(entry, best);
                 best = std::array::from_fn(|i| best[i] + (best[i] - previous[i]) * factor);
             }
             let settled = row.last().is_some_and(|last| agree(last, &best));
