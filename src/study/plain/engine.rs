@@ -2,9 +2,11 @@
 
 use super::{
     Ball, Finder, Motion, Numbers, Real, Vector,
+    course::{Course, press},
     impact::{balls_collide, rail_collides},
     meeting::{Meeting, balls_meet, rail_met},
-    press::{Press, normal},
+    press::Press,
+    table::normal,
 };
 use crate::{
     simulation::{EventKind, Rail},
@@ -93,52 +95,6 @@ pub fn play<R: Real>(
     let duration = events.last().map_or(R::zero(), |event| event.0);
     let unaccounted = energy - energy_of(&balls) - work;
     Ok(Shot { events, end: balls, duration, pressed, energy: [energy, unaccounted] })
-}
-
-/// A ball and, where it is pressed, the piece of its course that comes next.
-#[derive(Clone, Copy)]
-pub struct Course<R> {
-    pub ball: Ball<R>,
-    pub press: Option<Press<R>>,
-}
-
-impl<R: Real> Course<R> {
-    fn new(numbers: &Numbers<R>, ball: Ball<R>) -> Self {
-        let press = match ball.motion {
-            Motion::Pressed(rail) => Some(Press::new(numbers, &ball, rail)),
-            _ => None,
-        };
-        Self { ball, press }
-    }
-
-    fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
-        self.press.map_or_else(|| self.ball.lasts(numbers), |press| Some(press.lasts()))
-    }
-
-    pub fn after(&self, numbers: &Numbers<R>, time: R) -> (Ball<R>, R) {
-        self.press.map_or_else(|| self.ball.after(numbers, time), |press| press.after(time))
-    }
-}
-
-/// Whether the cloth presses a ball against a cushion that it touches.
-fn press<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> Result<(), Unjudged> {
-    if ball.motion != Motion::Sliding {
-        return Ok(());
-    }
-    let (pull, Ball { position, velocity, .. }) = (ball.acceleration(numbers), *ball);
-    let holds = |rail: &Rail| {
-        let n = normal(*rail);
-        let speed = velocity.dot(n);
-        numbers.reach(*rail) + position.dot(n) <= Numbers::touching()
-            && speed.abs() <= Numbers::settled()
-            && pull.dot(n) < R::zero()
-    };
-    let mut rails = Rail::ALL.into_iter().filter(holds);
-    let Some(rail) = rails.next() else { return Ok(()) };
-    let n = normal(rail);
-    ball.velocity = ball.velocity - n * ball.velocity.dot(n);
-    ball.motion = Motion::Pressed(rail);
-    if rails.next().is_some() { Err(Unjudged::Corner) } else { Ok(()) }
 }
 
 /// The next event and the time to it.

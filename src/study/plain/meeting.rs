@@ -2,7 +2,7 @@
 //!
 //! A gap that is closed already opens again or presses; only what closes it afresh is a meeting.
 
-use super::{Finder, Motion, Numbers, Real, engine::Course, press::normal, roots::bracketed};
+use super::{Finder, Motion, Numbers, Real, course::Course, roots::bracketed, table::normal};
 use crate::simulation::Rail;
 
 /// What lies ahead of two balls.

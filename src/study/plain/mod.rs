@@ -3,6 +3,7 @@
 //!
 //! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.
 
+mod course;
 mod cue;
 mod double_double;
 mod engine;
@@ -20,8 +21,7 @@ pub use double_double::DoubleDouble;
 pub use engine::{Shot, Unjudged, play};
 pub use impact::{balls_collide, rail_collides};
 pub use motion::{Ball, Motion};
-pub use press::normal as rail_normal;
 pub use real::Real;
 pub use roots::{Finder, algorithm_1010, by_extrema, closed_form};
-pub use table::Numbers;
+pub use table::{Numbers, normal as rail_normal};
 pub use vector::Vector;

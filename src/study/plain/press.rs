@@ -5,7 +5,7 @@
 //! The equations are singular where `u` ends. With a time `tau` of which `dt = |u| dtau` they are smooth throughout and
 //! `u` decays like an exponential; extrapolated midpoint steps (Gragg, Bulirsch and Stoer) solve them in any precision.
 
-use super::{Ball, Motion, Numbers, Real, Vector, roots::bracketed};
+use super::{Ball, Motion, Numbers, Real, Vector, roots::bracketed, table::normal};
 use crate::simulation::Rail;
 
 /// Time, place along the cushion, velocity along it, spin about n, t and z, work over mass.
@@ -16,17 +16,6 @@ const COLUMNS: usize = 14;
 
 /// Longest piece of a course, s: how finely its neighbours are looked at.
 const LONGEST: f64 = 4e-3;
-
-/// Unit vector from a cushion into the table.
-pub fn normal<R: Real>(rail: Rail) -> Vector<R> {
-    let (zero, one) = (R::zero(), R::of(1.0));
-    match rail {
-        Rail::Left => Vector::new(one, zero, zero),
-        Rail::Right => Vector::new(-one, zero, zero),
-        Rail::Bottom => Vector::new(zero, one, zero),
-        Rail::Top => Vector::new(zero, -one, zero),
-    }
-}
 
 /// A piece of the course of a ball that is pressed against a cushion.
 #[derive(Clone, Copy, Debug)]

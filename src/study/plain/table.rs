@@ -1,6 +1,6 @@
 //! A table's numbers in the engine's own precision.
 
-use super::Real;
+use super::{Real, Vector};
 use crate::{simulation::Rail, table::Table};
 
 /// What the equations need of a table, in SI units.
@@ -65,5 +65,16 @@ impl<R: Real> Numbers<R> {
     /// Gaps below this are contact, m.
     pub fn touching() -> R {
         R::of(64.0 * R::ROUNDING)
+    }
+}
+
+/// Unit vector from a cushion into the table.
+pub fn normal<R: Real>(rail: Rail) -> Vector<R> {
+    let (zero, one) = (R::zero(), R::of(1.0));
+    match rail {
+        Rail::Left => Vector::new(one, zero, zero),
+        Rail::Right => Vector::new(-one, zero, zero),
+        Rail::Bottom => Vector::new(zero, one, zero),
+        Rail::Top => Vector::new(zero, -one, zero),
     }
 }
