@@ -51,7 +51,7 @@ struct Size {
 
 impl Size {
     fn of(args: &Args) -> Self {
-        let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 6e7) };
+        let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 4e7) };
         Self { shots: args.shots.map_or(shots, |shots| shots as usize), finest, rounds, steps }
     }
 }

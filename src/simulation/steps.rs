@@ -59,9 +59,9 @@ impl Steps {
         let mut stepper = Stepper::new(table, layout, observer);
         let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..stepper.balls[0].state };
         stepper.balls[0] = Ball::launched(&stepper.constants, 0.0, state);
-        // No ball of this energy can roll longer; twice that is jitter.
+        // No ball of this energy can roll longer; what still moves then is jitter.
         let energy = state.specific_energy(table.radius);
-        let limit = 1.0 + 2.0 * (2.0 * energy).sqrt() / rolling_deceleration(table);
+        let limit = 1.0 + (2.0 * energy).sqrt() / rolling_deceleration(table);
         let (mut steps, mut flow) = (0_u64, ControlFlow::Continue(()));
         while flow.is_continue() && !stepper.at_rest() && steps as f64 * self.dt < limit {
             steps += 1;

@@ -17,6 +17,9 @@ use crate::table::Table;
 /// machine's noise hits all methods alike.
 const BLOCK: usize = 16;
 
+/// A block that takes longer than this is timed once: a machine's noise is short, s.
+const LONG: f64 = 0.1;
+
 /// Seconds that a shot takes on the table, about: it tells how many steps one costs.
 const SHOT_SECONDS: f64 = 8.0;
 
@@ -29,7 +32,7 @@ pub struct Plan {
     pub shots: Vec<StudyShot>,
     /// The methods.
     pub methods: Vec<Method>,
-    /// How often each shot is timed; the fastest counts.
+    /// How often each block of shots is timed; the fastest counts.
     pub rounds: usize,
     /// Steps that a method may take in a round: methods of short steps play fewer shots, always the first ones.
     pub steps: f64,
@@ -135,8 +138,11 @@ impl Plan {
             let judged: Vec<usize> = block.clone().filter(|&index| truths[index].is_ok()).collect();
             let mut fastest = vec![f64::INFINITY; self.methods.len()];
             let mut runs: Vec<Vec<Option<Run>>> = vec![Vec::new(); self.methods.len()];
-            for _ in 0..self.rounds {
+            for round in 0..self.rounds {
                 for (index, &method) in self.methods.iter().enumerate() {
+                    if round > 0 && fastest[index] > LONG {
+                        continue;
+                    }
                     let shots = judged.iter().filter(|&&shot| shot < self.limit(method));
                     let play = |&shot: &usize| method.play(&self.table, &self.shots[shot]);
                     let seconds;

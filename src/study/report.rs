@@ -56,7 +56,7 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(out, "Table \"{}\": {all} random shots, the same for every method.", study.table);
     let _ = writeln!(
         out,
-        "Not judged, since the truth does not cover them: {} ({:.1} %){}",
+        "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}",
         study.unjudged.len(),
         100.0 * study.unjudged.len() as f64 / all.max(1) as f64,
         reasons(study)
