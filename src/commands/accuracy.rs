@@ -6,6 +6,7 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
 
 use super::{Failure, input::table_named};
 use crate::{
@@ -34,7 +35,7 @@ pub struct Args {
     /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print one JSON object for each reference file and each method instead of tables.
+    /// Print one JSON object for each reference file, each table and each method instead of the text.
     #[arg(long)]
     json: bool,
 }
@@ -71,15 +72,23 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     if args.json {
         for row in &references {
-            writeln!(out, "{}", serde_json::to_string(row).map_err(std::io::Error::from)?)?;
+            write_json(&mut out, row)?;
         }
-        for row in studies.iter().flat_map(|study| &study.rows) {
-            writeln!(out, "{}", serde_json::to_string(row).map_err(std::io::Error::from)?)?;
+        for study in &studies {
+            write_json(&mut out, &study.summary)?;
+            for row in &study.rows {
+                write_json(&mut out, row)?;
+            }
         }
     } else {
         out.write_all(study::text(&references, &studies).as_bytes())?;
     }
     Ok(())
+}
+
+fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<()> {
+    serde_json::to_writer(&mut *out, value)?;
+    writeln!(out)
 }
 
 fn measure(table: Table, size: &Size, seed: u64) -> Study {

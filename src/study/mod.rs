@@ -18,7 +18,7 @@ pub use clock::CLOCK;
 pub use errors::Errors;
 pub use methods::Method;
 pub use plots::{error_against_condition, error_against_time};
-pub use precision::{Plan, Point, Row, Study};
+pub use precision::{Plan, Point, Row, Study, Summary};
 pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references};
 pub use report::{csv, text};
 pub use shots::{StudyShot, random_shots};

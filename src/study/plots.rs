@@ -37,7 +37,7 @@ pub fn error_against_time(studies: &[Study]) -> String {
             let points: Vec<_> = rows.filter_map(point_of).collect();
             (!points.is_empty()).then(|| Series { name: family.to_owned(), color, mark, points })
         });
-        Panel { title: format!("\"{}\" table", study.table), series: series.collect() }
+        Panel { title: format!("\"{}\" table", study.summary.table), series: series.collect() }
     });
     let panels: Vec<Panel> = panels.collect();
     let points = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
@@ -73,7 +73,7 @@ pub fn error_against_condition(studies: &[Study]) -> String {
             let points = conditions.map(line).collect();
             series.push(Series { name: name.to_owned(), color, mark: Mark::Dashes, points });
         }
-        Panel { title: format!("\"{}\" table", study.table), series }
+        Panel { title: format!("\"{}\" table", study.summary.table), series }
     });
     let panels: Vec<Panel> = panels.collect();
     let dots = || {

@@ -91,21 +91,28 @@ pub struct Point {
 /// What has come of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// The table's name.
-    pub table: String,
+    /// What the shots are like.
+    pub summary: Summary,
     /// The methods in the plan's order.
     pub rows: Vec<Row>,
     /// Each method's shots.
     pub points: Vec<Vec<Point>>,
     /// Shots whose truth is not known, and why.
     pub unjudged: Vec<(usize, Unjudged)>,
-    /// Shots with known truth.
-    pub judged: usize,
+}
+
+/// The shots of one table and their truth.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// The table's name.
+    pub table: String,
+    /// Shots with known truth: all others are neither judged nor timed.
+    pub judged: Share,
     /// Of those, the share in which balls chatter or rest against something while they move.
     pub chatters: Share,
-    /// Spread of their condition, m.
-    pub amplification: Option<Spread>,
-    /// Spread of the truth's own energy balance.
+    /// Their condition, m.
+    pub condition_m: Option<Spread>,
+    /// What the truth's own energy balance is off by, as a share of the first energy.
     pub truth_energy: Option<Spread>,
     /// Mean CPU time of the truth, its two neighbours included, µs a shot.
     pub truth_cost_us: f64,
@@ -164,10 +171,10 @@ impl Plan {
             }
             progress(block.end);
         }
-        self.summary(&truths, &gathered, truth_cost)
+        self.study(&truths, &gathered, truth_cost)
     }
 
-    fn summary(&self, truths: &[Result<Truth, Unjudged>], gathered: &[Gathered], truth_cost: f64) -> Study {
+    fn study(&self, truths: &[Result<Truth, Unjudged>], gathered: &[Gathered], truth_cost: f64) -> Study {
         let known = || truths.iter().flatten();
         let points = |gathered: &Gathered| {
             let point = |&(shot, errors, _): &(usize, Option<Errors>, _)| {
@@ -176,25 +183,24 @@ impl Plan {
             };
             gathered.shots.iter().filter_map(point).collect()
         };
-        Study {
+        let summary = Summary {
             table: self.table.name.clone(),
-            rows: self
-                .methods
-                .iter()
-                .zip(gathered)
-                .map(|(&method, gathered)| self.row(method, truths, gathered))
-                .collect(),
+            judged: Share::of(truths.iter().map(Result::is_ok)),
+            chatters: Share::of(known().map(|truth| truth.chatters)),
+            condition_m: Spread::of(known().map(|truth| truth.condition)),
+            truth_energy: Spread::of(known().map(|truth| truth.unaccounted.abs())),
+            truth_cost_us: 1e6 * truth_cost / truths.len().max(1) as f64,
+        };
+        let methods = self.methods.iter().zip(gathered);
+        Study {
+            summary,
+            rows: methods.map(|(&method, gathered)| self.row(method, truths, gathered)).collect(),
             points: gathered.iter().map(points).collect(),
             unjudged: truths
                 .iter()
                 .enumerate()
                 .filter_map(|(i, truth)| truth.as_ref().err().map(|e| (i, *e)))
                 .collect(),
-            judged: known().count(),
-            chatters: Share::of(known().map(|truth| truth.chatters)),
-            amplification: Spread::of(known().map(|truth| truth.condition)),
-            truth_energy: Spread::of(known().map(|truth| truth.unaccounted.abs())),
-            truth_cost_us: 1e6 * truth_cost / truths.len().max(1) as f64,
         }
     }
 

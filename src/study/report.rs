@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{
     clock::CLOCK,
-    precision::{Row, Study},
+    precision::{Row, Study, Summary},
     reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow},
     statistics::{Share, Spread},
 };
@@ -52,26 +52,25 @@ fn references_text(out: &mut String, rows: &[ReferenceRow]) {
 }
 
 fn study_text(out: &mut String, study: &Study) {
-    let all = study.judged + study.unjudged.len();
-    let _ = writeln!(out, "Table \"{}\": {all} random shots, the same for every method.", study.table);
+    let Summary { table, judged, chatters, condition_m, truth_energy, truth_cost_us } = &study.summary;
+    let _ = writeln!(out, "Table \"{table}\": {} random shots, the same for every method.", judged.of);
     let _ = writeln!(
         out,
         "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}",
-        study.unjudged.len(),
-        100.0 * study.unjudged.len() as f64 / all.max(1) as f64,
+        judged.of - judged.count,
+        100.0 - percent(*judged),
         reasons(study)
     );
     let _ = writeln!(
         out,
         "Balls chatter or rest against something while they move in {:.1} % of the others.",
-        percent(study.chatters)
+        percent(*chatters)
     );
-    let _ = writeln!(out, "Condition, m: {} (median, p99, worst).", spread(study.amplification));
+    let _ = writeln!(out, "Condition, m: {} (median, p99, worst).", spread(*condition_m));
     let _ = writeln!(
         out,
-        "Truth: double-double, {:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
-        study.truth_cost_us,
-        spread(study.truth_energy)
+        "Truth: double-double, {truth_cost_us:.0} µs a shot with its two neighbours; its energy balance is off by {}.\n",
+        spread(*truth_energy)
     );
     let _ = writeln!(out, "{:<36}{:>6}{:>11}  {:<27}{:<27}off by", "", "", "µs a shot", "error at rest, m", "in units");
     let _ = writeln!(out, "{:<36}{:>6}{:>11}  {THREE:<27}{THREE:<27}> 1e-9 m", "method", "shots", "mean");
