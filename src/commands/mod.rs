@@ -1,5 +1,6 @@
 //! The command line, one file a subcommand.
 
+mod accuracy;
 mod bench;
 mod evaluate;
 mod failure;
@@ -30,6 +31,7 @@ enum Command {
     Recommend(recommend::Args),
     Train(train::Args),
     Evaluate(evaluate::Args),
+    Accuracy(accuracy::Args),
     Bench(bench::Args),
 }
 
@@ -45,6 +47,7 @@ impl Cli {
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),
             Some(Command::Evaluate(args)) => evaluate::run(&args),
+            Some(Command::Accuracy(args)) => accuracy::run(&args),
             Some(Command::Bench(args)) => bench::run(&args),
         }
     }

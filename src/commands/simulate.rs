@@ -11,9 +11,12 @@ use super::{
 };
 use crate::{
     physics::CueInputs,
-    simulation::{Event, Recording},
+    simulation::{Event, Recording, Stepped, Steps},
     table::{Layout, Table},
 };
+
+/// The time step that is taken where none is given, s: some hundred pictures a second.
+const DEFAULT_STEP: f64 = 0.01;
 
 /// Simulate one shot, or a file of them.
 #[derive(Debug, clap::Args)]
@@ -29,6 +32,24 @@ pub struct Args {
     /// JSON Lines of shots with `preset`, `layout` and `cue`; "-" reads the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "shot")]
     batch: Option<String>,
+    /// How time goes on: from event to event, or in the fixed steps of thesis 3.1, to see what they miss.
+    #[arg(long, value_enum, default_value_t = Method::Events)]
+    method: Method,
+    /// With --method steps, the time step, s. Default: 0.01
+    #[arg(long, value_name = "SECONDS")]
+    dt: Option<f64>,
+    /// With --method steps, locate within the step what is seen at its end.
+    #[arg(long)]
+    locate: bool,
+}
+
+/// How time goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Method {
+    /// From one event to the next.
+    Events,
+    /// In fixed steps.
+    Steps,
 }
 
 /// One line of a batch.
@@ -46,25 +67,49 @@ struct Answer {
     #[serde(rename = "final")]
     end: Layout,
     duration: f64,
+    #[serde(flatten)]
+    steps: Option<StepsAnswer>,
+}
+
+/// What the fixed-step method has to own up to.
+#[derive(Serialize)]
+struct StepsAnswer {
+    steps: u64,
+    /// Deepest overlap of two balls, or of a ball and a cushion, m.
+    deepest_overlap: f64,
+    at_rest: bool,
 }
 
 impl Answer {
-    fn of(recording: &Recording) -> Self {
-        Self { events: recording.events().to_vec(), end: recording.final_layout(), duration: recording.duration() }
+    fn of((recording, stepped): &Played) -> Self {
+        Self {
+            events: recording.events().to_vec(),
+            end: recording.final_layout(),
+            duration: recording.duration(),
+            steps: stepped.map(|Stepped { steps, deepest_overlap, at_rest, .. }| StepsAnswer {
+                steps,
+                deepest_overlap,
+                at_rest,
+            }),
+        }
     }
 }
 
+/// A shot, and what the steps did if there were any.
+type Played = (Recording, Option<Stepped>);
+
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
         return answer_lines(file, |question: Question| {
-            Ok(Answer::of(&play(tables.get(&question.preset)?, &question.layout, &question.cue)?))
+            Ok(Answer::of(&play(tables.get(&question.preset)?, &question.layout, &question.cue, steps)?))
         });
     }
     let (table, layout) = args.scene.read()?;
     // clap demands a shot where there is no batch.
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
-    let recording = play(&table, &layout, &cue)?;
+    let played = play(&table, &layout, &cue, steps)?;
     if cue.validate_tip(table.miscue_limit).is_err() {
         eprintln!(
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
@@ -75,20 +120,39 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut out = io::stdout().lock();
     if args.json {
-        serde_json::to_writer(&mut out, &Answer::of(&recording)).map_err(io::Error::from)?;
+        serde_json::to_writer(&mut out, &Answer::of(&played)).map_err(io::Error::from)?;
         writeln!(out)?;
     } else {
-        describe(&mut out, &recording)?;
+        describe(&mut out, &played)?;
     }
     Ok(())
 }
 
-fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording, Failure> {
-    Recording::new(table, layout, cue).map_err(Failure::wrong_input)
+/// The steps that are asked for.
+fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
+    match args.method {
+        Method::Steps => {
+            Steps::new(args.dt.unwrap_or(DEFAULT_STEP), args.locate).map(Some).map_err(Failure::wrong_input)
+        }
+        Method::Events if args.locate || args.dt.is_some() => {
+            Err(Failure::wrong_input("--dt and --locate need --method steps; --method events has no steps"))
+        }
+        Method::Events => Ok(None),
+    }
+}
+
+fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
+    match steps {
+        None => Recording::new(table, layout, cue).map(|recording| (recording, None)),
+        Some(steps) => {
+            Recording::stepped(table, layout, cue, steps).map(|(recording, stepped)| (recording, Some(stepped)))
+        }
+    }
+    .map_err(Failure::wrong_input)
 }
 
 /// The shot for people to read.
-fn describe(out: &mut impl Write, recording: &Recording) -> io::Result<()> {
+fn describe(out: &mut impl Write, (recording, stepped): &Played) -> io::Result<()> {
     writeln!(out, "{}", impulse_words(recording.impulse()))?;
     writeln!(out, "{:>12}  {:<18}  {:<5}  {:<6}  cue ball", "t, s", "event", "balls", "rail")?;
     for event in recording.events() {
@@ -106,9 +170,16 @@ fn describe(out: &mut impl Write, recording: &Recording) -> io::Result<()> {
             cue_ball.velocity.length()
         )?;
     }
-    writeln!(out, "all still after {:.6} s:", recording.duration())?;
+    if stepped.is_some_and(|stepped| !stepped.at_rest) {
+        writeln!(out, "given up while balls still jitter, the last event after {:.6} s:", recording.duration())?;
+    } else {
+        writeln!(out, "all still after {:.6} s:", recording.duration())?;
+    }
     for (ball, position) in recording.final_layout().balls.iter().enumerate() {
         writeln!(out, "  ball {ball} at ({:.6}, {:.6}) m", position.x, position.y)?;
+    }
+    if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
+        writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! When things happen: event prediction, the engine, and playback of what it recorded.
+//! When things happen: event prediction, the engine, the fixed-step method, and playback of what it recorded.
 
 mod constants;
 mod crowd;
@@ -15,6 +15,7 @@ mod roots;
 mod savings;
 mod segment;
 mod settling;
+mod steps;
 
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
@@ -22,3 +23,4 @@ pub use events::{Event, EventKind, Observer, Rail};
 pub use playback::{Recording, ShotError};
 pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};
+pub use steps::{StepError, Stepped, Steps};

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::{Constants, Event, Observer, Segment, simulate};
+use super::{Constants, End, Event, Observer, Segment, Stepped, Steps, simulate};
 use crate::{
     physics::{BallState, CueError, CueInputs, Impulse, Motion, strike},
     table::{BALLS, Layout, LayoutError, Table},
@@ -51,17 +51,40 @@ impl Recording {
     pub fn play_next(&mut self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(), ShotError> {
         layout.validate(table)?;
         cue.validate()?;
-        self.kept.events.clear();
-        self.kept.segments.iter_mut().for_each(Vec::clear);
+        self.kept.clear();
         self.constants = Constants::of(table);
         self.impulse = strike(table, cue);
         let end = simulate(table, layout, &self.impulse, &mut self.kept);
+        self.end_with(&end);
+        Ok(())
+    }
+
+    /// The same shot by the intuitive method of fixed steps, and what the steps did.
+    ///
+    /// # Errors
+    /// What is wrong with the layout or the stroke.
+    pub fn stepped(
+        table: &Table,
+        layout: &Layout,
+        cue: &CueInputs,
+        steps: Steps,
+    ) -> Result<(Self, Stepped), ShotError> {
+        layout.validate(table)?;
+        cue.validate()?;
+        let impulse = strike(table, cue);
+        let mut recording = Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 };
+        let stepped = steps.simulate(table, layout, &impulse, &mut recording.kept);
+        recording.end_with(&stepped.end);
+        Ok((recording, stepped))
+    }
+
+    /// Lets all balls rest where they have come to.
+    fn end_with(&mut self, end: &End) {
         for (ball, segments) in self.kept.segments.iter_mut().enumerate() {
             let BallState { position, spin, .. } = end.balls[ball];
             segments.push(Segment { start: end.time, spin, ..Segment::at_rest(position) });
         }
         self.duration = end.time;
-        Ok(())
     }
 
     /// What the stroke gave the cue ball.
@@ -129,6 +152,11 @@ impl Recorder {
     /// Room for what an ordinary shot has: a dozen events, most of them the cue ball's.
     fn with_room() -> Self {
         Self { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) }
+    }
+
+    fn clear(&mut self) {
+        self.events.clear();
+        self.segments.iter_mut().for_each(Vec::clear);
     }
 }
 

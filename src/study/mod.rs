@@ -1,4 +1,28 @@
 //! The program measuring itself: error against run time, stability, throughput.
 
+mod chart;
+mod clock;
+mod errors;
+mod ledger;
+mod methods;
+pub mod plain;
+mod plots;
+mod precision;
+mod reference_check;
+mod report;
+mod shots;
 pub mod stability;
+mod statistics;
 pub mod throughput;
+mod truth;
+
+pub use clock::CLOCK;
+pub use errors::Errors;
+pub use methods::Method;
+pub use plots::{error_against_condition, error_against_time};
+pub use precision::{Plan, Point, Row, Study, Summary};
+pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references};
+pub use report::{csv, text};
+pub use shots::{StudyShot, random_shots};
+pub use statistics::{Share, Spread};
+pub use truth::Truth;

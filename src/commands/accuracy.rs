@@ -1,0 +1,128 @@
+//! `carom accuracy`: error against run time, measured by the program itself.
+
+use std::{
+    io::{IsTerminal, Write},
+    path::{Path, PathBuf},
+};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::{Failure, input::table_named};
+use crate::{
+    storage::write_atomic,
+    study::{self, Method, Plan, Study, random_shots},
+    table::{PRESETS, Table},
+};
+
+/// Measure how exact the simulator is and what that costs: the engine, other root finders, single precision and fixed
+/// time steps against the same shots in double-double, and all against reference shots of 50 digits. Takes minutes;
+/// --quick takes seconds.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Few shots and no time steps below 1e-4 s: seconds instead of minutes.
+    #[arg(long)]
+    quick: bool,
+    /// Number of random shots on each table. Default: 1000, or 96 with --quick
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    shots: Option<u32>,
+    /// Seed of the shots.
+    #[arg(long, default_value_t = 2026)]
+    seed: u64,
+    /// The table: "match", "thesis" or the path of a TOML file. Default: match and thesis
+    #[arg(long, value_name = "NAME")]
+    table: Option<String>,
+    /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object for each reference file, each table and each method instead of the text.
+    #[arg(long)]
+    json: bool,
+}
+
+/// How much is done.
+struct Size {
+    shots: usize,
+    /// The shortest time step, s.
+    finest: f64,
+    rounds: usize,
+    /// Steps that one method may take in a round.
+    steps: f64,
+}
+
+impl Size {
+    fn of(args: &Args) -> Self {
+        let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 4e7) };
+        Self { shots: args.shots.map_or(shots, |shots| shots as usize), finest, rounds, steps }
+    }
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let tables: Vec<Table> = match &args.table {
+        Some(name) => vec![table_named(name)?],
+        None => PRESETS.into_iter().map(table_named).collect::<Result<_, _>>()?,
+    };
+    let references = study::check_references();
+    let size = Size::of(args);
+    let studies: Vec<Study> = tables.into_iter().map(|table| measure(table, &size, args.seed)).collect();
+    // The stability study belongs here: its rows behind these, its text behind this text.
+    if let Some(folder) = &args.out {
+        write_files(folder, &studies)?;
+    }
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        for row in &references {
+            write_json(&mut out, row)?;
+        }
+        for study in &studies {
+            write_json(&mut out, &study.summary)?;
+            for row in &study.rows {
+                write_json(&mut out, row)?;
+            }
+        }
+    } else {
+        out.write_all(study::text(&references, &studies).as_bytes())?;
+    }
+    Ok(())
+}
+
+fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<()> {
+    serde_json::to_writer(&mut *out, value)?;
+    writeln!(out)
+}
+
+fn measure(table: Table, size: &Size, seed: u64) -> Study {
+    let shots = random_shots(&table, size.shots, seed);
+    let bar = progress_bar(shots.len(), &table.name);
+    let plan = Plan { table, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
+    let study = plan.run(|done| bar.set_position(done as u64));
+    bar.finish_and_clear();
+    study
+}
+
+/// On the standard error, and only where somebody watches.
+fn progress_bar(shots: usize, table: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} shots, {eta} left");
+    ProgressBar::new(shots as u64)
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        .with_message(table.to_owned())
+}
+
+/// Whole files or none, at the very end: whoever breaks off before finds nothing half done.
+fn write_files(folder: &Path, studies: &[Study]) -> Result<(), Failure> {
+    let files = [
+        ("accuracy.csv", study::csv(studies)),
+        ("error-vs-time.svg", study::error_against_time(studies)),
+        ("error-vs-condition.svg", study::error_against_condition(studies)),
+    ];
+    for (name, text) in files {
+        let path = folder.join(name);
+        write_atomic(&path, text.as_bytes())
+            .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
+        eprintln!("wrote {}", path.display());
+    }
+    Ok(())
+}

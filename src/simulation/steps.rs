@@ -1,0 +1,368 @@
+//! The intuitive method (thesis 3.1): all balls move by a fixed time step, and what has happened meanwhile is seen at its
+//! end. It is here to be compared with the engine: its events come late, balls overlap or pass through each other
+//! (thesis Figures 10 and 11), and it shows by how much.
+
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+
+use super::{Constants, End, Event, EventKind, Observer, Rail, Segment};
+use crate::{
+    physics::{BallState, Impulse, Motion, collide_balls, collide_rail, rolling_deceleration, rolling_spin},
+    table::{BALLS, Layout, Table},
+};
+
+/// Pairs of balls.
+const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+/// Events that are located within one step; what is left of a chatter is seen at the step's end.
+const MOST_LOCATED: usize = 64;
+
+/// How to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steps {
+    /// The time step, s.
+    pub dt: f64,
+    /// Whether an event that is seen at the end of a step is located within it. What is over by the end is still missed.
+    pub locate: bool,
+}
+
+/// A time step that cannot be used.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("dt = {0} s is no usable time step; accepted is 0.00000001 to 1 s")]
+pub struct StepError(f64);
+
+/// What the steps have made of a shot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stepped {
+    /// How it ended.
+    pub end: End,
+    /// Number of steps.
+    pub steps: u64,
+    /// Deepest overlap of two balls, or of a ball and a cushion, m.
+    pub deepest_overlap: f64,
+    /// Whether all balls came to rest. Long steps can keep a ball jittering for ever.
+    pub at_rest: bool,
+}
+
+impl Steps {
+    /// Steps of `dt` seconds.
+    ///
+    /// # Errors
+    /// [`StepError`] where `dt` is not from 1e-8 to 1.
+    pub fn new(dt: f64, locate: bool) -> Result<Self, StepError> {
+        if (1e-8..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
+    }
+
+    /// Plays a shot as [`simulate`](super::simulate) does, step by step.
+    pub fn simulate<O: Observer>(self, table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) -> Stepped {
+        let mut stepper = Stepper::new(table, layout, observer);
+        let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..stepper.balls[0].state };
+        stepper.balls[0] = Ball::launched(&stepper.constants, 0.0, state);
+        // No ball of this energy can roll longer; what still moves then is jitter.
+        let energy = state.specific_energy(table.radius);
+        let limit = 1.0 + (2.0 * energy).sqrt() / rolling_deceleration(table);
+        let (mut steps, mut flow) = (0_u64, ControlFlow::Continue(()));
+        while flow.is_continue() && !stepper.at_rest() && steps as f64 * self.dt < limit {
+            steps += 1;
+            // A product does not gather rounding as a sum of steps would.
+            flow = stepper.step(steps as f64 * self.dt, self);
+        }
+        let at_rest = stepper.at_rest();
+        let deepest_overlap = stepper.deepest_overlap;
+        Stepped { end: stepper.finish(), steps, deepest_overlap, at_rest }
+    }
+}
+
+/// A ball and the segment that its present motion belongs to.
+#[derive(Clone)]
+struct Ball {
+    state: BallState,
+    segment: Segment,
+    /// Time at which the present motion would end, s.
+    ends: f64,
+}
+
+impl Ball {
+    fn launched(constants: &Constants, now: f64, state: BallState) -> Self {
+        let (segment, lasts) = Segment::free(constants, now, &state);
+        Self { state, segment, ends: now + lasts }
+    }
+
+    fn moves(&self) -> bool {
+        self.segment.motion != Motion::Stationary
+    }
+
+    /// Whether time changes anything about it: it may spin where it stands.
+    fn turns(&self) -> bool {
+        self.moves() || self.state.spin.z != 0.0
+    }
+
+    /// The state `time` later, with velocity and acceleration as they are now.
+    fn after(&self, constants: &Constants, time: f64) -> BallState {
+        Segment { position: self.state.position, velocity: self.state.velocity, spin: self.state.spin, ..self.segment.clone() }
+            .state_after(constants, time)
+    }
+}
+
+struct Stepper<'a, O> {
+    constants: Constants,
+    observer: &'a mut O,
+    balls: [Ball; BALLS],
+    now: f64,
+    last_event: f64,
+    deepest_overlap: f64,
+}
+
+impl<'a, O: Observer> Stepper<'a, O> {
+    fn new(table: &Table, layout: &Layout, observer: &'a mut O) -> Self {
+        let balls = layout.balls.map(|position| Ball {
+            state: BallState::at_rest(position),
+            segment: Segment::at_rest(position),
+            ends: f64::INFINITY,
+        });
+        let constants = Constants::of(table);
+        Self { constants, observer, balls, now: 0.0, last_event: 0.0, deepest_overlap: 0.0 }
+    }
+
+    fn at_rest(&self) -> bool {
+        !self.balls.iter().any(Ball::moves)
+    }
+
+    /// One step to time `end`.
+    fn step(&mut self, end: f64, method: Steps) -> ControlFlow<()> {
+        if method.locate {
+            for _ in 0..MOST_LOCATED {
+                let Some((time, kind)) = self.first_within(end - self.now) else { break };
+                self.advance(self.now + time);
+                self.happen(kind)?;
+            }
+        }
+        self.advance(end);
+        self.see_what_happened()
+    }
+
+    fn advance(&mut self, to: f64) {
+        for ball in self.balls.iter_mut().filter(|ball| ball.turns()) {
+            ball.state = ball.after(&self.constants, to - self.now);
+        }
+        self.now = to;
+    }
+
+    /// Everything that is found at the end of a step, in a fixed order: which came first is not known.
+    fn see_what_happened(&mut self) -> ControlFlow<()> {
+        for index in 0..BALLS {
+            if self.balls[index].moves() && self.balls[index].ends <= self.now {
+                self.happen(self.end_of_motion(index))?;
+            }
+        }
+        for index in 0..BALLS {
+            for rail in Rail::ALL {
+                let ball = &self.balls[index];
+                if ball.moves() && self.rail_gap(&ball.state, rail) < 0.0 {
+                    self.deepest_overlap = self.deepest_overlap.max(-self.rail_gap(&ball.state, rail));
+                    if ball.state.velocity.dot(rail.normal()) < 0.0 {
+                        self.happen(EventKind::BallRail(index, rail))?;
+                    }
+                }
+            }
+        }
+        for (first, second) in PAIRS {
+            let (a, b) = (&self.balls[first], &self.balls[second]);
+            let apart = a.state.position - b.state.position;
+            let reach = 2.0 * self.constants.radius;
+            if (a.moves() || b.moves()) && apart.length_squared() < reach * reach {
+                self.deepest_overlap = self.deepest_overlap.max(reach - apart.length());
+                if apart.dot(a.state.velocity - b.state.velocity) < 0.0 {
+                    self.happen(EventKind::BallBall(first, second))?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn end_of_motion(&self, index: usize) -> EventKind {
+        if self.balls[index].segment.motion == Motion::Sliding {
+            EventKind::SlidingRolling(index)
+        } else {
+            EventKind::RollingStationary(index)
+        }
+    }
+
+    fn rail_gap(&self, state: &BallState, rail: Rail) -> f64 {
+        let n = rail.normal();
+        n.abs().dot(self.constants.reach) + state.position.dot(n)
+    }
+
+    fn pair_gap(&self, first: &BallState, second: &BallState) -> f64 {
+        first.position.distance(second.position) - 2.0 * self.constants.radius
+    }
+
+    /// The first event that shows at the end of the next `span` seconds, and when within them it happens.
+    fn first_within(&self, span: f64) -> Option<(f64, EventKind)> {
+        let mut first: Option<(f64, EventKind)> = None;
+        let mut offer = |time: f64, kind| {
+            if first.is_none_or(|(earliest, _)| time < earliest) {
+                first = Some((time, kind));
+            }
+        };
+        let after = |index: usize, time: f64| self.balls[index].after(&self.constants, time);
+        for (index, ball) in self.balls.iter().enumerate().filter(|(_, ball)| ball.moves()) {
+            if ball.ends <= self.now + span {
+                offer((ball.ends - self.now).clamp(0.0, span), self.end_of_motion(index));
+            }
+            for rail in Rail::ALL {
+                let gap = |time| self.rail_gap(&after(index, time), rail);
+                let time = closing(gap, span);
+                if let Some(time) = time.filter(|&time| after(index, time).velocity.dot(rail.normal()) < 0.0) {
+                    offer(time, EventKind::BallRail(index, rail));
+                }
+            }
+        }
+        for (one, other) in PAIRS {
+            if self.balls[one].moves() || self.balls[other].moves() {
+                let gap = |time| self.pair_gap(&after(one, time), &after(other, time));
+                let approach = |time| {
+                    let (a, b) = (after(one, time), after(other, time));
+                    (a.position - b.position).dot(a.velocity - b.velocity)
+                };
+                if let Some(time) = closing(gap, span).filter(|&time| approach(time) < 0.0) {
+                    offer(time, EventKind::BallBall(one, other));
+                }
+            }
+        }
+        first
+    }
+
+    /// Lets an event happen at the present moment.
+    fn happen(&mut self, kind: EventKind) -> ControlFlow<()> {
+        let c = self.constants;
+        self.last_event = self.now;
+        match kind {
+            EventKind::BallBall(first, second) => {
+                let (mut a, mut b) = (self.balls[first].state, self.balls[second].state);
+                collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
+                self.launch(first, a);
+                self.launch(second, b);
+            }
+            EventKind::BallRail(index, rail) => {
+                let mut state = self.balls[index].state;
+                collide_rail(c.radius, c.rail_restitution, c.rail_friction, rail.normal(), &mut state);
+                self.launch(index, state);
+            }
+            EventKind::SlidingRolling(index) => {
+                // It rolls with the velocity that it has by now, late or not.
+                let mut state = self.balls[index].state;
+                state.spin = rolling_spin(c.radius, state.velocity).extend(state.spin.z);
+                self.launch(index, state);
+            }
+            EventKind::RollingStationary(index) => {
+                let BallState { position, spin, .. } = self.balls[index].state;
+                let spin = DVec2::ZERO.extend(spin.z);
+                self.launch(index, BallState { position, velocity: DVec2::ZERO, spin });
+            }
+            EventKind::ContactBegins(_) | EventKind::ContactEnds(_) => {}
+        }
+        self.observer.event(Event { time: self.now, kind })
+    }
+
+    fn launch(&mut self, index: usize, state: BallState) {
+        self.close(index);
+        self.balls[index] = Ball::launched(&self.constants, self.now, state);
+    }
+
+    fn close(&mut self, index: usize) {
+        if O::SEGMENTS {
+            self.observer.segment(index, &self.balls[index].segment, self.now);
+        }
+    }
+
+    fn finish(mut self) -> End {
+        (0..BALLS).for_each(|index| self.close(index));
+        End { time: self.last_event, balls: self.balls.map(|ball| ball.state) }
+    }
+}
+
+/// Where in `(0, span)` a gap closes that is found closed at the end: by bisection, to the last bit.
+fn closing(gap: impl Fn(f64) -> f64, span: f64) -> Option<f64> {
+    if gap(span) >= 0.0 {
+        return None;
+    }
+    let (mut low, mut high) = (0.0, span);
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return Some(high);
+        }
+        if gap(middle) < 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{physics::CueInputs, simulation::Recording};
+
+    fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
+        let table = Table::default();
+        let cue = CueInputs::parse(shot).unwrap();
+        Recording::stepped(&table, &Layout::opening(&table), &cue, Steps::new(dt, locate).unwrap()).unwrap()
+    }
+
+    fn error(dt: f64, locate: bool) -> f64 {
+        let shot = "0,0.2,5,12.5,3";
+        let table = Table::default();
+        let exact = Recording::new(&table, &Layout::opening(&table), &CueInputs::parse(shot).unwrap()).unwrap();
+        let stepped = play(dt, locate, shot).0;
+        let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);
+        pairs.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_tenth_of_the_step_is_about_a_tenth_of_the_error() {
+        let (coarse, fine) = (error(1e-3, false), error(1e-4, false));
+        assert!(coarse > 1e-4 && fine < 0.3 * coarse, "{coarse:e}, {fine:e}");
+    }
+
+    #[test]
+    fn events_located_within_the_step_are_as_exact_as_the_engine() {
+        let error = error(1e-2, true);
+        assert!(error < 1e-11, "{error:e}");
+    }
+
+    #[test]
+    fn a_fast_ball_passes_through_another_between_two_steps() {
+        // 2 m/s at 0.1 s a step: 0.2 m from one place to the next, and a ball of 0.06 m between them.
+        let kinds = |dt| {
+            let (recording, _) = play(dt, false, "0,0,0,0,3");
+            recording.events().iter().any(|event| event.kind == EventKind::BallBall(0, 2))
+        };
+        assert!(kinds(1e-3) && !kinds(0.2));
+    }
+
+    #[test]
+    fn late_events_leave_overlaps_and_they_are_reported() {
+        let deepest = play(1e-2, false, "0,0,0,0,6").1.deepest_overlap;
+        assert!(deepest > 1e-3, "{deepest}");
+        assert!(play(1e-2, true, "0,0,0,0,6").1.deepest_overlap < 1e-9);
+    }
+
+    #[test]
+    fn every_step_ends_whatever_its_length() {
+        for (dt, shot) in [(1.0, "0,0,0,0,6"), (0.3, "0,-0.5,0,40,8"), (0.1, "0.4,0.3,20,100,9")] {
+            let (_, stepped) = play(dt, false, shot);
+            assert!(stepped.steps as f64 * dt < 1e3);
+        }
+    }
+
+    #[test]
+    fn an_unusable_step_is_named() {
+        for dt in [0.0, -1.0, f64::NAN, 1e-12, 3.0] {
+            assert!(Steps::new(dt, false).unwrap_err().to_string().contains(&dt.to_string()));
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The methods that are compared, and what each makes of a shot.
+
+use std::{fmt, ops::ControlFlow};
+
+use super::{
+    ledger::Ledger,
+    plain::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
+    shots::StudyShot,
+};
+use crate::{
+    simulation::{Event, EventKind, Observer, Steps, simulate},
+    table::{Layout, Table},
+};
+
+/// A way to compute a shot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// The program's own engine.
+    Engine,
+    /// The plain engine, by roots between extrema.
+    Plain,
+    /// The plain engine with Ferrari's closed form.
+    ClosedForm,
+    /// The plain engine with Algorithm 1010.
+    Algorithm1010,
+    /// The plain engine in single precision.
+    Single,
+    /// The intuitive method.
+    Steps(Steps),
+}
+
+impl Method {
+    /// Everything that is compared, with time steps down to `finest`, s.
+    pub fn all(finest: f64) -> Vec<Self> {
+        let mut methods = vec![Self::Engine, Self::Plain, Self::ClosedForm, Self::Algorithm1010, Self::Single];
+        for locate in [false, true] {
+            let steps = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6].into_iter().filter(|dt| *dt >= finest);
+            methods.extend(steps.map(|dt| Self::Steps(Steps { dt, locate })));
+        }
+        methods
+    }
+
+    /// The family that it belongs to: what differs by the time step alone is one.
+    pub const fn family(self) -> &'static str {
+        match self {
+            Self::Engine => "engine",
+            Self::Plain => "plain, roots between extrema",
+            Self::ClosedForm => "plain, Ferrari's formula",
+            Self::Algorithm1010 => "plain, Algorithm 1010",
+            Self::Single => "plain, f32",
+            Self::Steps(Steps { locate: false, .. }) => "steps",
+            Self::Steps(Steps { locate: true, .. }) => "steps, events located",
+        }
+    }
+
+    /// The time step, s.
+    pub const fn time_step(self) -> Option<f64> {
+        match self {
+            Self::Steps(Steps { dt, .. }) => Some(dt),
+            _ => None,
+        }
+    }
+
+    /// Plays a shot to its end; `None` where the method gives up.
+    pub fn play(self, table: &Table, shot: &StudyShot) -> Option<Run> {
+        match self {
+            Self::Engine => {
+                let mut events = Events::default();
+                let end = simulate(table, &shot.layout, &shot.impulse, &mut events);
+                Some(Run { events: events.0, end: end.layout(), unaccounted: None })
+            }
+            Self::Plain => plain(table, shot, by_extrema::<f64>),
+            Self::ClosedForm => plain(table, shot, closed_form),
+            Self::Algorithm1010 => plain(table, shot, algorithm_1010),
+            Self::Single => plain(table, shot, by_extrema::<f32>),
+            Self::Steps(steps) => {
+                let mut events = Events::default();
+                let stepped = steps.simulate(table, &shot.layout, &shot.impulse, &mut events);
+                stepped.at_rest.then(|| Run { events: events.0, end: stepped.end.layout(), unaccounted: None })
+            }
+        }
+    }
+
+    /// Share of the energy for which friction and impacts do not account. Not of resting contacts, whose friction only
+    /// the plain engine integrates.
+    pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
+        match self {
+            Self::Engine => {
+                let mut ledger = Ledger::new(table, shot);
+                let end = simulate(table, &shot.layout, &shot.impulse, &mut ledger);
+                ledger.unaccounted(&end)
+            }
+            Self::Steps(steps) => {
+                let mut ledger = Ledger::new(table, shot);
+                let stepped = steps.simulate(table, &shot.layout, &shot.impulse, &mut ledger);
+                ledger.unaccounted(&stepped.end)
+            }
+            _ => run.unaccounted,
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.time_step() {
+            Some(dt) => formatter.pad(&format!("{}, dt {dt:e} s", self.family())),
+            None => formatter.pad(self.family()),
+        }
+    }
+}
+
+/// What a method makes of a shot.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Its events and their times, s.
+    pub events: Vec<(f64, EventKind)>,
+    /// Where the balls come to rest.
+    pub end: Layout,
+    /// Share of the energy for which nothing accounts, where the run itself has kept account.
+    pub unaccounted: Option<f64>,
+}
+
+/// Keeps the events alone: all that a comparison needs.
+#[derive(Default)]
+struct Events(Vec<(f64, EventKind)>);
+
+impl Observer for Events {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.0.push((event.time, event.kind));
+        ControlFlow::Continue(())
+    }
+}
+
+fn plain<R: Real>(table: &Table, shot: &StudyShot, finder: Finder<R>) -> Option<Run> {
+    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let flat = |v: glam::DVec2| Vector::new(R::of(v.x), R::of(v.y), R::zero());
+    let spin = Vector::new(R::of(w.x), R::of(w.y), R::of(w.z));
+    let played = play(&Numbers::of(table), shot.layout.balls.map(flat), flat(v), spin, finder).ok()?;
+    let point = |v: Vector<R>| glam::DVec2::new(v.x.to_f64(), v.y.to_f64());
+    Some(Run {
+        events: played.events.iter().map(|(time, kind)| (time.to_f64(), *kind)).collect(),
+        end: Layout::new(played.end.map(|ball| point(ball.position))),
+        unaccounted: Some((played.energy[1] / played.energy[0]).to_f64().abs()),
+    })
+}

@@ -1,0 +1,33 @@
+//! The cue strike (thesis 2.2.1) in any precision; the angles' sines and cosines come from outside.
+
+use super::{Numbers, Real, Vector};
+
+/// A stroke with its angles as sines and cosines.
+#[derive(Clone, Copy, Debug)]
+pub struct Stroke<R> {
+    /// Offset of the tip to the side, in ball radii.
+    pub a: R,
+    /// Offset of the tip upwards, in ball radii.
+    pub b: R,
+    /// Sine and cosine of the elevation.
+    pub theta: (R, R),
+    /// Sine and cosine of the direction.
+    pub phi: (R, R),
+    /// Speed of the cue, m/s.
+    pub speed: R,
+}
+
+/// Velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass.
+pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, Vector<R>) {
+    let Stroke { a, b, theta: (sin_theta, cos_theta), phi: (sin_phi, cos_phi), speed } = *stroke;
+    let c = (R::of(1.0) - a * a - b * b).max(R::zero()).sqrt();
+    let offset = a * a + b * b * cos_theta * cos_theta + c * c * sin_theta * sin_theta
+        - R::of(2.0) * b * c * cos_theta * sin_theta;
+    let force = R::of(2.0) * speed / (R::of(1.0) + numbers.mass_ratio + R::of(2.5) * offset);
+    let velocity = Vector::new(force * cos_theta * cos_phi, force * cos_theta * sin_phi, R::zero());
+    // In the cue's own frame (16): across, along and up.
+    let across = c * sin_theta - b * cos_theta;
+    let (along, up) = (a * sin_theta, -a * cos_theta);
+    let turning = Vector::new(across * sin_phi - along * cos_phi, -across * cos_phi - along * sin_phi, up);
+    (velocity, turning * (R::of(2.5) * force / numbers.radius))
+}

@@ -1,0 +1,113 @@
+//! Motion of one ball between two events (thesis 2.1).
+
+use super::{Numbers, Real, Vector};
+use crate::simulation::Rail;
+
+/// Which equation of motion holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// At rest, perhaps spinning on the spot.
+    Stationary,
+    /// Rolling without slip.
+    Rolling,
+    /// Slipping on the cloth.
+    Sliding,
+    /// Pressed against a cushion by the cloth.
+    Pressed(Rail),
+}
+
+/// A ball at one moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Ball<R> {
+    /// Centre, m.
+    pub position: Vector<R>,
+    /// Velocity, m/s.
+    pub velocity: Vector<R>,
+    /// Angular velocity, rad/s.
+    pub spin: Vector<R>,
+    /// The equation of motion in force.
+    pub motion: Motion,
+}
+
+impl<R: Real> Ball<R> {
+    /// Slip of the lowest point on the cloth: `v + R z×w` (thesis equation 1).
+    pub fn slip(&self, numbers: &Numbers<R>) -> Vector<R> {
+        (self.velocity + Vector::up().cross(self.spin) * numbers.radius).flat()
+    }
+
+    /// Kinetic energy over mass: `v²/2 + R²w²/5`.
+    pub fn energy(&self, numbers: &Numbers<R>) -> R {
+        let around = numbers.radius * numbers.radius * self.spin.dot(self.spin);
+        R::of(0.5) * self.velocity.dot(self.velocity) + around / R::of(5.0)
+    }
+
+    /// Acceleration of a ball that is not pressed.
+    pub fn acceleration(&self, numbers: &Numbers<R>) -> Vector<R> {
+        match self.motion {
+            Motion::Sliding => self.slip(numbers).direction() * -numbers.slide,
+            Motion::Rolling => self.velocity.direction() * (-R::ratio(5.0, 7.0) * numbers.roll),
+            Motion::Stationary | Motion::Pressed(_) => Vector::zero(),
+        }
+    }
+
+    /// How long the motion of a ball that is not pressed lasts (thesis equations 25 and 26).
+    pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
+        match self.motion {
+            Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
+            Motion::Rolling => Some(R::ratio(7.0, 5.0) * self.velocity.length() / numbers.roll),
+            Motion::Stationary | Motion::Pressed(_) => None,
+        }
+    }
+
+    /// Chooses the motion after an impact: slips of rounding's size are none.
+    pub fn set_off(&mut self, numbers: &Numbers<R>) {
+        let speeds = self.velocity.length() + numbers.radius * self.spin.flat().length();
+        self.motion = if self.slip(numbers).length() > R::of(16.0 * R::ROUNDING) * speeds {
+            Motion::Sliding
+        } else {
+            Motion::Sliding.successor(self, numbers)
+        };
+    }
+
+    /// The ball `time` later, if it is not pressed (thesis equations 2, 3, 6 and 8), and the friction's work over mass.
+    pub fn after(&self, numbers: &Numbers<R>, time: R) -> (Self, R) {
+        let acceleration = self.acceleration(numbers);
+        let mut ball = *self;
+        ball.velocity = self.velocity + acceleration * time;
+        ball.position = self.position + self.velocity * time + acceleration * (R::of(0.5) * time * time);
+        let half = R::of(0.5);
+        let mut work = R::zero();
+        match self.motion {
+            Motion::Sliding => {
+                let slip = self.slip(numbers);
+                let turning = Vector::up().cross(slip.direction()) * (R::of(2.5) * numbers.slide / numbers.radius);
+                ball.spin = self.spin + turning * time;
+                work = numbers.slide * time * (slip.length() - R::of(1.75) * numbers.slide * time);
+            }
+            Motion::Rolling => {
+                ball.spin = Vector::up().cross(ball.velocity) * (R::of(1.0) / numbers.radius);
+                work = numbers.roll * (ball.position - self.position).length();
+            }
+            Motion::Stationary | Motion::Pressed(_) => {}
+        }
+        let size = self.spin.z.abs();
+        let lost = (numbers.twist * time).min(size);
+        ball.spin.z = if self.spin.z < R::zero() { lost - size } else { size - lost };
+        let turned = lost * (size - half * lost);
+        work = work + R::ratio(2.0, 5.0) * numbers.radius * numbers.radius * turned;
+        (ball, work)
+    }
+}
+
+impl Motion {
+    /// The motion that follows when this one has lasted its full time; what has ended is made to end exactly.
+    #[must_use]
+    pub fn successor<R: Real>(self, ball: &mut Ball<R>, numbers: &Numbers<R>) -> Self {
+        if self == Self::Rolling {
+            ball.velocity = Vector::zero();
+        }
+        let up_spin = Vector::up() * ball.spin.z;
+        ball.spin = Vector::up().cross(ball.velocity) * (R::of(1.0) / numbers.radius) + up_spin;
+        if ball.velocity == Vector::zero() { Self::Stationary } else { Self::Rolling }
+    }
+}

@@ -1,0 +1,157 @@
+//! Three ways to find when a gap closes: the first time at which a polynomial of degree four falls below zero.
+
+use super::Real;
+
+/// Given the coefficients, lowest first, of a polynomial that is not negative at zero: where in `(0, end]` it first falls
+/// through zero.
+pub type Finder<R> = fn(&[R; 5], R) -> Option<R>;
+
+/// Between its extrema a polynomial is monotone, and these are the roots of its derivative, found in the same way: no
+/// root can be missed. In any precision.
+pub fn by_extrema<R: Real>(gap: &[R; 5], end: R) -> Option<R> {
+    let slope = derivative(gap);
+    let mut low = R::zero();
+    for high in sign_changes(&slope, end).into_iter().chain([end]) {
+        if value(gap, high) < R::zero() {
+            return Some(bracketed(|t| value(gap, t), |t| value(&slope, t), low, high));
+        }
+        low = high;
+    }
+    None
+}
+
+/// All roots in `(0, end)` at which the polynomial changes sign, in ascending order.
+fn sign_changes<R: Real>(polynomial: &[R], end: R) -> Vec<R> {
+    if polynomial.len() < 2 {
+        return Vec::new();
+    }
+    let slope = derivative(polynomial);
+    let mut roots = Vec::new();
+    let mut low = R::zero();
+    for high in sign_changes(&slope, end).into_iter().chain([end]) {
+        let (before, behind) = (value(polynomial, low), value(polynomial, high));
+        if before > R::zero() && behind < R::zero() {
+            roots.push(bracketed(|t| value(polynomial, t), |t| value(&slope, t), low, high));
+        } else if before < R::zero() && behind > R::zero() {
+            roots.push(bracketed(|t| -value(polynomial, t), |t| -value(&slope, t), low, high));
+        }
+        low = high;
+    }
+    roots
+}
+
+fn value<R: Real>(polynomial: &[R], t: R) -> R {
+    polynomial.iter().rev().fold(R::zero(), |sum, c| sum * t + *c)
+}
+
+fn derivative<R: Real>(polynomial: &[R]) -> Vec<R> {
+    polynomial.iter().enumerate().skip(1).map(|(power, c)| R::of(power as f64) * *c).collect()
+}
+
+/// Root of a function that falls through zero between `low` and `high`: Newton's step where it stays between the last
+/// points on either side, bisection elsewhere.
+pub fn bracketed<R: Real>(value: impl Fn(R) -> R, slope: impl Fn(R) -> R, mut low: R, mut high: R) -> R {
+    let half = R::of(0.5);
+    let rounding = R::of(R::ROUNDING);
+    let mut t = half * (low + high);
+    // A bound for functions of rounding's size; bisection alone would take some 110 rounds in double-double.
+    for round in 0..200 {
+        let height = value(t);
+        if height < R::zero() {
+            high = t;
+        } else {
+            low = t;
+        }
+        let newton = t - height / slope(t);
+        let next = if newton > low && newton < high && round % 8 != 7 { newton } else { half * (low + high) };
+        if (next - t).abs() <= rounding * t || high - low <= rounding * high {
+            return next;
+        }
+        t = next;
+    }
+    t
+}
+
+/// Algorithm 1010 (Orellana and De Michele 2020), by the crate `kurbo`.
+pub fn algorithm_1010(gap: &[f64; 5], end: f64) -> Option<f64> {
+    let [c0, c1, c2, c3, c4] = *gap;
+    first_fall(gap, &kurbo::common::solve_quartic(c0, c1, c2, c3, c4), end)
+}
+
+/// Ferrari's closed form, as textbooks have it and with nothing done against cancellation.
+pub fn closed_form(gap: &[f64; 5], end: f64) -> Option<f64> {
+    let [c0, c1, c2, c3, c4] = *gap;
+    if c4 == 0.0 {
+        return algorithm_1010(gap, end);
+    }
+    let (a, b, c, d) = (c3 / c4, c2 / c4, c1 / c4, c0 / c4);
+    // With t = y - a/4: y⁴ + p y² + q y + r.
+    let p = b - 0.375 * a * a;
+    let q = c - 0.5 * a * b + 0.125 * a * a * a;
+    let r = d - 0.25 * a * c + 0.0625 * a * a * b - 3.0 / 256.0 * a.powi(4);
+    // A positive root m of the resolvent 8m³ + 8pm² + (2p² - 8r)m - q² makes both sides squares.
+    let m = largest_cubic_root(p, 0.25 * p * p - r, -0.125 * q * q);
+    let mut roots = Vec::with_capacity(4);
+    if m > 0.0 {
+        let s = (2.0 * m).sqrt();
+        for sign in [1.0, -1.0] {
+            let inside = -(2.0 * p + 2.0 * m + sign * 2.0 * q / s);
+            if inside >= 0.0 {
+                roots.extend([1.0, -1.0].map(|side| 0.5 * (sign * s + side * inside.sqrt()) - 0.25 * a));
+            }
+        }
+    } else {
+        let inside = 0.25 * p * p - r;
+        if inside >= 0.0 {
+            for square in [-0.5 * p + inside.sqrt(), -0.5 * p - inside.sqrt()] {
+                if square >= 0.0 {
+                    roots.extend([square.sqrt() - 0.25 * a, -square.sqrt() - 0.25 * a]);
+                }
+            }
+        }
+    }
+    first_fall(gap, &roots, end)
+}
+
+/// Largest real root of `m³ + a m² + b m + c`, by Cardano's and Viète's formulas.
+fn largest_cubic_root(a: f64, b: f64, c: f64) -> f64 {
+    let p = b - a * a / 3.0;
+    let q = 2.0 / 27.0 * a * a * a - a * b / 3.0 + c;
+    let discriminant = 0.25 * q * q + p * p * p / 27.0;
+    let root = if discriminant >= 0.0 {
+        (-0.5 * q + discriminant.sqrt()).cbrt() + (-0.5 * q - discriminant.sqrt()).cbrt()
+    } else {
+        let size = 2.0 * (-p / 3.0).sqrt();
+        size * ((1.5 * q / p * (-3.0 / p).sqrt()).clamp(-1.0, 1.0).acos() / 3.0).cos()
+    };
+    root - a / 3.0
+}
+
+/// The first of `roots` in `(0, end]` at which the gap falls.
+fn first_fall(gap: &[f64; 5], roots: &[f64], end: f64) -> Option<f64> {
+    let slope = derivative(gap);
+    roots.iter().copied().filter(|&t| t > 0.0 && t <= end && value(&slope, t) < 0.0).min_by(f64::total_cmp)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::plain::DoubleDouble;
+
+    /// `(t - 0.3)(t - 0.7)(t + 1)(t + 2)`.
+    const QUARTIC: [f64; 5] = [0.42, -1.37, -0.79, 2.0, 1.0];
+
+    #[test]
+    fn all_finders_find_the_first_root() {
+        for finder in [by_extrema::<f64>, closed_form, algorithm_1010] {
+            assert!((finder(&QUARTIC, 5.0).unwrap() - 0.3).abs() < 1e-14);
+            assert_eq!(finder(&QUARTIC, 0.29), None);
+        }
+    }
+
+    #[test]
+    fn in_double_double_a_root_has_thirty_digits() {
+        let root = by_extrema(&[2.0, 0.0, -1.0, 0.0, 0.0].map(DoubleDouble::of), DoubleDouble::of(9.0)).unwrap();
+        assert!((root - DoubleDouble::of(2.0).sqrt()).to_f64().abs() < 1e-30);
+    }
+}

@@ -1,0 +1,98 @@
+//! Vectors with three components, of any number type.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::Real;
+
+/// A vector; places and velocities have `z = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vector<R> {
+    /// Along the table's length.
+    pub x: R,
+    /// Along its width.
+    pub y: R,
+    /// Upwards.
+    pub z: R,
+}
+
+impl<R: Real> Vector<R> {
+    /// A vector from its components.
+    pub fn new(x: R, y: R, z: R) -> Self {
+        Self { x, y, z }
+    }
+
+    /// No vector at all.
+    pub fn zero() -> Self {
+        Self::new(R::zero(), R::zero(), R::zero())
+    }
+
+    /// The unit vector upwards.
+    pub fn up() -> Self {
+        Self::new(R::zero(), R::zero(), R::of(1.0))
+    }
+
+    /// Scalar product.
+    pub fn dot(self, other: Self) -> R {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// Vector product.
+    #[must_use]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
+    /// Length.
+    pub fn length(self) -> R {
+        self.dot(self).sqrt()
+    }
+
+    /// The part in the table's plane.
+    #[must_use]
+    pub fn flat(self) -> Self {
+        Self::new(self.x, self.y, R::zero())
+    }
+
+    /// The direction, or zero where there is none.
+    #[must_use]
+    pub fn direction(self) -> Self {
+        let length = self.length();
+        if length > R::zero() { self * (R::of(1.0) / length) } else { Self::zero() }
+    }
+}
+
+impl<R: Real> Add for Vector<R> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl<R: Real> Sub for Vector<R> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<R: Real> Neg for Vector<R> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y, -self.z)
+    }
+}
+
+impl<R: Real> Mul<R> for Vector<R> {
+    type Output = Self;
+
+    fn mul(self, factor: R) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}

@@ -1,0 +1,237 @@
+//! The work-precision study: every method plays the same shots, in turn, and is measured by the truth.
+
+use serde::Serialize;
+
+use super::{
+    clock::timed,
+    errors::Errors,
+    methods::{Method, Run},
+    plain::Unjudged,
+    shots::StudyShot,
+    statistics::{Share, Spread},
+    truth::Truth,
+};
+use crate::table::Table;
+
+/// Shots that a method plays before the next one has its turn: long enough for the clock, and short enough that a
+/// machine's noise hits all methods alike.
+const BLOCK: usize = 16;
+
+/// A block that takes longer than this is timed once: a machine's noise is short, s.
+const LONG: f64 = 0.1;
+
+/// Seconds that a shot takes on the table, about: it tells how many steps one costs.
+const SHOT_SECONDS: f64 = 8.0;
+
+/// What to study.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The table.
+    pub table: Table,
+    /// The shots.
+    pub shots: Vec<StudyShot>,
+    /// The methods.
+    pub methods: Vec<Method>,
+    /// How often each block of shots is timed; the fastest counts.
+    pub rounds: usize,
+    /// Steps that a method may take in a round: methods of short steps play fewer shots, always the first ones.
+    pub steps: f64,
+}
+
+/// One method on one table.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// The table's name.
+    pub table: String,
+    /// The method's family.
+    pub method: &'static str,
+    /// Its time step, s.
+    pub dt: Option<f64>,
+    /// Shots that it played.
+    pub shots: usize,
+    /// Shots that it gave up.
+    pub failed: usize,
+    /// Mean CPU time of a shot, µs; the spread is that of blocks of 16 shots.
+    pub cost_us: f64,
+    /// Spread of the cost over blocks, µs a shot.
+    pub cost_spread_us: Option<Spread>,
+    /// Distance of the balls at rest from their true places, m.
+    pub rest_m: Option<Spread>,
+    /// The same over `(1 + condition) 2^-53`.
+    pub rest_units: Option<Spread>,
+    /// Shots that are off by more than a billionth of a metre at rest.
+    pub beyond_1e_9_m: Share,
+    /// Error of event times, s.
+    pub time_s: Option<Spread>,
+    /// The same over `(1 + condition) 2^-53`.
+    pub time_units: Option<Spread>,
+    /// Shots with a wrong sequence of events.
+    pub wrong_sequence: Share,
+    /// Median index of the first event that differs, among those.
+    pub first_wrong: Option<f64>,
+    /// Energy for which nothing accounts, as a share of the first.
+    pub energy: Option<Spread>,
+    /// Shots whose outcome is wrong under straight rail.
+    pub flips_straight: Share,
+    /// Shots whose outcome is wrong under three-cushion.
+    pub flips_three_cushion: Share,
+    /// The shot that is furthest off, as a command line.
+    pub worst_shot: String,
+}
+
+/// One shot of one method, for the plots.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// The shot's condition, m.
+    pub condition: f64,
+    /// Error at rest, m.
+    pub rest: f64,
+}
+
+/// What has come of a study.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// What the shots are like.
+    pub summary: Summary,
+    /// The methods in the plan's order.
+    pub rows: Vec<Row>,
+    /// Each method's shots.
+    pub points: Vec<Vec<Point>>,
+    /// Shots whose truth is not known, and why.
+    pub unjudged: Vec<(usize, Unjudged)>,
+}
+
+/// The shots of one table and their truth.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// The table's name.
+    pub table: String,
+    /// Shots with known truth: all others are neither judged nor timed.
+    pub judged: Share,
+    /// Of those, the share in which balls chatter or rest against something while they move.
+    pub chatters: Share,
+    /// Their condition, m.
+    pub condition_m: Option<Spread>,
+    /// What the truth's own energy balance is off by, as a share of the first energy.
+    pub truth_energy: Option<Spread>,
+    /// Mean CPU time of the truth, its two neighbours included, µs a shot.
+    pub truth_cost_us: f64,
+}
+
+/// What is gathered of one method.
+#[derive(Default)]
+struct Gathered {
+    cost: f64,
+    blocks: Vec<f64>,
+    shots: Vec<(usize, Option<Errors>, Option<f64>)>,
+}
+
+impl Plan {
+    /// Shots that `method` plays.
+    fn limit(&self, method: Method) -> usize {
+        let steps = method.time_step().map_or(f64::INFINITY, |dt| self.steps * dt / SHOT_SECONDS);
+        (steps.max(4.0) as usize).min(self.shots.len())
+    }
+
+    /// Carries it out; `progress` is told the number of shots that are done.
+    pub fn run(&self, mut progress: impl FnMut(usize)) -> Study {
+        let mut truths: Vec<Result<Truth, Unjudged>> = Vec::with_capacity(self.shots.len());
+        let mut gathered: Vec<Gathered> = self.methods.iter().map(|_| Gathered::default()).collect();
+        let mut truth_cost = 0.0;
+        for start in (0..self.shots.len()).step_by(BLOCK) {
+            let block = start..(start + BLOCK).min(self.shots.len());
+            let shots = self.shots[block.clone()].iter().map(|shot| Truth::of(&self.table, shot));
+            truth_cost += timed(|| truths.extend(shots)).1;
+            let judged: Vec<usize> = block.clone().filter(|&index| truths[index].is_ok()).collect();
+            let mut fastest = vec![f64::INFINITY; self.methods.len()];
+            let mut runs: Vec<Vec<Option<Run>>> = vec![Vec::new(); self.methods.len()];
+            for round in 0..self.rounds {
+                for (index, &method) in self.methods.iter().enumerate() {
+                    if round > 0 && fastest[index] > LONG {
+                        continue;
+                    }
+                    let shots = judged.iter().filter(|&&shot| shot < self.limit(method));
+                    let play = |&shot: &usize| method.play(&self.table, &self.shots[shot]);
+                    let seconds;
+                    (runs[index], seconds) = timed(|| shots.map(play).collect());
+                    fastest[index] = fastest[index].min(seconds);
+                }
+            }
+            for (index, gathered) in gathered.iter_mut().enumerate() {
+                if !runs[index].is_empty() {
+                    gathered.cost += fastest[index];
+                    gathered.blocks.push(1e6 * fastest[index] / runs[index].len() as f64);
+                }
+                for (&shot, run) in judged.iter().zip(&runs[index]) {
+                    let errors =
+                        run.as_ref().zip(truths[shot].as_ref().ok()).map(|(run, truth)| Errors::of(truth, run));
+                    let account = |run| self.methods[index].unaccounted(&self.table, &self.shots[shot], run);
+                    gathered.shots.push((shot, errors, run.as_ref().and_then(account)));
+                }
+            }
+            progress(block.end);
+        }
+        self.study(&truths, &gathered, truth_cost)
+    }
+
+    fn study(&self, truths: &[Result<Truth, Unjudged>], gathered: &[Gathered], truth_cost: f64) -> Study {
+        let known = || truths.iter().flatten();
+        let points = |gathered: &Gathered| {
+            let point = |&(shot, errors, _): &(usize, Option<Errors>, _)| {
+                let condition = truths[shot].as_ref().ok()?.condition;
+                Some(Point { condition, rest: errors?.rest })
+            };
+            gathered.shots.iter().filter_map(point).collect()
+        };
+        let summary = Summary {
+            table: self.table.name.clone(),
+            judged: Share::of(truths.iter().map(Result::is_ok)),
+            chatters: Share::of(known().map(|truth| truth.chatters)),
+            condition_m: Spread::of(known().map(|truth| truth.condition)),
+            truth_energy: Spread::of(known().map(|truth| truth.unaccounted.abs())),
+            truth_cost_us: 1e6 * truth_cost / truths.len().max(1) as f64,
+        };
+        let methods = self.methods.iter().zip(gathered);
+        Study {
+            summary,
+            rows: methods.map(|(&method, gathered)| self.row(method, truths, gathered)).collect(),
+            points: gathered.iter().map(points).collect(),
+            unjudged: truths
+                .iter()
+                .enumerate()
+                .filter_map(|(i, truth)| truth.as_ref().err().map(|e| (i, *e)))
+                .collect(),
+        }
+    }
+
+    fn row(&self, method: Method, truths: &[Result<Truth, Unjudged>], gathered: &Gathered) -> Row {
+        let errors = || gathered.shots.iter().filter_map(|(_, errors, _)| *errors);
+        let unit = |shot: usize| truths[shot].as_ref().map_or(f64::NAN, Truth::unit);
+        let timed = || gathered.shots.iter().filter_map(|(shot, errors, _)| Some((*shot, errors.as_ref()?.time?)));
+        let worst = gathered.shots.iter().max_by(|one, other| {
+            let size = |shot: &(usize, Option<Errors>, _)| shot.1.map_or(0.0, |errors: Errors| errors.rest_units);
+            size(one).total_cmp(&size(other))
+        });
+        Row {
+            table: self.table.name.clone(),
+            method: method.family(),
+            dt: method.time_step(),
+            shots: gathered.shots.len(),
+            failed: gathered.shots.iter().filter(|(_, errors, _)| errors.is_none()).count(),
+            cost_us: 1e6 * gathered.cost / gathered.shots.len().max(1) as f64,
+            cost_spread_us: Spread::of(gathered.blocks.iter().copied()),
+            rest_m: Spread::of(errors().map(|errors| errors.rest)),
+            rest_units: Spread::of(errors().map(|errors| errors.rest_units)),
+            beyond_1e_9_m: Share::of(errors().map(|errors| errors.rest > 1e-9)),
+            time_s: Spread::of(timed().map(|(_, time)| time)),
+            time_units: Spread::of(timed().map(|(shot, time)| time / unit(shot))),
+            wrong_sequence: Share::of(errors().map(|errors| errors.differs_at.is_some())),
+            first_wrong: Spread::of(errors().filter_map(|errors| errors.differs_at).map(|index| index as f64))
+                .map(|spread| spread.median),
+            energy: Spread::of(gathered.shots.iter().filter_map(|(_, _, energy)| *energy)),
+            flips_straight: Share::of(errors().map(|errors| errors.flips[0])),
+            flips_three_cushion: Share::of(errors().map(|errors| errors.flips[1])),
+            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.table)),
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! The truth and the engine on the shots that an independent program computed with 50 digits.
+
+use serde::Serialize;
+
+use super::{
+    plain::{DoubleDouble, Real},
+    shots::{Reference, ReferenceEvent, references},
+    statistics::{Share, Spread},
+    truth::Truth,
+};
+use crate::{
+    physics::CueInputs,
+    simulation::{EventKind, Rail, Recording},
+    table::{Layout, Table},
+};
+
+/// Goal for the engine's error over `(1 + condition) 2^-53`: the median.
+pub const GOAL_MEDIAN: f64 = 2.0;
+
+/// The same for 99 in a hundred shots.
+pub const GOAL_P99: f64 = 64.0;
+
+/// One reference file.
+#[derive(Clone, Debug, Serialize)]
+pub struct ReferenceRow {
+    /// The file's name: shots, hard or contact.
+    pub file: &'static str,
+    /// Its shots.
+    pub shots: usize,
+    /// Those that the truth cannot judge.
+    pub unjudged: usize,
+    /// Distance of the truth's balls at rest from the file's, m. The file's own digits end at about 3e-16.
+    pub truth_m: Option<Spread>,
+    /// The same over `(1 + condition) 2^-53`, where the file tells the condition.
+    pub truth_units: Option<Spread>,
+    /// Shots in which the truth has another sequence of events.
+    pub truth_wrong: Share,
+    /// Distance of the engine's balls at rest from the file's, m.
+    pub engine_m: Option<Spread>,
+    /// The same over `(1 + condition) 2^-53`.
+    pub engine_units: Option<Spread>,
+    /// Shots in which the engine has another sequence of events.
+    pub engine_wrong: Share,
+    /// Distance of the engine's balls at rest from the truth's, m.
+    pub engine_to_truth_m: Option<Spread>,
+}
+
+/// All three files; a shot whose table or layout is refused counts as infinitely wrong.
+pub fn check_references() -> Vec<ReferenceRow> {
+    references().into_iter().map(|(file, shots)| row(file, &shots)).collect()
+}
+
+/// What is found on one shot.
+struct Checked {
+    unit: Option<f64>,
+    truth: Option<f64>,
+    truth_wrong: Option<bool>,
+    engine: f64,
+    engine_wrong: Option<bool>,
+    engine_to_truth: Option<f64>,
+}
+
+fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
+    let checked: Vec<Checked> = shots.iter().map(check).collect();
+    let in_units = |error: fn(&Checked) -> Option<f64>| {
+        Spread::of(checked.iter().filter_map(move |shot| Some(error(shot)? / shot.unit?)))
+    };
+    ReferenceRow {
+        file,
+        shots: shots.len(),
+        unjudged: checked.iter().filter(|shot| shot.truth.is_none()).count(),
+        truth_m: Spread::of(checked.iter().filter_map(|shot| shot.truth)),
+        truth_units: in_units(|shot| shot.truth),
+        truth_wrong: Share::of(checked.iter().filter_map(|shot| shot.truth_wrong)),
+        engine_m: Spread::of(checked.iter().map(|shot| shot.engine)),
+        engine_units: in_units(|shot| Some(shot.engine)),
+        engine_wrong: Share::of(checked.iter().filter_map(|shot| shot.engine_wrong)),
+        engine_to_truth_m: Spread::of(checked.iter().filter_map(|shot| shot.engine_to_truth)),
+    }
+}
+
+fn check(reference: &Reference) -> Checked {
+    let table = Table::preset(&reference.preset).ok();
+    let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok()).map(|(truth, _)| truth);
+    let written = reference.cue;
+    let cue = CueInputs {
+        a: written.a,
+        b: written.b,
+        theta: written.theta_deg.to_radians(),
+        phi: written.phi_deg.to_radians(),
+        speed: written.speed,
+    };
+    let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &cue).ok());
+    let has_events = !reference.events.is_empty();
+    let differs = |kinds: &mut dyn Iterator<Item = EventKind>| {
+        let kinds: Vec<EventKind> = kinds.collect();
+        kinds.len() != reference.events.len() || !kinds.iter().zip(&reference.events).all(|(kind, it)| is(*kind, it))
+    };
+    let end = recording.as_ref().map(Recording::final_layout);
+    Checked {
+        unit: reference.condition.map(|condition| (1.0 + condition) * f64::ROUNDING),
+        truth: truth.as_ref().map(|truth| truth.distance(&reference.end)),
+        truth_wrong: truth
+            .as_ref()
+            .filter(|_| has_events)
+            .map(|truth| differs(&mut truth.events.iter().map(|event| event.1))),
+        engine: end.as_ref().map_or(f64::INFINITY, |end| distance(end, &reference.end)),
+        engine_wrong: has_events
+            .then(|| recording.as_ref().is_none_or(|it| differs(&mut it.events().iter().map(|event| event.kind)))),
+        engine_to_truth: truth.zip(end).map(|(truth, end)| truth.distance(&end)),
+    }
+}
+
+fn distance(one: &Layout, other: &Layout) -> f64 {
+    // In double-double: a difference of rounding's size is what is looked for.
+    let apart = |a: f64, b: f64| (DoubleDouble::of(a) - DoubleDouble::of(b)).to_f64();
+    let pairs = one.balls.iter().zip(&other.balls);
+    pairs.map(|(a, b)| apart(a.x, b.x).hypot(apart(a.y, b.y))).fold(0.0, f64::max)
+}
+
+fn is(kind: EventKind, written: &ReferenceEvent) -> bool {
+    let (first, second) = kind.balls();
+    let balls: Vec<usize> = [Some(first), second].into_iter().flatten().collect();
+    kind.name() == written.kind && balls == written.balls && kind.rail().map(Rail::name) == written.rail.as_deref()
+}

@@ -1,0 +1,170 @@
+//! The shots that are studied: random ones that a player could play, and those of the reference files.
+
+use std::f64::consts::TAU;
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Deserialize;
+
+use crate::{
+    physics::{CueInputs, Impulse, strike},
+    table::{Layout, Table},
+};
+
+/// Steepest elevation that is drawn, rad.
+const STEEPEST: f64 = 0.35;
+
+/// Cue speeds that are drawn, m/s.
+const SPEEDS: std::ops::Range<f64> = 0.5..6.0;
+
+/// A shot to study.
+#[derive(Clone, Copy, Debug)]
+pub struct StudyShot {
+    /// The balls.
+    pub layout: Layout,
+    /// The stroke.
+    pub cue: CueInputs,
+    /// What the stroke gives the cue ball: every method starts from these very bits.
+    pub impulse: Impulse,
+}
+
+impl StudyShot {
+    /// A shot on `table`.
+    pub fn new(table: &Table, layout: Layout, cue: CueInputs) -> Self {
+        Self { layout, cue, impulse: strike(table, &cue) }
+    }
+
+    /// The command line that plays it.
+    pub fn command_line(&self, table: &Table) -> String {
+        let [p, q, r] = self.layout.balls;
+        let CueInputs { a, b, theta, phi, speed } = self.cue;
+        format!(
+            "carom simulate --table {} --layout=\"{},{} {},{} {},{}\" --shot=\"{a},{b},{},{},{speed}\"",
+            table.name,
+            p.x,
+            p.y,
+            q.x,
+            q.y,
+            r.x,
+            r.y,
+            theta.to_degrees(),
+            phi.to_degrees(),
+        )
+    }
+}
+
+/// `count` shots drawn from `seed`: balls anywhere, the tip within the miscue limit, aimed somewhere at an object ball.
+pub fn random_shots(table: &Table, count: usize, seed: u64) -> Vec<StudyShot> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    (0..count).map(|_| random_shot(table, &mut rng)).collect()
+}
+
+fn random_shot(table: &Table, rng: &mut impl Rng) -> StudyShot {
+    let layout = Layout::random(table, rng);
+    let [cue_ball, target, _] = if rng.random() {
+        layout.balls
+    } else {
+        let [cue_ball, one, other] = layout.balls;
+        [cue_ball, other, one]
+    };
+    let line = target - cue_ball;
+    let thin = rng.random_range(-1.0..1.0) * (2.0 * table.radius / line.length()).min(1.0);
+    let offset = (table.miscue_limit * rng.random_range(0.0..1.0)).sqrt();
+    let (a, b) = (offset * rng.random_range(0.0..TAU).sin(), 0.0);
+    let b = b + rng.random_range(-1.0..1.0) * (offset * offset - a * a).max(0.0).sqrt();
+    // Rounded to what a person could type, so that the command line gives the same bits.
+    let digits = |x: f64| (1e6 * x).round() / 1e6;
+    let degrees = |x: f64| digits(x.to_degrees()).to_radians();
+    let theta = degrees(rng.random_range(0.0..STEEPEST));
+    let phi = degrees(line.to_angle() + thin.asin());
+    let cue = CueInputs { a: digits(a), b: digits(b), theta, phi, speed: digits(rng.random_range(SPEEDS)) };
+    StudyShot::new(table, layout, cue)
+}
+
+/// A shot that an independent program computed with 50 digits, rounded to `f64` where it wrote them.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Reference {
+    /// The table's name.
+    pub preset: String,
+    /// The balls.
+    pub layout: Layout,
+    /// The stroke as it is written, angles in degrees.
+    pub cue: WrittenCue,
+    /// When all balls are at rest, s.
+    pub duration: f64,
+    /// How far the end moves per unit of relative change in speed or angle, m. Not known of resting contacts.
+    #[serde(default)]
+    pub condition: Option<f64>,
+    /// What happens.
+    #[serde(default)]
+    pub events: Vec<ReferenceEvent>,
+    /// Where the balls come to rest.
+    #[serde(rename = "final")]
+    pub end: Layout,
+}
+
+/// A stroke as the reference files write it.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub struct WrittenCue {
+    /// Offset of the tip to the side, in ball radii.
+    pub a: f64,
+    /// Offset of the tip upwards, in ball radii.
+    pub b: f64,
+    /// Elevation in degrees.
+    pub theta_deg: f64,
+    /// Direction in degrees.
+    pub phi_deg: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+}
+
+/// An event as the reference files write it.
+#[derive(Clone, Debug, Deserialize)]
+pub struct ReferenceEvent {
+    /// Its time, s.
+    pub t: f64,
+    /// Its kind, by the name that `EventKind` has.
+    pub kind: String,
+    /// The balls that take part.
+    pub balls: Vec<usize>,
+    /// The cushion that takes part.
+    pub rail: Option<String>,
+}
+
+/// The three reference files by name: ordinary shots, hard ones, and resting contacts.
+pub fn references() -> [(&'static str, Vec<Reference>); 3] {
+    let read = |text: &str| {
+        let line = |line| serde_json::from_str(line).expect("the bundled reference shots are valid: a test reads them");
+        text.lines().map(line).collect()
+    };
+    [
+        ("shots", read(include_str!("../../tests/data/shots.jsonl"))),
+        ("hard", read(include_str!("../../tests/data/hard.jsonl"))),
+        ("contact", read(include_str!("../../tests/data/contact.jsonl"))),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_drawn_shot_can_be_played_again_from_its_command_line() {
+        let table = Table::default();
+        for shot in random_shots(&table, 200, 5) {
+            shot.cue.validate().unwrap();
+            shot.cue.validate_tip(table.miscue_limit + 1e-6).unwrap();
+            let line = shot.command_line(&table);
+            let part = |option: &str| line.split_once(option).unwrap().1.split('"').next().unwrap();
+            assert_eq!(Layout::parse(part("--layout=\""), &table).unwrap(), shot.layout);
+            let cue = CueInputs::parse(part("--shot=\"")).unwrap();
+            assert!((cue.phi - shot.cue.phi).abs() < 1e-15 && cue.speed == shot.cue.speed, "{line}");
+        }
+    }
+
+    #[test]
+    fn the_bundled_reference_shots_are_valid() {
+        let counts = references().map(|(_, shots)| shots.len());
+        assert_eq!(counts, [80, 84, 40]);
+    }
+}

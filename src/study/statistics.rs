@@ -1,0 +1,75 @@
+//! Median, 99th percentile and worst of a kind of error: a mean alone would hide what matters.
+
+use serde::Serialize;
+
+use crate::learning::evaluation::SuccessRate;
+
+/// How a kind of error is spread over the shots.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Half of the shots are better.
+    pub median: f64,
+    /// 99 in a hundred are better.
+    pub p99: f64,
+    /// None is worse.
+    pub worst: f64,
+}
+
+impl Spread {
+    /// The spread of `values`, if there are any. What is not a number counts as infinitely bad.
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let mut values: Vec<f64> =
+            values.into_iter().map(|value| if value.is_nan() { f64::INFINITY } else { value }).collect();
+        values.sort_by(f64::total_cmp);
+        let last = values.len().checked_sub(1)?;
+        // The nearest rank: the smallest value that so large a share does not exceed.
+        let rank = |share: f64| values[((share * values.len() as f64).ceil() as usize).saturating_sub(1).min(last)];
+        Some(Self { median: rank(0.5), p99: rank(0.99), worst: values[last] })
+    }
+}
+
+/// A share of the shots and its 95 % interval (Wilson's).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Share {
+    /// How many of the shots.
+    pub count: usize,
+    /// Of how many.
+    pub of: usize,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Share {
+    /// The share of those for which something holds.
+    pub fn of(holds: impl IntoIterator<Item = bool>) -> Self {
+        let (mut count, mut of) = (0, 0);
+        for one in holds {
+            count += usize::from(one);
+            of += 1;
+        }
+        let SuccessRate { low, high, .. } = SuccessRate::new(count, of);
+        Self { count, of, low, high }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_is_by_nearest_rank_and_not_a_number_is_worst() {
+        let spread = Spread::of((1..=200).map(f64::from)).unwrap();
+        assert_eq!((spread.median, spread.p99, spread.worst), (100.0, 198.0, 200.0));
+        assert_eq!(Spread::of([1.0, f64::NAN]).unwrap().worst, f64::INFINITY);
+        assert_eq!(Spread::of([]), None);
+    }
+
+    #[test]
+    fn a_share_of_none_still_has_an_upper_end() {
+        let share = Share::of([false; 100]);
+        assert_eq!((share.count, share.of, share.low), (0, 100, 0.0));
+        assert!(share.high > 0.03 && share.high < 0.04);
+    }
+}

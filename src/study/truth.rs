@@ -1,0 +1,108 @@
+//! What really becomes of a shot: the plain engine in double-double, and how much the shot amplifies a change.
+
+use super::{
+    plain::{DoubleDouble, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
+    shots::{Reference, StudyShot},
+};
+use crate::{
+    simulation::EventKind,
+    table::{BALLS, Layout, Table},
+};
+
+/// Relative change from which the amplification is taken: far above the truth's rounding, and so far below all else that
+/// a shot which amplifies a billionfold is still linear in it.
+const CHANGE: f64 = 1e-15;
+
+/// Two meetings of the same partners within this time are a chatter, s.
+const CHATTER: f64 = 1e-6;
+
+/// A shot's true course, rounded to `f64` where nothing more is needed.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// All events.
+    pub events: Vec<(f64, EventKind)>,
+    /// Where the balls come to rest, m.
+    pub end: [Vector<DoubleDouble>; BALLS],
+    /// How far the end moves per unit of relative change in speed or angle, m: the worse of the two.
+    pub condition: f64,
+    /// Whether balls chatter, so that what is told of their bounces depends on where a method stops telling.
+    pub chatters: bool,
+    /// Kinetic energy at the start for which nothing accounts at the end, as a share.
+    pub unaccounted: f64,
+}
+
+impl Truth {
+    /// Plays a shot three times: as it is, a little faster, and a little turned.
+    ///
+    /// # Errors
+    /// [`Unjudged`], where the truth is not known.
+    pub fn of(table: &Table, shot: &StudyShot) -> Result<Self, Unjudged> {
+        let numbers = Numbers::of(table);
+        let of = DoubleDouble::of;
+        let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+        let velocity = Vector::new(of(v.x), of(v.y), of(0.0));
+        let spin = Vector::new(of(w.x), of(w.y), of(w.z));
+        let true_shot = play(&numbers, places(&shot.layout), velocity, spin, by_extrema)?;
+        let faster = of(1.0) + of(CHANGE);
+        // The impulse is linear in the cue's speed, and turns with its direction.
+        let faster = play(&numbers, places(&shot.layout), velocity * faster, spin * faster, by_extrema)?;
+        let angle = of(shot.cue.phi) * of(CHANGE);
+        let turn = |v: Vector<DoubleDouble>| v + Vector::up().cross(v) * angle;
+        let turned = play(&numbers, places(&shot.layout), turn(velocity), turn(spin), by_extrema)?;
+        let moved = |other: &Shot<DoubleDouble>| {
+            let apart = true_shot.end.iter().zip(&other.end).map(|(a, b)| (a.position - b.position).length().to_f64());
+            apart.fold(0.0, f64::max) / CHANGE
+        };
+        Ok(Self::from_shot(&true_shot, moved(&faster).max(moved(&turned))))
+    }
+
+    /// The truth of a reference shot, from the angles in degrees on.
+    ///
+    /// # Errors
+    /// [`Unjudged`], where the truth is not known.
+    pub fn of_reference(table: &Table, reference: &Reference) -> Result<(Self, DoubleDouble), Unjudged> {
+        let numbers = Numbers::of(table);
+        let of = DoubleDouble::of;
+        let turn = |degrees: f64| (of(degrees) * DoubleDouble::PI / of(180.0)).sin_cos();
+        let cue = &reference.cue;
+        let (theta, phi) = (turn(cue.theta_deg), turn(cue.phi_deg));
+        let (velocity, spin) =
+            strike(&numbers, &Stroke { a: of(cue.a), b: of(cue.b), theta, phi, speed: of(cue.speed) });
+        let shot = play(&numbers, places(&reference.layout), velocity, spin, by_extrema)?;
+        Ok((Self::from_shot(&shot, reference.condition.unwrap_or(0.0)), shot.duration))
+    }
+
+    fn from_shot(shot: &Shot<DoubleDouble>, condition: f64) -> Self {
+        let events: Vec<_> = shot.events.iter().map(|(time, kind)| (time.to_f64(), *kind)).collect();
+        let chatters = shot.pressed || chatters(&events);
+        let unaccounted = (shot.energy[1] / shot.energy[0]).to_f64();
+        Self { events, end: shot.end.map(|ball| ball.position), condition, chatters, unaccounted }
+    }
+
+    /// Greatest distance of a ball at rest from where it should be, m.
+    pub fn distance(&self, end: &Layout) -> f64 {
+        let apart = self.end.iter().zip(places(end)).map(|(truth, ball)| (*truth - ball).length().to_f64());
+        apart.fold(0.0, f64::max)
+    }
+
+    /// The error that no double-precision program can be blamed for, m: that of a rounded input.
+    pub fn unit(&self) -> f64 {
+        (1.0 + self.condition) * f64::ROUNDING
+    }
+}
+
+fn places(layout: &Layout) -> [Vector<DoubleDouble>; BALLS] {
+    layout.balls.map(|ball| Vector::new(DoubleDouble::of(ball.x), DoubleDouble::of(ball.y), DoubleDouble::of(0.0)))
+}
+
+fn chatters(events: &[(f64, EventKind)]) -> bool {
+    let meetings: Vec<_> = events.iter().filter(|(_, kind)| is_collision(*kind)).collect();
+    meetings.iter().enumerate().any(|(index, (time, kind))| {
+        meetings[index + 1..].iter().take_while(|(later, _)| later - time < CHATTER).any(|(_, other)| other == kind)
+    })
+}
+
+/// Whether two bodies collide in an event.
+pub fn is_collision(kind: EventKind) -> bool {
+    matches!(kind, EventKind::BallBall(..) | EventKind::BallRail(..))
+}
