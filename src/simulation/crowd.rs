@@ -21,11 +21,11 @@ const FIRST_DELAY: f64 = 1e-12;
 const LONGEST_DELAY: f64 = 1e-7;
 
 /// Impacts of a shot that are simulated as exactly as can be, and how many more double its tolerances.
-const FINE_IMPACTS: u32 = 300;
-const IMPACTS_TO_DOUBLE: u32 = 10;
+const FINE_IMPACTS: u32 = 160;
+const IMPACTS_TO_DOUBLE: u32 = 5;
 
 /// Impacts of a shot after which it is brought to its end.
-const TOO_MANY_IMPACTS: u32 = 800;
+const TOO_MANY_IMPACTS: u32 = 250;
 
 /// The same for steps of resting contacts.
 const FINE_STEPS: u32 = 1000;
