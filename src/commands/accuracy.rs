@@ -3,6 +3,7 @@
 use std::{
     io::{IsTerminal, Write},
     path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,7 +12,7 @@ use serde::Serialize;
 use super::{Failure, input::table_named};
 use crate::{
     storage::write_atomic,
-    study::{self, Method, Plan, Study, random_shots},
+    study::{self, Method, Plan, Study, random_shots, stability},
     table::{PRESETS, Table},
 };
 
@@ -32,6 +33,10 @@ pub struct Args {
     /// The table: "match", "thesis" or the path of a TOML file. Default: match and thesis
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
+    /// Play the stability table only: ten million random and a hundred thousand adversarial shots on each table, which
+    /// takes long; a hundredth of them with --quick.
+    #[arg(long, conflicts_with_all = ["shots", "table"])]
+    stability: bool,
     /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -58,6 +63,10 @@ impl Size {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if args.stability {
+        let plan = if args.quick { stability::Plan::QUICK } else { stability::Plan::FULL };
+        return play_stability(args, &plan);
+    }
     let tables: Vec<Table> = match &args.table {
         Some(name) => vec![table_named(name)?],
         None => PRESETS.into_iter().map(table_named).collect::<Result<_, _>>()?,
@@ -65,7 +74,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let references = study::check_references();
     let size = Size::of(args);
     let studies: Vec<Study> = tables.into_iter().map(|table| measure(table, &size, args.seed)).collect();
-    // The stability study belongs here: its rows behind these, its text behind this text.
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -82,6 +90,30 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
     } else {
         out.write_all(study::text(&references, &studies).as_bytes())?;
+        writeln!(out)?;
+    }
+    out.flush()?;
+    drop(out);
+    play_stability(args, if args.quick { &QUICK_STABILITY } else { &stability::Plan::QUICK })
+}
+
+/// Stability within the seconds of --quick.
+const QUICK_STABILITY: stability::Plan = stability::Plan { random: 5_000, adversarial: 300, each_case: 30, seed: 1 };
+
+/// The stability table, which tells of each stiff or extreme case how many shots fail and why.
+fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
+    let plan = stability::Plan { seed: args.seed, ..*plan };
+    let rows = stability::rows_with_progress(&plan, &AtomicBool::new(false));
+    if let Some(folder) = &args.out {
+        write_file(folder, "stability.md", &stability::markdown(&rows))?;
+    }
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        for row in &rows {
+            write_json(&mut out, row)?;
+        }
+    } else {
+        out.write_all(stability::text(&rows).as_bytes())?;
     }
     Ok(())
 }
@@ -118,11 +150,13 @@ fn write_files(folder: &Path, studies: &[Study]) -> Result<(), Failure> {
         ("error-vs-time.svg", study::error_against_time(studies)),
         ("error-vs-condition.svg", study::error_against_condition(studies)),
     ];
-    for (name, text) in files {
-        let path = folder.join(name);
-        write_atomic(&path, text.as_bytes())
-            .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
-        eprintln!("wrote {}", path.display());
-    }
+    files.into_iter().try_for_each(|(name, text)| write_file(folder, name, &text))
+}
+
+fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
+    let path = folder.join(name);
+    write_atomic(&path, text.as_bytes())
+        .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
+    eprintln!("wrote {}", path.display());
     Ok(())
 }

@@ -72,14 +72,14 @@ impl Crowd {
 
     #[cold]
     fn long_stillness(&self) -> f64 {
-        2_f64.powi(((self.impacts - TOO_MANY_IMPACTS) / IMPACTS_TO_DOUBLE).min(20) as i32)
+        f64::from(1_u32 << ((self.impacts - TOO_MANY_IMPACTS) / IMPACTS_TO_DOUBLE).min(20))
     }
 
     /// By how much all tolerances are to grow, 1 to a million.
     pub fn coarseness(&self) -> f64 {
-        let impacts = f64::from(self.impacts.saturating_sub(FINE_IMPACTS)) / f64::from(IMPACTS_TO_DOUBLE);
-        let steps = f64::from(self.steps.saturating_sub(FINE_STEPS)) / f64::from(STEPS_TO_DOUBLE);
-        2_f64.powi((impacts + steps).min(20.0) as i32)
+        let impacts = self.impacts.saturating_sub(FINE_IMPACTS) / IMPACTS_TO_DOUBLE;
+        let steps = self.steps.saturating_sub(FINE_STEPS) / STEPS_TO_DOUBLE;
+        f64::from(1_u32 << (impacts + steps).min(20))
     }
 
     /// By how much the next impact comes late, s: zero but for a crowd.
@@ -91,7 +91,7 @@ impl Crowd {
     #[cold]
     fn long_delay(&self) -> f64 {
         let doublings = (self.count - USUAL) / 16;
-        (FIRST_DELAY * 2_f64.powi(doublings.min(30) as i32)).min(LONGEST_DELAY)
+        (FIRST_DELAY * f64::from(1_u32 << doublings.min(30))).min(LONGEST_DELAY)
     }
 }
 

@@ -5,10 +5,11 @@ use std::{marker::PhantomData, ops::ControlFlow};
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     crowd::Crowd,
-    resting::{PAIRS, Resting, STILL_AT_REST},
+    resting::{Resting, STILL_AT_REST},
     savings::{All, Savings},
     segment::{STILL, still},
     settling::{FASTEST, settles},
+    touches::PAIRS,
 };
 use crate::{
     physics::{BallState, Impulse, Motion, Touch, collide_balls, collide_rail},
@@ -192,7 +193,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let before = state;
         collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
         let touch = Touch { first: index, second: None, rail_normal: n };
-        if state.velocity.dot(n) <= FASTEST && self.settle(now, &freed, &touch, &[(index, state)]) {
+        if state.velocity.dot(n) <= FASTEST && self.settle(now, freed.as_ref(), &touch, &[(index, state)]) {
             state = before;
             collide_rail(c.radius, 0.0, c.rail_friction, n, &mut state);
             state.velocity -= state.velocity.dot(n) * n;
@@ -228,7 +229,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
         let touch = Touch { first, second: Some(second), rail_normal: glam::DVec2::ZERO };
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
-        if opening <= 2.0 * c.radius * FASTEST && self.settle(now, &freed, &touch, &[(first, a), (second, b)]) {
+        if opening <= 2.0 * c.radius * FASTEST && self.settle(now, freed.as_ref(), &touch, &[(first, a), (second, b)]) {
             (a, b) = before;
             collide_balls(c.radius, 0.0, c.ball_friction, &mut a, &mut b);
         }
@@ -246,7 +247,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     fn settle(
         &self,
         now: f64,
-        freed: &Option<[BallState; BALLS]>,
+        freed: Option<&[BallState; BALLS]>,
         touch: &Touch,
         bounced: &[(usize, BallState)],
     ) -> bool {

@@ -8,8 +8,8 @@ use super::{
     engine::{Ball, Engine, Meeting},
     meetings::{Triangle, balls_ahead},
     predict::{Ahead, curved_cushion_ahead},
-    resting::PAIRS,
     savings::Savings,
+    touches::PAIRS,
 };
 use crate::{physics::Motion, table::BALLS};
 

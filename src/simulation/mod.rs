@@ -16,6 +16,7 @@ mod savings;
 mod segment;
 mod settling;
 mod steps;
+mod touches;
 
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};

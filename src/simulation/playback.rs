@@ -72,7 +72,8 @@ impl Recording {
         layout.validate(table)?;
         cue.validate()?;
         let impulse = strike(table, cue);
-        let mut recording = Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 };
+        let mut recording =
+            Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 };
         let stepped = steps.simulate(table, layout, &impulse, &mut recording.kept);
         recording.end_with(&stepped.end);
         Ok((recording, stepped))

@@ -4,18 +4,20 @@
 //! integrated with an estimated error of at most [`TOLERANCE`] a step, from one change of regime to the next; a contact
 //! takes some tens of steps, so that it adds less than 1e-11 m to a ball's place.
 
+use std::cmp::Ordering;
+
 use glam::DVec2;
 
 use super::{
     Constants, Rail,
     extrapolation::{State, Step, extrapolate},
-    predict::TOUCHING,
     segment::Curve,
+    touches::{SLOWEST_OPENING, Touches},
 };
 use crate::{
     physics::{
-        BallState, ENDING_SLIP, Forces, Laws, MAX_TOUCHES, SLIP_TOLERANCE, Touch, contact_forces, forces_in_regime,
-        rolling_spin, slip, stop_by_impulses,
+        BallState, ENDING_SLIP, Forces, Laws, SLIP_TOLERANCE, Touch, contact_forces, forces_in_regime, rolling_spin,
+        slip, stop_by_impulses,
     },
     table::{BALLS, Table},
 };
@@ -55,16 +57,9 @@ const SHORTEST_QUINTIC: f64 = 1e-4;
 /// Steps that needed more rounds of extrapolation than this are followed by shorter ones, those with fewer by longer.
 const GOOD_ROUNDS: usize = 5;
 
-/// Contacts that open more slowly than this and are pressed stay closed, m/s: they would close again within 1e-8 s, without
-/// end where two of them feed each other.
-pub const SLOWEST_OPENING: f64 = 1e-9;
-
 /// Balls in resting contact that are all slower than this many m/s are at rest. They would go on for less than 1e-10 m,
 /// in ever smaller steps as their slips fade with their speeds.
 pub const STILL_AT_REST: f64 = 3e-6;
-
-/// Pairs of balls, in the order used everywhere.
-pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// One step of the balls that rest against something.
 #[derive(Clone, Debug)]
@@ -89,61 +84,12 @@ pub struct Resting {
     tolerance: f64,
 }
 
-/// The contacts, in a fixed order.
+/// A step that is tried, and the forces at its end in the regime of its beginning.
 #[derive(Clone, Copy, Debug)]
-pub struct Touches {
-    list: [Touch; MAX_TOUCHES],
-    count: usize,
-}
-
-impl Touches {
-    const NONE: Touch = Touch { first: 0, second: None, rail_normal: DVec2::ZERO };
-
-    /// All contacts of the balls that open and close no faster than `slowest`, m/s.
-    pub fn of(constants: &Constants, balls: &State, slowest: f64) -> Self {
-        let mut touches = Self { list: [Self::NONE; MAX_TOUCHES], count: 0 };
-        for (first, ball) in balls.iter().enumerate() {
-            for rail in Rail::ALL {
-                let normal = rail.normal();
-                let gap = normal.abs().dot(constants.reach) + ball.position.dot(normal);
-                if gap <= TOUCHING {
-                    touches.add(Touch { first, second: None, rail_normal: normal }, balls, slowest);
-                }
-            }
-        }
-        for (first, second) in PAIRS {
-            let gap = balls[first].position.distance(balls[second].position) - 2.0 * constants.radius;
-            if gap <= TOUCHING {
-                touches.add(Touch { first, second: Some(second), rail_normal: DVec2::ZERO }, balls, slowest);
-            }
-        }
-        touches
-    }
-
-    fn add(&mut self, touch: Touch, balls: &State, slowest: f64) {
-        if touch.opening_speed(balls).abs() <= slowest && self.count < MAX_TOUCHES {
-            self.list[self.count] = touch;
-            self.count += 1;
-        }
-    }
-
-    /// Keeps only the contacts asked for; tells whether any had to go.
-    pub fn retain(&mut self, mut wanted: impl FnMut(&Touch) -> bool) -> bool {
-        let before = self.count;
-        self.count = 0;
-        for index in 0..before {
-            if wanted(&self.list[index]) {
-                self.list[self.count] = self.list[index];
-                self.count += 1;
-            }
-        }
-        self.count < before
-    }
-
-    /// The contacts.
-    pub fn as_slice(&self) -> &[Touch] {
-        &self.list[..self.count]
-    }
+struct Trial {
+    length: f64,
+    step: Step,
+    forces: Forces,
 }
 
 impl Resting {
@@ -160,7 +106,7 @@ impl Resting {
         let mut touches = Touches::of(constants, balls, SLOWEST_OPENING * coarseness.min(1e3));
         let ending = ENDING_SLIP * coarseness.min(1e4);
         let (begin, laws, first) = loop {
-            if touches.count == 0 {
+            if touches.as_slice().is_empty() {
                 return None;
             }
             let (begin, laws, first) = lawful(table, balls, touches.as_slice(), ending);
@@ -198,77 +144,84 @@ impl Resting {
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let mut length = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
-        let mut step = self.integrate(table, length);
-        while step.error > self.tolerance && length > SHORTEST_STEP {
-            length = (0.4 * length).max(SHORTEST_STEP);
-            step = self.integrate(table, length);
+        let mut trial = self.attempt(table, self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP));
+        while trial.step.error > self.tolerance && trial.length > SHORTEST_STEP {
+            trial = self.attempt(table, (0.4 * trial.length).max(SHORTEST_STEP));
         }
-        let growth = match step.rounds.cmp(&GOOD_ROUNDS) {
-            std::cmp::Ordering::Less => 2.0,
-            std::cmp::Ordering::Equal => 1.2,
-            std::cmp::Ordering::Greater => 0.7,
+        let growth = match trial.step.rounds.cmp(&GOOD_ROUNDS) {
+            Ordering::Less => 2.0,
+            Ordering::Equal => 1.2,
+            Ordering::Greater => 0.7,
         };
         // Never so short that a long series of steps could not grow out of it.
-        self.next_step = (growth * length).max(1e3 * SHORTEST_STEP);
-        let mut last = self.forces(table, &step.end);
+        self.next_step = (growth * trial.length).max(1e3 * SHORTEST_STEP);
         // A step in which something begins to slip is too short for laws to matter.
         let settled = self.first.departure == 0.0;
-        if settled && (last.slack < -SLACK || self.first.is_shared()) && !self.holds(table, &step.end, &last) {
-            let whole = (length, step, last);
-            (length, step, last) = if last.slack < -SLACK { self.until_the_slack_ends(table, whole) } else { whole };
-            if last.slack >= -SLACK || self.holds(table, &step.end, &last) {
-                (length, step, last) = self.while_it_holds(table, whole);
-            }
+        let doubtful = trial.forces.slack < -SLACK || self.first.is_shared();
+        if settled && doubtful && !self.holds(table, &trial) {
+            trial = self.until_a_law_breaks(table, &trial);
         }
-        (self.step, self.last) = (length, last);
-        self.end = self.settled(table, step.end);
+        self.step = trial.length;
+        self.last = trial.forces;
+        self.end = self.settled(table, trial.step.end);
+    }
+
+    fn attempt(&self, table: &Table, length: f64) -> Trial {
+        let step = self.integrate(table, length);
+        Trial { length, step, forces: self.forces(table, &step.end) }
     }
 
     /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
-    fn until_the_slack_ends(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
-        let mut after = after;
-        // The zero of `slack + SLACK`, by false position with the Illinois rule.
+    fn until_a_law_breaks(&self, table: &Table, whole: &Trial) -> Trial {
+        if whole.forces.slack < -SLACK {
+            let shorter = self.until_the_slack_ends(table, whole);
+            if !self.holds(table, &shorter) {
+                return shorter;
+            }
+        }
+        self.while_it_holds(table, whole)
+    }
+
+    /// Finds the zero of `slack + SLACK`, by false position with the Illinois rule.
+    fn until_the_slack_ends(&self, table: &Table, whole: &Trial) -> Trial {
+        let mut after = *whole;
         let (mut low, mut low_value) = (0.0, (self.first.slack + SLACK).max(0.0));
-        let mut high_value = after.2.slack + SLACK;
-        while high_value < -SLACK && after.0 - low > SHORTEST_STEP {
+        let mut high_value = after.forces.slack + SLACK;
+        while high_value < -SLACK && after.length - low > SHORTEST_STEP {
             let share = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
-            let middle = low + share * (after.0 - low);
-            let step = self.integrate(table, middle);
-            let forces = self.forces(table, &step.end);
-            let value = forces.slack + SLACK;
+            let middle = self.attempt(table, low + share * (after.length - low));
+            let value = middle.forces.slack + SLACK;
             if value < 0.0 {
-                (after, high_value) = ((middle, step, forces), value);
+                (after, high_value) = (middle, value);
                 low_value *= 0.5;
             } else {
-                (low, low_value) = (middle, value);
+                (low, low_value) = (middle.length, value);
                 high_value *= 0.5;
             }
         }
         after
     }
 
-    /// Whether these forces are those that obey all laws.
-    fn holds(&self, table: &Table, state: &State, forces: &Forces) -> bool {
-        let lawful = contact_forces(table, state, self.touches.as_slice(), &self.laws, Some(forces));
-        forces.distance(&lawful, table.radius) <= SHARED_SLACK
-    }
-
     /// The same where what is held is held more than once, so that only trying tells how long it holds.
-    fn while_it_holds(&self, table: &Table, after: (f64, Step, Forces)) -> (f64, Step, Forces) {
-        let mut after = after;
+    fn while_it_holds(&self, table: &Table, whole: &Trial) -> Trial {
+        let mut after = *whole;
         let mut low = 0.0;
-        while after.0 - low > SHORTEST_STEP.max(1e-9 * after.0) {
-            let middle = 0.5 * (low + after.0);
-            let step = self.integrate(table, middle);
-            let forces = self.forces(table, &step.end);
-            if self.holds(table, &step.end, &forces) {
-                low = middle;
+        while after.length - low > SHORTEST_STEP.max(1e-9 * after.length) {
+            let middle = self.attempt(table, 0.5 * (low + after.length));
+            if self.holds(table, &middle) {
+                low = middle.length;
             } else {
-                after = (middle, step, forces);
+                after = middle;
             }
         }
         after
+    }
+
+    /// Whether the forces at a step's end are those that obey all laws.
+    fn holds(&self, table: &Table, trial: &Trial) -> bool {
+        let Trial { step, forces, .. } = trial;
+        let lawful = contact_forces(table, &step.end, self.touches.as_slice(), &self.laws, Some(forces));
+        forces.distance(&lawful, table.radius) <= SHARED_SLACK
     }
 
     /// Longest step after which every slip, speed and spin still has its direction, and whose course a polynomial can

@@ -9,7 +9,7 @@
 
 use super::{
     Constants, Segment,
-    resting::{SLOWEST_OPENING, Touches},
+    touches::{SLOWEST_OPENING, Touches},
 };
 use crate::{
     physics::{BallState, ENDING_SLIP, Laws, Motion, Touch, contact_forces},

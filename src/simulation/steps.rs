@@ -100,8 +100,13 @@ impl Ball {
 
     /// The state `time` later, with velocity and acceleration as they are now.
     fn after(&self, constants: &Constants, time: f64) -> BallState {
-        Segment { position: self.state.position, velocity: self.state.velocity, spin: self.state.spin, ..self.segment.clone() }
-            .state_after(constants, time)
+        Segment {
+            position: self.state.position,
+            velocity: self.state.velocity,
+            spin: self.state.spin,
+            ..self.segment.clone()
+        }
+        .state_after(constants, time)
     }
 }
 

@@ -81,7 +81,7 @@ pub fn contact_forces(
             return Forces::of(&problem, regime, &solution);
         }
     }
-    let (regime, solution) = sweep(&problem, guess);
+    let (regime, solution) = sweep(&problem, &guess);
     Forces::of(&problem, regime, &solution)
 }
 

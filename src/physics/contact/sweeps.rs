@@ -12,9 +12,9 @@ const MAX_SWEEPS: usize = 1000;
 
 /// Forces that obey the laws, and the regime that they show.
 #[cold]
-pub fn sweep(problem: &Problem, guess: Solution) -> (Regime, Solution) {
+pub fn sweep(problem: &Problem, guess: &Solution) -> (Regime, Solution) {
     let twist = problem.twist;
-    let mut solution = guess;
+    let mut solution = *guess;
     solution.accelerations = problem.known;
     let accelerations = &mut solution.accelerations;
     for (index, contact) in problem.contacts.iter().enumerate() {
