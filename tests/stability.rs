@@ -18,7 +18,7 @@ const KNOWN: [(&str, &[&str]); 10] = [
     ("adversarial shots, table \"match\"", &["events"]),
     ("adversarial shots, table \"thesis\"", &["events"]),
     ("three balls exactly touching", &["events"]),
-    ("three balls in line, touching or 1e-16 to 1e-6 m apart", &["events"]),
+    ("three balls in line, touching or 1e-16 to 1e-6 m apart", &["events", "energy"]),
     ("a ball resting on another", &["events"]),
     ("a ball pressed between ball and cushion", &["events", "energy"]),
     ("friction coefficients of 10 and 1000", &["events", "energy"]),

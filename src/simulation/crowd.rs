@@ -27,6 +27,10 @@ const IMPACTS_TO_DOUBLE: u32 = 5;
 /// Impacts of a shot after which it is brought to its end.
 const TOO_MANY_IMPACTS: u32 = 250;
 
+/// Impacts and steps of a contact after which there is no hope of an end.
+const HOPELESS_IMPACTS: u32 = 1500;
+const HOPELESS_STEPS: u32 = 20_000;
+
 /// The same for steps of resting contacts.
 const FINE_STEPS: u32 = 1000;
 const STEPS_TO_DOUBLE: u32 = 100;
@@ -64,15 +68,18 @@ impl Crowd {
     }
 
     /// By how much the speed below which balls are at rest is to grow, 1 to a million: what neither time nor coarser steps
-    /// bring to an end, this does.
+    /// bring to an end, this does. Infinite where all that has failed: what takes part in anything more stops dead.
     #[inline(always)]
     pub fn stillness(&self) -> f64 {
-        if self.impacts < TOO_MANY_IMPACTS { 1.0 } else { self.long_stillness() }
+        if self.impacts < TOO_MANY_IMPACTS && self.steps < HOPELESS_STEPS { 1.0 } else { self.long_stillness() }
     }
 
     #[cold]
     fn long_stillness(&self) -> f64 {
-        f64::from(1_u32 << ((self.impacts - TOO_MANY_IMPACTS) / IMPACTS_TO_DOUBLE).min(20))
+        if self.impacts > HOPELESS_IMPACTS || self.steps > HOPELESS_STEPS {
+            return f64::INFINITY;
+        }
+        f64::from(1_u32 << (self.impacts.saturating_sub(TOO_MANY_IMPACTS) / IMPACTS_TO_DOUBLE).min(20))
     }
 
     /// By how much all tolerances are to grow, 1 to a million.

@@ -161,6 +161,23 @@ pub fn markdown(rows: &[Row]) -> String {
     text
 }
 
+/// A page of Markdown around the table.
+pub fn page(plan: &Plan, rows: &[Row]) -> String {
+    let Plan { random, adversarial, each_case, seed } = plan;
+    let held = rows.iter().filter(|row| row.passed()).count();
+    format!(
+        "# Stability on stiff and extreme cases\n\n\
+        Made by `carom accuracy` with seed {seed}: {random} random shots, {adversarial} adversarial ones and {each_case} of each case, \
+        on each of a row's tables. {held} of {} rows hold.\n\n\
+        Every shot is checked on its whole course, not at samples: all numbers finite, no ball outside or overlapping another by \
+        more than 1e-9 m between events either, no jump between the pieces of a course, no collision over a gap, no energy gained \
+        in an event or on the way beyond rounding, time never back, at most 500 events where the row does not say otherwise, and \
+        an end. A row that fails says in how many shots, and what happens in the first.\n\n{}",
+        rows.len(),
+        markdown(rows)
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
