@@ -4,8 +4,8 @@
 //! closes with it again as soon as it has been stopped, and time stands still. Letting such balls overlap by a hair lets
 //! time go on.
 //!
-//! Shots of hundreds of impacts or thousands of contact steps are simulated more and more coarsely. No random shot on a
-//! `match` table gets there but one in a million; the stability table tells what the others lose.
+//! Shots of hundreds of impacts or thousands of contact steps are simulated more and more coarsely: of two million random
+//! shots on `match` ten get there, of a hundred thousand on `thesis` 48.
 
 /// Impacts of balls that follow each other within this time belong together, s.
 const TOGETHER: f64 = 1e-7;

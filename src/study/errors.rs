@@ -23,7 +23,7 @@ pub struct Errors {
     pub time: Option<f64>,
     /// Index of the first event that differs.
     pub differs_at: Option<usize>,
-    /// Whether the outcome under each of [`RULES`] is the wrong one.
+    /// Whether the outcome under each of the rules is the wrong one.
     pub flips: [bool; 2],
 }
 

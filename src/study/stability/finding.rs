@@ -43,7 +43,7 @@ impl Finding {
         }
     }
 
-    /// A shot that has kept a thread busy for [`HANG`] seconds and still does.
+    /// A shot that has kept a thread busy for too long, seconds on end, and still does.
     pub fn hang(table: &Table, shot: &Shot) -> Self {
         let figures = Figures { seconds: f64::INFINITY, ..Figures::default() };
         let what = format!("hang: no end after {HANG} s");
