@@ -29,11 +29,11 @@ const TOO_MANY_IMPACTS: u32 = 250;
 
 /// Impacts and steps of a contact after which there is no hope of an end.
 const HOPELESS_IMPACTS: u32 = 1500;
-const HOPELESS_STEPS: u32 = 20_000;
+const HOPELESS_STEPS: u32 = 2500;
 
 /// The same for steps of resting contacts.
 const FINE_STEPS: u32 = 1000;
-const STEPS_TO_DOUBLE: u32 = 100;
+const STEPS_TO_DOUBLE: u32 = 25;
 
 /// How much has happened.
 #[derive(Clone, Copy, Debug)]

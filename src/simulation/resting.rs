@@ -54,6 +54,9 @@ const LONGEST_CURVE: f64 = 0.02;
 /// the velocities themselves.
 const SHORTEST_QUINTIC: f64 = 1e-4;
 
+/// Most guesses at the moment at which a law breaks; false position needs about ten.
+const MAX_GUESSES: usize = 60;
+
 /// Steps that needed more rounds of extrapolation than this are followed by shorter ones, those with fewer by longer.
 const GOOD_ROUNDS: usize = 5;
 
@@ -187,7 +190,10 @@ impl Resting {
         let mut after = *whole;
         let (mut low, mut low_value) = (0.0, (self.first.slack + SLACK).max(0.0));
         let mut high_value = after.forces.slack + SLACK;
-        while high_value < -SLACK && after.length - low > SHORTEST_STEP {
+        for _ in 0..MAX_GUESSES {
+            if high_value >= -SLACK || after.length - low <= SHORTEST_STEP {
+                break;
+            }
             let share = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
             let middle = self.attempt(table, low + share * (after.length - low));
             let value = middle.forces.slack + SLACK;
