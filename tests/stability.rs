@@ -3,6 +3,8 @@
 use std::{fs::File, io::Write};
 
 use carom::{
+    physics::CueInputs,
+    simulation::Recording,
     study::stability::{Case, Plan, ProgressLine, Row, Shot, Stroke, Trace, Violation, cases, examine, markdown, rows},
     table::{Layout, Table, TableError},
 };
@@ -118,6 +120,18 @@ fn every_row_of_the_table_is_a_test() {
 #[test]
 fn every_row_with_a_known_weakness_exists() {
     assert!(KNOWN.iter().all(|(row, _)| NAMES.contains(row)));
+}
+
+#[test]
+fn a_contact_that_another_ball_ends_holds_nobody() {
+    let table = Table::preset("thesis").unwrap();
+    let layout = Layout::new([
+        DVec2::new(0.3554977378777134, 0.1549044831937764),
+        DVec2::new(0.29738331918515715, 0.17344401770836426),
+        DVec2::new(-0.7480378896521971, 0.5069520010895157),
+    ]);
+    let cue = CueInputs::parse("0,0.4,0,159.88175151009634,4.042894454326235").unwrap();
+    assert!(Recording::new(&table, &layout, &cue).unwrap().duration() > 1.0);
 }
 
 #[test]

@@ -344,6 +344,12 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             if members[index] && !was {
                 self.tell(now, EventKind::ContactBegins(index))?;
             } else if was && !members[index] {
+                // A ball whose contact ended by what another did is still on its common course.
+                if self.balls[index].segment.motion == Motion::Resting {
+                    self.close(index, now);
+                    self.launch(index, now, &states[index]);
+                    changed[index] = true;
+                }
                 self.tell(now, EventKind::ContactEnds(index))?;
                 if self.balls[index].segment.motion == Motion::Rolling {
                     self.tell(now, EventKind::SlidingRolling(index))?;
