@@ -125,11 +125,8 @@ fn every_row_with_a_known_weakness_exists() {
 #[test]
 fn a_contact_that_another_ball_ends_holds_nobody() {
     let table = Table::preset("thesis").unwrap();
-    let layout = Layout::new([
-        DVec2::new(0.3554977378777134, 0.1549044831937764),
-        DVec2::new(0.29738331918515715, 0.17344401770836426),
-        DVec2::new(-0.7480378896521971, 0.5069520010895157),
-    ]);
+    let layout = "0.3554977378777134,0.1549044831937764 0.29738331918515715,0.17344401770836426 -0.7480378896521971,0.5069520010895157";
+    let layout = Layout::parse(layout, &table).unwrap();
     let cue = CueInputs::parse("0,0.4,0,159.88175151009634,4.042894454326235").unwrap();
     assert!(Recording::new(&table, &layout, &cue).unwrap().duration() > 1.0);
 }
