@@ -103,7 +103,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// What the issue asks for: a billionth of a metre, five hundred events.
+    /// The goal: a billionth of a metre, five hundred events.
     pub const STRICT: Self = Self { distance: 1e-9, events: 500 };
 
     /// For tables on which a shot has more events by nature.
