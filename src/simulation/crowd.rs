@@ -24,16 +24,16 @@ const LONGEST_DELAY: f64 = 1e-7;
 const FINE_IMPACTS: u32 = 160;
 const IMPACTS_TO_DOUBLE: u32 = 5;
 
+/// The same for steps of resting contacts.
+const FINE_STEPS: u32 = 1000;
+const STEPS_TO_DOUBLE: u32 = 25;
+
 /// Impacts of a shot after which it is brought to its end.
 const TOO_MANY_IMPACTS: u32 = 250;
 
 /// Impacts and steps of a contact after which there is no hope of an end.
 const HOPELESS_IMPACTS: u32 = 1500;
 const HOPELESS_STEPS: u32 = 2500;
-
-/// The same for steps of resting contacts.
-const FINE_STEPS: u32 = 1000;
-const STEPS_TO_DOUBLE: u32 = 25;
 
 /// How much has happened.
 #[derive(Clone, Copy, Debug)]

@@ -39,9 +39,8 @@ pub fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The first cushion that a ball in a resting contact meets within `horizon` seconds of the segment's start. Its
-/// course is a polynomial of degree five. The cushions that hold it, as
-/// `holds` tells, are part of that course.
+/// The first cushion that a ball on a curved course, a polynomial of degree five, meets within `horizon` seconds of the
+/// segment's start. The cushions that hold it, as `holds` tells, are part of that course.
 pub fn curved_cushion_ahead(
     constants: &Constants,
     segment: &Segment,

@@ -6,37 +6,33 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, presets};
+use super::{Case, on_presets};
 use crate::{
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    study::stability::{Shot, Stroke, Trace, draw},
     table::{Layout, Table},
 };
 
-const fn case(
-    name: &'static str,
-    holds: &'static str,
-    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
-    check: fn(&Table, &Shot, &Trace) -> Result<(), String>,
-) -> Case {
-    Case { name, holds, tables: presets, shot, check: Some(check), limits: Limits::STRICT, size: Size::Case }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    on_presets(
         "object ball exactly on a cushion",
         "what is driven into the cushion comes back from it at once",
         object_ball,
         returns,
     ),
-    case(
+    on_presets(
         "cue ball exactly on a cushion",
         "struck into the cushion it comes back, away from it it leaves",
         cue_ball,
         leaves,
     ),
-    case("object ball exactly in a corner", "both cushions are hit at the same moment", corner_ball, returns),
-    case("a shot exactly into a corner at 45°", "both cushions are hit at the same moment", into_corner, hits_both),
+    on_presets("object ball exactly in a corner", "both cushions are hit at the same moment", corner_ball, returns),
+    on_presets(
+        "a shot exactly into a corner at 45°",
+        "both cushions are hit at the same moment",
+        into_corner,
+        hits_both,
+    ),
 ];
 
 /// Times that differ by less are the same moment, s: a ball moves 1e-12 m meanwhile, the rounding of a table's length many

@@ -95,6 +95,16 @@ fn presets() -> Vec<Table> {
     PRESETS.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
+/// A case on the bundled tables with something to check.
+const fn on_presets(
+    name: &'static str,
+    holds: &'static str,
+    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
+    check: Check,
+) -> Case {
+    Case { name, holds, tables: presets, shot, check: Some(check), limits: Limits::STRICT, size: Size::Case }
+}
+
 /// A bundled table with other numbers, of which its name tells; none if they are refused.
 fn variant(name: &str, what: &str, change: impl Fn(&mut Table)) -> Option<Table> {
     let mut table = Table::preset(name).ok()?;

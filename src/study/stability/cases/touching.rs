@@ -6,27 +6,18 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, presets};
+use super::{Case, on_presets};
 use crate::{
     simulation::EventKind,
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    study::stability::{Shot, Stroke, Trace, draw},
     table::{BALLS, Layout, Table},
 };
 
-const fn case(
-    name: &'static str,
-    holds: &'static str,
-    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
-    check: fn(&Table, &Shot, &Trace) -> Result<(), String>,
-) -> Case {
-    Case { name, holds, tables: presets, shot, check: Some(check), limits: Limits::STRICT, size: Size::Case }
-}
-
 pub const CASES: &[Case] = &[
-    case("two balls exactly touching", "momentum is kept and goes along the line of centres", two, passes_on),
-    case("three balls exactly touching", "momentum is kept", three, keeps_momentum),
-    case("three balls in line, touching or 1e-16 to 1e-6 m apart", "momentum is kept", line, keeps_momentum),
-    case("two balls 1e-16 to 1e-6 m apart", "they meet after just that distance", gap, meets_after_the_gap),
+    on_presets("two balls exactly touching", "momentum is kept and goes along the line of centres", two, passes_on),
+    on_presets("three balls exactly touching", "momentum is kept", three, keeps_momentum),
+    on_presets("three balls in line, touching or 1e-16 to 1e-6 m apart", "momentum is kept", line, keeps_momentum),
+    on_presets("two balls 1e-16 to 1e-6 m apart", "they meet after just that distance", gap, meets_after_the_gap),
 ];
 
 /// Rounding of sums of velocities, in ε of the fastest.
