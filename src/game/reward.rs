@@ -4,7 +4,7 @@ use std::{fmt, ops::ControlFlow, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::Tally;
+use super::{Rule, Tally};
 use crate::{
     physics::{CueInputs, strike},
     simulation::{Event, Observer, simulate, watch},
@@ -31,16 +31,23 @@ pub enum Reward {
     /// r3 plus the distance reward (equation 53).
     #[serde(rename = "r4")]
     R4,
+    /// 1 for a point under the rule of one cushion.
+    #[serde(rename = "one-cushion")]
+    OneCushion,
+    /// 1 for a point under the rule of three cushions.
+    #[serde(rename = "three-cushion")]
+    ThreeCushion,
 }
 
 /// A reward's name that is not known.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("there is no reward \"{0}\"; use r1, r1-difficulty, r2, r3 or r4")]
+#[error("there is no reward \"{0}\"; use r1, r1-difficulty, r2, r3, r4, one-cushion or three-cushion")]
 pub struct UnknownReward(String);
 
 impl Reward {
     /// All rewards.
-    pub const ALL: [Self; 5] = [Self::R1, Self::R1Difficulty, Self::R2, Self::R3, Self::R4];
+    pub const ALL: [Self; 7] =
+        [Self::R1, Self::R1Difficulty, Self::R2, Self::R3, Self::R4, Self::OneCushion, Self::ThreeCushion];
 
     /// Name on the command line and in files.
     pub const fn name(self) -> &'static str {
@@ -50,25 +57,34 @@ impl Reward {
             Self::R2 => "r2",
             Self::R3 => "r3",
             Self::R4 => "r4",
+            Self::OneCushion => Rule::OneCushion.name(),
+            Self::ThreeCushion => Rule::ThreeCushion.name(),
         }
     }
 
     /// The reward of a shot, simulated just until it is decided. The layout and the stroke are taken as they are.
     pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
+        self.within(table, layout, cue, u32::MAX)
+    }
+
+    /// As [`Reward::of`], but a shot whose resting contacts need more than `steps` steps of integration is given up and
+    /// earns what it has earned so far. For practice: on the `thesis` table one shot in fifty takes 97 % of the time, and
+    /// hardly any of those earns anything more, for balls that press each other have lost their speed.
+    pub fn within(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         let impulse = strike(table, cue);
         match self {
             Self::R1 | Self::R1Difficulty => {
-                let mut meetings = Meetings::<1>::default();
+                let mut meetings = Meetings::<1>::new(steps);
                 watch(table, layout, &impulse, &mut meetings);
                 self.of_meetings(&meetings.tally)
             }
-            Self::R3 => {
-                let mut meetings = Meetings::<2>::default();
+            Self::R3 | Self::OneCushion | Self::ThreeCushion => {
+                let mut meetings = Meetings::<2>::new(steps);
                 watch(table, layout, &impulse, &mut meetings);
                 self.of_meetings(&meetings.tally)
             }
             Self::R2 | Self::R4 => {
-                let mut all = ToTheEnd::default();
+                let mut all = Meetings::<3>::new(steps);
                 let end = simulate(table, layout, &impulse, &mut all);
                 self.value(table, &all.tally, &end.layout())
             }
@@ -78,8 +94,8 @@ impl Reward {
     /// The reward of a shot that did what `tally` says and left the balls at `end`.
     pub fn value(self, table: &Table, tally: &Tally, end: &Layout) -> f64 {
         let apart = match self {
-            Self::R1 | Self::R1Difficulty | Self::R3 => 0.0,
             Self::R2 | Self::R4 => distance_reward(table, end),
+            _ => 0.0,
         };
         self.of_meetings(tally) + apart
     }
@@ -91,6 +107,8 @@ impl Reward {
             Self::R1 | Self::R2 => one(tally.met_any()),
             Self::R1Difficulty => one(tally.met_any()) * 0.5_f64.powf(f64::from(tally.cushions_before_first)),
             Self::R3 | Self::R4 => one(tally.met_both()),
+            Self::OneCushion => one(tally.is_point(Rule::OneCushion)),
+            Self::ThreeCushion => one(tally.is_point(Rule::ThreeCushion)),
         }
     }
 }
@@ -118,14 +136,22 @@ fn distance_reward(table: &Table, layout: &Layout) -> f64 {
     1.0 - total / (reach.x + reach.y + reach.length())
 }
 
-/// Watches a shot until the cue ball has met so many object balls; how it ends does not matter.
-#[derive(Default)]
+/// Watches a shot until the cue ball has met so many object balls, or to its end where they are more than there are: then
+/// it counts where the balls come to rest.
 struct Meetings<const ENOUGH: u8> {
     tally: Tally,
+    /// Steps of resting contacts that are still followed.
+    patience: u32,
+}
+
+impl<const ENOUGH: u8> Meetings<ENOUGH> {
+    fn new(patience: u32) -> Self {
+        Self { tally: Tally::default(), patience }
+    }
 }
 
 impl<const ENOUGH: u8> Observer for Meetings<ENOUGH> {
-    const ENDS: bool = false;
+    const ENDS: bool = ENOUGH > 2;
 
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
@@ -133,17 +159,12 @@ impl<const ENOUGH: u8> Observer for Meetings<ENOUGH> {
         let met = u8::from(self.tally.met[0]) + u8::from(self.tally.met[1]);
         if met >= ENOUGH { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
-}
 
-/// Watches a whole shot: where the balls come to rest counts.
-#[derive(Default)]
-struct ToTheEnd {
-    tally: Tally,
-}
-
-impl Observer for ToTheEnd {
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.tally.note(&event);
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        if self.patience == 0 {
+            return ControlFlow::Break(());
+        }
+        self.patience -= 1;
         ControlFlow::Continue(())
     }
 }

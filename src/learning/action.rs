@@ -1,57 +1,147 @@
-//! What an agent can do: where to pass the first ball and how fast, and the cue inputs that do it.
+//! What an agent can do: where to pass the first ball, how fast, and with which spin; and the cue inputs that do it.
 
-use crate::{learning::view::View, physics::CueInputs, table::Table};
+use serde::{Deserialize, Serialize};
 
-/// Numbers in an action; each lies within -1 to 1.
-pub const ACTIONS: usize = 2;
+use super::{dual::Dual, stroke::Stroke, view::View};
+use crate::{physics::CueInputs, table::Table};
 
-/// An aim and a speed, as a network gives them: both from -1 to 1.
+/// Most numbers in an action.
+pub const ACTIONS: usize = 5;
+
+/// An action as a network gives it: aim, speed, tip to the left and up, elevation; each from -1 to 1. All noughts but the
+/// first two are the thesis' fixed choice a = b = 0, theta = 10°.
 pub type Action = [f32; ACTIONS];
 
-/// What -1 and 1 stand for in the first action: the aiming line passes the first ball's centre on the left at this many
-/// ball diameters. 0 is a full hit, 1 a hair's breadth. A little beyond 0, so that a full hit is no edge.
+/// Which of the cue inputs an agent chooses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ActionSpace {
+    /// The thesis' choice (its 4.1.3): phi and V. The tip meets the ball's centre, the cue is raised by 10°.
+    #[default]
+    #[serde(rename = "phi-v")]
+    PhiV,
+    /// All five: a, b, theta, phi and V.
+    #[serde(rename = "full")]
+    Full,
+}
+
+/// A name of an action space that is not known.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no action space \"{0}\"; use phi-v or full")]
+pub struct UnknownActionSpace(String);
+
+impl ActionSpace {
+    /// How many numbers of an [`Action`] it uses; the others stay nought.
+    pub const fn actions(self) -> usize {
+        match self {
+            Self::PhiV => 2,
+            Self::Full => ACTIONS,
+        }
+    }
+
+    /// Name on the command line and in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::PhiV => "phi-v",
+            Self::Full => "full",
+        }
+    }
+
+    /// What its actions mean, for the note in a policy's file: weights fit one meaning only.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::PhiV => "phi from offset -0.1 to 1 diameters, V 0.3 to 6 m/s, a = b = 0, theta = 10 degrees",
+            Self::Full => {
+                "phi from offset -0.1 to 1 diameters, swerve allowed for, V 0.3 to 6 m/s, a and b to 0.98 of the miscue \
+                 limit, theta 0 to 20 degrees"
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for ActionSpace {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl std::str::FromStr for ActionSpace {
+    type Err = UnknownActionSpace;
+
+    fn from_str(text: &str) -> Result<Self, UnknownActionSpace> {
+        let mut all = [Self::PhiV, Self::Full].into_iter();
+        all.find(|space| space.name() == text).ok_or_else(|| UnknownActionSpace(text.to_owned()))
+    }
+}
+
+/// What -1 and 1 stand for in the first action: the cue ball's course passes the first ball's centre on the left at this
+/// many ball diameters. 0 is a full hit, 1 a hair's breadth. A little beyond 0, so that a full hit is no edge.
 const OFFSETS: [f64; 2] = [-0.1, 1.0];
 
 /// What -1 and 1 stand for in the second action: cue speed, m/s. The upper end is the thesis' (chapter 4.1); below the
 /// lower one a ball hardly reaches another.
 const SPEEDS: [f64; 2] = [0.3, 6.0];
 
-/// Elevation of the cue, rad: the thesis' 10°, with the tip at the ball's centre (a = b = 0).
-const ELEVATION: f64 = 10.0 * std::f64::consts::PI / 180.0;
+/// What -1 and 1 stand for in the fifth action: elevation of the cue, rad. The middle is the thesis' 10°.
+const ELEVATIONS: [f64; 2] = [0.0, 20.0 * std::f64::consts::PI / 180.0];
 
-/// These choices in words, for the note in a policy's file: weights fit one meaning of the actions only.
-pub const ACTION_SPACE: &str = "phi from offset -0.1 to 1 diameters, V 0.3 to 6 m/s, a = b = 0, theta = 10 degrees";
-
-/// Ball diameters between the aiming line and the first ball's centre, for the first action.
-pub fn offset(action: f32) -> f64 {
-    scaled(OFFSETS, action)
-}
+/// The tip stays within this share of the miscue limit's radius, so that rounding never oversteps it.
+const TIP_SHARE: f64 = 0.98;
 
 /// The first action that gives `offset`.
 pub fn aim_at(offset: f64) -> f32 {
     (2.0 * (offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0]) - 1.0) as f32
 }
 
-/// Change of the offset per unit of the first action.
-pub const OFFSET_SLOPE: f64 = 0.5 * (OFFSETS[1] - OFFSETS[0]);
+/// What an action means on a table, with slopes along its numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Meaning {
+    /// Ball diameters between the cue ball's course and the first ball's centre.
+    pub offset: Dual,
+    /// Cue speed, m/s.
+    pub speed: Dual,
+    /// Tip to the left and up, in units of R; in the view's frame, which may be a mirror's.
+    pub tip: [Dual; 2],
+    /// Elevation, rad.
+    pub theta: Dual,
+}
 
-fn scaled([low, high]: [f64; 2], action: f32) -> f64 {
-    // An action that is not a number becomes the middle, so that a broken network still gives cue inputs.
-    let action = if action.is_nan() { 0.0 } else { f64::from(action.clamp(-1.0, 1.0)) };
-    low + 0.5 * (high - low) * (action + 1.0)
+impl Meaning {
+    /// The meaning of `action`. What is not a number becomes the middle, so that a broken network still gives cue inputs.
+    pub fn of(table: &Table, action: Action) -> Self {
+        let input = |index: usize| {
+            let value = if action[index].is_nan() { 0.0 } else { f64::from(action[index].clamp(-1.0, 1.0)) };
+            Dual::action(index, value)
+        };
+        let scaled = |[low, high]: [f64; 2], value: Dual| (value + 1.0) * (0.5 * (high - low)) + low;
+        // The square of the two actions is mapped onto the disc of the tip.
+        let (left, up) = (input(2), input(3));
+        let radius = TIP_SHARE * table.miscue_limit.sqrt();
+        let tip = [left * (-(up * up) * 0.5 + 1.0).sqrt() * radius, up * (-(left * left) * 0.5 + 1.0).sqrt() * radius];
+        Self {
+            offset: scaled(OFFSETS, input(0)),
+            speed: scaled(SPEEDS, input(1)),
+            tip,
+            theta: scaled(ELEVATIONS, input(4)),
+        }
+    }
 }
 
 /// The stroke that carries out `action` in `view`.
 pub fn cue_inputs(table: &Table, view: &View, action: Action) -> CueInputs {
+    let meaning = Meaning::of(table, action);
     let line = view.lines(table).to_first;
-    let turn = (2.0 * table.radius * offset(action[0]) / line.distance).clamp(-1.0, 1.0).asin();
+    let swerve = Stroke::of(table, &meaning, line.distance).swerve.value;
+    let aside = 2.0 * table.radius * meaning.offset.value - swerve;
+    let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
     let direction = glam::DVec2::from_angle(turn).rotate(line.direction);
+    let [left, up] = meaning.tip;
     CueInputs {
-        a: 0.0,
-        b: 0.0,
-        theta: ELEVATION,
+        // Adding nought makes a negative nought positive, which people read better.
+        a: view.side_on_table(left.value) + 0.0,
+        b: up.value,
+        theta: meaning.theta.value,
         phi: view.angle_on_table(direction),
-        speed: scaled(SPEEDS, action[1]),
+        speed: meaning.speed.value,
     }
 }
 
@@ -70,31 +160,53 @@ mod tests {
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
             for (index, view) in View::all(&layout).iter().enumerate() {
-                let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)];
+                let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 0.0, 0.0, 0.0];
                 let cue = cue_inputs(&table, view, action);
                 cue.validate().unwrap();
+                assert_eq!((cue.a, cue.b, cue.theta), (0.0, 0.0, 10_f64.to_radians()));
                 let to_ball = layout.balls[1 + (index & 1)] - layout.balls[0];
                 // Positive where the ball's centre lies on the right of the aiming line.
                 let passed = -DVec2::from_angle(cue.phi).perp_dot(to_ball) / (2.0 * table.radius);
                 let side = if index & 2 == 0 { 1.0 } else { -1.0 };
-                assert!((passed * side - offset(action[0])).abs() < 1e-12);
+                assert!((passed * side - Meaning::of(&table, action).offset.value).abs() < 1e-12);
             }
         }
     }
 
     #[test]
-    fn actions_that_are_not_numbers_or_out_of_range_still_give_a_stroke() {
-        let table = Table::default();
-        let view = View::new(&Layout::opening(&table), 0);
-        for wrong in [f32::NAN, f32::INFINITY, -7.0] {
-            cue_inputs(&table, &view, [wrong, wrong]).validate().unwrap();
+    fn no_action_oversteps_the_miscue_limit_and_what_is_no_number_still_gives_a_stroke() {
+        for name in crate::table::PRESETS {
+            let table = Table::preset(name).unwrap();
+            let view = View::new(&Layout::opening(&table), 0);
+            for input in [f32::NAN, f32::INFINITY, -7.0, 1.0, -1.0, 0.3] {
+                for action in [[input; ACTIONS], [0.0, 0.0, input, -input, 1.0], [0.0, 0.0, input, 0.0, 0.0]] {
+                    let cue = cue_inputs(&table, &view, action);
+                    cue.validate().unwrap();
+                    cue.validate_tip(table.miscue_limit).unwrap();
+                }
+            }
         }
+    }
+
+    #[test]
+    fn a_mirrored_view_gets_the_mirrored_stroke() {
+        let table = Table::default();
+        let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
+        let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
+        let action = [0.2, 0.5, 0.6, -0.3, 0.4];
+        let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, view)| {
+            let cue = cue_inputs(&table, &View::new(&layout, view), action);
+            (cue.a, cue.phi, cue.b, cue.theta, cue.speed)
+        });
+        assert!((one.1 + other.1).abs() < 1e-12 && one.0 > 0.2);
+        assert_eq!((one.0, one.2, one.3, one.4), (-other.0, other.2, other.3, other.4));
     }
 
     #[test]
     fn offsets_and_actions_are_inverse() {
         for value in [-0.1, 0.0, 0.5, 1.0] {
-            assert!((offset(aim_at(value)) - value).abs() < 1e-7);
+            let action = [aim_at(value), 0.0, 0.0, 0.0, 0.0];
+            assert!((Meaning::of(&Table::default(), action).offset.value - value).abs() < 1e-7);
         }
     }
 }

@@ -9,12 +9,12 @@ use candle_nn::ops::sigmoid;
 use rand::Rng;
 
 use super::{
-    action::{ACTIONS, Action},
+    action::Action,
     adam::{Adam, soft_update},
     hyperparameters::Hyperparameters,
     networks::Networks,
     pass::Wanted,
-    scenes::Scenes,
+    scenes::{Scenes, action_rows},
 };
 
 /// What an update reports.
@@ -93,7 +93,7 @@ impl Ddpg {
     /// The mean cross entropy between the critic's probabilities and what happened, and its gradient.
     fn critic_gradient(&self, scenes: &Scenes, actions: &[Action], successes: &[f32]) -> Result<(Tensor, f64)> {
         let count = actions.len();
-        let actions = Tensor::from_slice(actions.as_flattened(), (count, ACTIONS), &Device::Cpu)?;
+        let actions = action_rows(scenes.space(), actions)?;
         let successes = Tensor::from_slice(successes, (count, 1), &Device::Cpu)?;
         let judged = self.online.critic.record(&scenes.with_actions(&actions)?, Wanted::Parameters)?;
         let logits = judged.outputs();
@@ -109,7 +109,7 @@ impl Ddpg {
     fn actor_gradient(&self, scenes: &Scenes) -> Result<(Tensor, f64)> {
         let Networks { actor, critic } = &self.online;
         let proposed = actor.record(scenes.states(), Wanted::Parameters)?;
-        let actions = proposed.outputs().tanh()?.reshape(((), ACTIONS))?;
+        let actions = proposed.outputs().tanh()?.reshape(((), scenes.space().actions()))?;
         let (inputs, join) = scenes.record_actions(&actions)?;
         let judged = critic.record(&inputs, Wanted::Inputs)?;
         let success = sigmoid(judged.outputs())?;
@@ -143,7 +143,7 @@ fn wanted(gradient: Option<Tensor>) -> Result<Tensor> {
 mod tests {
     use super::*;
     use crate::{
-        learning::view::View,
+        learning::{action::ActionSpace, view::View},
         table::{Layout, Table},
     };
     use candle_core::Var;
@@ -152,11 +152,15 @@ mod tests {
     use std::sync::Arc;
 
     /// An agent with an opinion, and a batch for it.
-    fn agent_and_batch() -> (Ddpg, Scenes, Vec<Action>, Vec<f32>) {
+    fn agent_and_batch(space: ActionSpace) -> (Ddpg, Scenes, Vec<Action>, Vec<f32>) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);
         let layers = vec![24, 24];
-        let hyper =
-            Hyperparameters { actor_layers: layers.clone(), critic_layers: layers, ..Hyperparameters::default() };
+        let hyper = Hyperparameters {
+            actor_layers: layers.clone(),
+            critic_layers: layers,
+            actions: space,
+            ..Hyperparameters::default()
+        };
         let agent = Ddpg::new(hyper, &mut rng).unwrap();
         for network in [&agent.online.actor, &agent.online.critic] {
             let parameters = network.parameters();
@@ -165,9 +169,9 @@ mod tests {
         }
         let table = Arc::new(Table::default());
         let views = (0..20).map(|index| View::new(&Layout::random(&table, &mut rng), index % 4)).collect();
-        let actions = (0..20).map(|_| [rng.random_range(-0.9..0.9), rng.random_range(-0.9..0.9)]).collect();
+        let actions = (0..20).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
         let successes = (0..20).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
-        (agent, Scenes::new(&table, views).unwrap(), actions, successes)
+        (agent, Scenes::new(&table, space, views).unwrap(), actions, successes)
     }
 
     fn assert_close(ours: &Tensor, loss: &Tensor, parameters: &Var) {
@@ -182,27 +186,38 @@ mod tests {
 
     #[test]
     fn the_critics_gradient_is_candles_gradient_of_the_cross_entropy() {
-        let (agent, scenes, actions, successes) = agent_and_batch();
-        let (gradient, loss) = agent.critic_gradient(&scenes, &actions, &successes).unwrap();
-        let critic = &agent.online.critic;
-        let actions = Tensor::from_slice(actions.as_flattened(), (20, 2), &Device::Cpu).unwrap();
-        let successes = Tensor::from_slice(&successes, (20, 1), &Device::Cpu).unwrap();
-        let logits = critic.forward(&scenes.with_actions(&actions).unwrap()).unwrap();
-        let theirs = mean_cross_entropy(&logits, &successes).unwrap();
-        assert_eq!(f64::from(theirs.to_scalar::<f32>().unwrap()), loss);
-        assert_close(&gradient, &theirs, critic.parameters());
+        for space in [ActionSpace::PhiV, ActionSpace::Full] {
+            let (agent, scenes, actions, successes) = agent_and_batch(space);
+            let (gradient, loss) = agent.critic_gradient(&scenes, &actions, &successes).unwrap();
+            let critic = &agent.online.critic;
+            let actions = action_rows(scenes.space(), &actions).unwrap();
+            let successes = Tensor::from_slice(&successes, (20, 1), &Device::Cpu).unwrap();
+            let logits = critic.forward(&scenes.with_actions(&actions).unwrap()).unwrap();
+            let theirs = mean_cross_entropy(&logits, &successes).unwrap();
+            assert_eq!(f64::from(theirs.to_scalar::<f32>().unwrap()), loss);
+            assert_close(&gradient, &theirs, critic.parameters());
+        }
     }
 
     #[test]
     fn the_actors_gradient_is_candles_gradient_of_what_it_climbs() {
-        let (agent, scenes, ..) = agent_and_batch();
-        let (gradient, _) = agent.actor_gradient(&scenes).unwrap();
-        let actions =
-            agent.online.actor.forward(scenes.states()).unwrap().tanh().unwrap().reshape(((), ACTIONS)).unwrap();
-        let logits = agent.online.critic.forward_frozen(&scenes.with_actions(&actions).unwrap()).unwrap();
-        let weighted = (&logits * agent.hyper.logit_weight).unwrap();
-        let climbed = (sigmoid(&logits).unwrap() + weighted).unwrap().mean_all().unwrap();
-        assert_close(&gradient, &climbed.neg().unwrap(), agent.online.actor.parameters());
+        for space in [ActionSpace::PhiV, ActionSpace::Full] {
+            let (agent, scenes, ..) = agent_and_batch(space);
+            let (gradient, _) = agent.actor_gradient(&scenes).unwrap();
+            let actions = agent
+                .online
+                .actor
+                .forward(scenes.states())
+                .unwrap()
+                .tanh()
+                .unwrap()
+                .reshape(((), scenes.space().actions()))
+                .unwrap();
+            let logits = agent.online.critic.forward_frozen(&scenes.with_actions(&actions).unwrap()).unwrap();
+            let weighted = (&logits * agent.hyper.logit_weight).unwrap();
+            let climbed = (sigmoid(&logits).unwrap() + weighted).unwrap().mean_all().unwrap();
+            assert_close(&gradient, &climbed.neg().unwrap(), agent.online.actor.parameters());
+        }
     }
 
     #[test]
@@ -214,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_batch_of_unequal_parts_is_refused() {
-        let (mut agent, scenes, actions, successes) = agent_and_batch();
+        let (mut agent, scenes, actions, successes) = agent_and_batch(ActionSpace::PhiV);
         assert!(agent.update(&scenes, &actions[1..], &successes, 1.0).is_err());
     }
 }

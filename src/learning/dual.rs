@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::action::ACTIONS;
 
-/// A value and its partial derivatives with respect to the actions.
+/// A value and its partial derivatives with respect to the numbers of an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {
     /// The value.
@@ -52,6 +52,16 @@ impl Dual {
     /// This number, or `limit` where it is larger.
     pub fn at_most(self, limit: f64) -> Self {
         if self.value > limit { Self::constant(limit) } else { self }
+    }
+
+    /// This number, or `limit` where it is smaller.
+    pub fn at_least(self, limit: f64) -> Self {
+        if self.value < limit { Self::constant(limit) } else { self }
+    }
+
+    /// The smaller of two numbers.
+    pub fn min(self, other: Self) -> Self {
+        if other.value < self.value { other } else { self }
     }
 }
 
@@ -120,6 +130,12 @@ impl DualVector {
     /// Turned by the angle of the unit vector `by`.
     pub fn rotated(self, by: DVec2) -> Self {
         Self { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
+    }
+
+    /// The unit vector of this direction.
+    pub fn normalised(self) -> Self {
+        let inverse = self.dot(self).sqrt().recip();
+        Self { x: self.x * inverse, y: self.y * inverse }
     }
 
     /// Scalar product.

@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use super::action::{ACTIONS, Action};
+use super::action::{Action, ActionSpace};
 
 /// How far the agent strays from its own choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,14 +17,20 @@ pub struct Exploration {
 
 impl Exploration {
     /// What the agent does in place of `choice`.
-    pub fn stray(&self, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
+    pub fn stray(&self, space: ActionSpace, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
+        let mut action = choice;
+        let used = &mut action[..space.actions()];
         if self.noise.is_empty() || rng.random_bool(self.uniform.clamp(0.0, 1.0)) {
-            return std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
+            used.fill_with(|| rng.random_range(-1.0..=1.0));
+        } else {
+            let scale = self.noise[rng.random_range(0..self.noise.len())];
+            for pair in used.chunks_mut(2) {
+                for (value, noise) in pair.iter_mut().zip(normal_pair(rng)) {
+                    *value = (*value + scale * noise).clamp(-1.0, 1.0);
+                }
+            }
         }
-        let scale = self.noise[rng.random_range(0..self.noise.len())];
-        let [first, second] = normal_pair(rng);
-        let noise: [f32; ACTIONS] = [first, second];
-        std::array::from_fn(|index| (choice[index] + scale * noise[index]).clamp(-1.0, 1.0))
+        action
     }
 }
 
@@ -39,6 +45,7 @@ fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::learning::action::ACTIONS;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -46,7 +53,8 @@ mod tests {
     fn noise_has_the_promised_spread_and_stays_in_range() {
         let exploration = Exploration { noise: vec![0.1], uniform: 0.0 };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
-        let strayed: Vec<Action> = (0..10_000).map(|_| exploration.stray([0.5, 1.0], &mut rng)).collect();
+        let strayed: Vec<Action> =
+            (0..10_000).map(|_| exploration.stray(ActionSpace::PhiV, [0.5, 1.0, 0.0, 0.0, 0.0], &mut rng)).collect();
         let mean = strayed.iter().map(|action| action[0]).sum::<f32>() / 10_000.0;
         let variance = strayed.iter().map(|action| (action[0] - mean).powi(2)).sum::<f32>() / 10_000.0;
         assert!((mean - 0.5).abs() < 0.004 && (variance.sqrt() - 0.1).abs() < 0.004);
@@ -57,7 +65,7 @@ mod tests {
     fn uniform_shots_fill_the_range() {
         let exploration = Exploration { noise: vec![0.0], uniform: 1.0 };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
-        let low = (0..1000).filter(|_| exploration.stray([0.9, 0.9], &mut rng)[0] < 0.0).count();
+        let low = (0..1000).filter(|_| exploration.stray(ActionSpace::Full, [0.9; ACTIONS], &mut rng)[0] < 0.0).count();
         assert!((400..600).contains(&low), "{low}");
     }
 }

@@ -2,12 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::exploration::Exploration;
+use super::{action::ActionSpace, exploration::Exploration};
 
 /// What can be tuned. The defaults trained the bundled policy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hyperparameters {
+    /// What the agent chooses: the thesis' phi and V, or all five cue inputs.
+    pub actions: ActionSpace,
     /// Actions that the actor proposes for a view. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
@@ -45,6 +47,7 @@ pub struct Hyperparameters {
 impl Default for Hyperparameters {
     fn default() -> Self {
         Self {
+            actions: ActionSpace::PhiV,
             heads: 4,
             actor_layers: vec![256, 256, 256],
             critic_layers: vec![384, 384, 384],

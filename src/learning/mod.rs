@@ -24,6 +24,7 @@ pub mod replay;
 pub mod run;
 pub mod scenes;
 pub mod snapshot;
+mod stroke;
 mod tensors;
 pub mod trainer;
 pub mod view;

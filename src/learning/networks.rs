@@ -4,11 +4,14 @@ use candle_core::{Result, Tensor};
 use rand::Rng;
 
 use super::{
-    action::{ACTIONS, Action, aim_at},
+    action::{Action, aim_at},
     hyperparameters::Hyperparameters,
     mlp::Mlp,
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS, Scenes},
+    scenes::{ACTOR_INPUTS, Scenes, actions_in, critic_inputs},
 };
+
+/// Steps of a sequence that fills the square evenly (powers of the inverse of the plastic number, Roberts 2018).
+const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
 /// An actor and a critic.
 #[derive(Clone, Debug)]
@@ -20,19 +23,22 @@ pub struct Networks {
 }
 
 impl Networks {
-    /// New networks: the heads start at offsets spread over the ball and at middle speed, the critic at one half.
+    /// New networks: the heads start at offsets spread over the ball, at middle speed and elevation and with tips here and
+    /// there; the critic starts at one half.
     ///
     /// # Errors
     /// Whatever candle reports.
     pub fn random(hyper: &Hyperparameters, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
-        let mut start = Vec::with_capacity(hyper.heads * ACTIONS);
+        let outputs = hyper.actions.actions();
+        let mut start = Vec::with_capacity(hyper.heads * outputs);
         for head in 0..hyper.heads {
             let offset = (head as f64 + 0.5) / hyper.heads as f64;
-            start.extend([aim_at(offset).atanh(), 0.0]);
+            let tip = TIP_STEPS.map(|step| ((0.5 + step * head as f64).fract() - 0.5) as f32);
+            start.extend_from_slice(&[aim_at(offset).atanh(), 0.0, tip[0], tip[1], 0.0][..outputs]);
         }
         let sizes = |inputs, hidden: &[usize], outputs| [&[inputs], hidden, &[outputs]].concat();
-        let actor_sizes = sizes(ACTOR_INPUTS, &hyper.actor_layers, hyper.heads * ACTIONS);
-        let critic_sizes = sizes(CRITIC_INPUTS, &hyper.critic_layers, 1);
+        let actor_sizes = sizes(ACTOR_INPUTS, &hyper.actor_layers, hyper.heads * outputs);
+        let critic_sizes = sizes(critic_inputs(hyper.actions), &hyper.critic_layers, 1);
         Ok(Self {
             actor: Mlp::random(&actor_sizes, rng)?.with_output_bias(&start)?,
             critic: Mlp::random(&critic_sizes, rng)?,
@@ -52,7 +58,7 @@ impl Networks {
     /// # Errors
     /// Whatever candle reports.
     pub fn actions(&self, scenes: &Scenes) -> Result<Vec<Action>> {
-        actions_of(&self.propose(scenes)?)
+        actions_in(scenes.space(), &self.propose(scenes)?)
     }
 
     /// The heads' actions and the critic's logit of success for each.
@@ -62,14 +68,10 @@ impl Networks {
     pub fn judge(&self, scenes: &Scenes) -> Result<(Vec<Action>, Vec<f32>)> {
         let actions = self.propose(scenes)?;
         let logits = self.critic.forward_frozen(&scenes.with_actions(&actions)?)?;
-        Ok((actions_of(&actions)?, logits.flatten_all()?.to_vec1()?))
+        Ok((actions_in(scenes.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
     }
 
     fn propose(&self, scenes: &Scenes) -> Result<Tensor> {
-        self.actor.forward_frozen(scenes.states())?.tanh()?.reshape(((), ACTIONS))
+        self.actor.forward_frozen(scenes.states())?.tanh()?.reshape(((), scenes.space().actions()))
     }
-}
-
-fn actions_of(tensor: &Tensor) -> Result<Vec<Action>> {
-    Ok(tensor.flatten_all()?.to_vec1::<f32>()?.as_chunks::<ACTIONS>().0.to_vec())
 }

@@ -73,7 +73,7 @@ impl Policy {
             return Ok(Vec::new());
         }
         let views = layouts.iter().flat_map(View::all).collect();
-        let scenes = Scenes::new(&Arc::new(table.clone()), views)?;
+        let scenes = Scenes::new(&Arc::new(table.clone()), self.origin.hyperparameters.actions, views)?;
         let (actions, logits) = self.networks.judge(&scenes)?;
         let heads = actions.len() / scenes.views().len();
         let mut proposals = actions.iter().zip(&logits).enumerate().map(|(row, (action, logit))| {

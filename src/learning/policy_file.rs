@@ -5,12 +5,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::{ACTION_SPACE, ACTIONS},
-    features::FEATURE_VERSION,
+    features::feature_version,
     hyperparameters::Hyperparameters,
     networks::Networks,
     policy::Policy,
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    scenes::{ACTOR_INPUTS, critic_inputs},
     weights::{Reader, WeightsError, Writer},
 };
 use crate::{game::Reward, storage::write_atomic};
@@ -25,9 +24,9 @@ pub struct Origin {
     pub table: String,
     /// What it was rewarded for.
     pub reward: Reward,
-    /// What its actions mean ([`ACTION_SPACE`]).
+    /// What its actions mean ([`ActionSpace::meaning`](super::action::ActionSpace::meaning)).
     pub actions: String,
-    /// What its networks are told ([`FEATURE_VERSION`]).
+    /// What its networks are told ([`feature_version`]).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,
@@ -105,18 +104,21 @@ impl Policy {
             let error = || PolicyError::Version { origin: name.to_owned(), what, found: found.clone(), expected };
             if same { Ok(()) } else { Err(error()) }
         };
-        version("features", &origin.features, FEATURE_VERSION)?;
-        version("actions", &origin.actions, ACTION_SPACE)?;
+        let space = origin.hyperparameters.actions;
+        version("features", &origin.features, feature_version(space))?;
+        version("actions", &origin.actions, space.meaning())?;
         let network = |name, inputs, outputs: &dyn Fn(usize) -> bool, expected: &str| {
             let network = reader.network(name, inputs)?;
             let last = network.sizes()[network.sizes().len() - 1];
             let wrong = || WeightsError::Array { name: name.to_owned(), expected: expected.to_owned() };
             if outputs(last) { Ok(network) } else { Err(wrong()) }
         };
-        let heads = |outputs: usize| outputs.is_multiple_of(ACTIONS);
-        let actor = network("actor", ACTOR_INPUTS, &heads, "a network with two outputs a head").map_err(content)?;
+        let heads = |outputs: usize| outputs.is_multiple_of(space.actions());
+        let actor =
+            network("actor", ACTOR_INPUTS, &heads, "a network with as many outputs a head as its actions have numbers")
+                .map_err(content)?;
         let one = |outputs| outputs == 1;
-        let critic = network("critic", CRITIC_INPUTS, &one, "a network with one output").map_err(content)?;
+        let critic = network("critic", critic_inputs(space), &one, "a network with one output").map_err(content)?;
         Ok(Self { networks: Networks { actor, critic }, origin })
     }
 

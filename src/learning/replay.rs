@@ -90,7 +90,7 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert!(buffer.sample(5, &mut rng).is_empty());
         for success in 0..5u8 {
-            buffer.push(Experience { view, action: [0.0; 2], success: f32::from(success) });
+            buffer.push(Experience { view, action: [0.0; 5], success: f32::from(success) });
         }
         assert_eq!(buffer.len(), 3);
         let mut seen: Vec<f32> = buffer.sample(100, &mut rng).iter().map(|experience| experience.success).collect();

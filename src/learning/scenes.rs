@@ -5,8 +5,9 @@ use std::sync::{Arc, OnceLock};
 use candle_core::{CpuStorage, CustomOp1, Device, Layout, Result, Shape, Tensor, bail};
 
 use super::{
-    action::{ACTIONS, Action},
-    features::{ACTION_FEATURES, STATE_FEATURES, action_features, push_state_features},
+    action::{ACTIONS, Action, ActionSpace},
+    dual::Dual,
+    features::{STATE_FEATURES, action_features, push_action_features, push_state_features},
     tensors::{stored_values, values},
     view::View,
 };
@@ -16,33 +17,66 @@ use crate::table::Table;
 pub const ACTOR_INPUTS: usize = STATE_FEATURES;
 
 /// Inputs of the critic.
-pub const CRITIC_INPUTS: usize = STATE_FEATURES + ACTION_FEATURES;
+pub const fn critic_inputs(space: ActionSpace) -> usize {
+    STATE_FEATURES + action_features(space)
+}
+
+/// Actions as the rows of a tensor, the unused numbers left out.
+///
+/// # Errors
+/// Whatever candle reports.
+pub fn action_rows(space: ActionSpace, actions: &[Action]) -> Result<Tensor> {
+    let used = space.actions();
+    let values: Vec<f32> = actions.iter().flat_map(|action| action[..used].iter().copied()).collect();
+    Tensor::from_vec(values, (actions.len(), used), &Device::Cpu)
+}
+
+/// The actions in the rows of a tensor, the unused numbers nought.
+///
+/// # Errors
+/// Whatever candle reports.
+pub fn actions_in(space: ActionSpace, rows: &Tensor) -> Result<Vec<Action>> {
+    let values: Vec<f32> = rows.flatten_all()?.to_vec1()?;
+    Ok(values.chunks_exact(space.actions()).map(padded).collect())
+}
+
+fn padded(used: &[f32]) -> Action {
+    let mut action = [0.0; ACTIONS];
+    action[..used.len()].copy_from_slice(used);
+    action
+}
 
 /// Views on one table with their state features.
 #[derive(Clone, Debug)]
 pub struct Scenes {
     table: Arc<Table>,
+    space: ActionSpace,
     views: Arc<[View]>,
     states: Tensor,
 }
 
 impl Scenes {
-    /// A batch of views.
+    /// A batch of views for actions in `space`.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn new(table: &Arc<Table>, views: Vec<View>) -> Result<Self> {
+    pub fn new(table: &Arc<Table>, space: ActionSpace, views: Vec<View>) -> Result<Self> {
         let mut features = Vec::with_capacity(views.len() * STATE_FEATURES);
         for view in &views {
             push_state_features(table, view, &mut features);
         }
         let states = Tensor::from_vec(features, (views.len(), STATE_FEATURES), &Device::Cpu)?;
-        Ok(Self { table: Arc::clone(table), views: views.into(), states })
+        Ok(Self { table: Arc::clone(table), space, views: views.into(), states })
     }
 
     /// The views.
     pub fn views(&self) -> &[View] {
         &self.views
+    }
+
+    /// What the actions mean.
+    pub const fn space(&self) -> ActionSpace {
+        self.space
     }
 
     /// The actor's input, a row for each view.
@@ -57,10 +91,10 @@ impl Scenes {
     pub fn first(&self, count: usize) -> Result<Self> {
         let count = count.min(self.views.len());
         let states = self.states.narrow(0, 0, count)?;
-        Ok(Self { table: Arc::clone(&self.table), views: self.views[..count].into(), states })
+        Ok(Self { table: Arc::clone(&self.table), space: self.space, views: self.views[..count].into(), states })
     }
 
-    /// The critic's input for `actions`, a row for each action (rows x [`ACTIONS`]); each view takes the same number of
+    /// The critic's input for `actions`, a row for each action (rows x actions of the space); each view takes the same number of
     /// consecutive rows. Gradients flow to the actions.
     ///
     /// # Errors
@@ -83,8 +117,8 @@ impl Scenes {
 /// The operation that appends actions to views.
 pub struct Join {
     scenes: Scenes,
-    /// Slopes of the action features along the actions, kept by the forward pass for the backward pass.
-    slopes: OnceLock<Vec<[[f32; ACTIONS]; ACTION_FEATURES]>>,
+    /// Slopes of the action features along the actions, row after row, kept by the forward pass for the backward pass.
+    slopes: OnceLock<Vec<Action>>,
     differentiate: bool,
 }
 
@@ -97,17 +131,20 @@ impl Join {
         let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
         let (storage, layout) = gradient.storage_and_layout();
         let gradient = stored_values(&storage, layout)?;
-        let mut out: Vec<Action> = Vec::with_capacity(slopes.len());
-        for (slopes, row) in slopes.iter().zip(gradient.chunks_exact(CRITIC_INPUTS)) {
+        let space = self.scenes.space;
+        let (used, inputs, features) = (space.actions(), critic_inputs(space), action_features(space));
+        let rows = slopes.len() / features;
+        let mut out: Vec<f32> = Vec::with_capacity(rows * used);
+        for (slopes, row) in slopes.chunks_exact(features).zip(gradient.chunks_exact(inputs)) {
             let mut sum = [0.0; ACTIONS];
             for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
                 for (sum, slope) in sum.iter_mut().zip(slope) {
                     *sum += slope * error;
                 }
             }
-            out.push(sum);
+            out.extend(&sum[..used]);
         }
-        Tensor::from_vec(out.into_flattened(), (slopes.len(), ACTIONS), &Device::Cpu)
+        Tensor::from_vec(out, (rows, used), &Device::Cpu)
     }
 }
 
@@ -118,28 +155,29 @@ impl CustomOp1 for Join {
 
     fn cpu_fwd(&self, storage: &CpuStorage, layout: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, columns) = layout.shape().dims2()?;
-        let views = self.scenes.views.len();
-        if columns != ACTIONS || views == 0 || rows % views != 0 {
-            bail!("{rows} actions of {columns} numbers do not fit {views} views");
+        let (views, space) = (self.scenes.views.len(), self.scenes.space);
+        if columns != space.actions() || views == 0 || rows % views != 0 {
+            bail!("{rows} actions of {columns} numbers do not fit {views} views of {} numbers", space.actions());
         }
         let (state_storage, state_layout) = self.scenes.states.storage_and_layout();
         let states = stored_values(&state_storage, state_layout)?;
-        let (actions, _) = values(storage, layout)?.as_chunks::<ACTIONS>();
-        let mut out = Vec::with_capacity(rows * CRITIC_INPUTS);
-        let mut slopes = Vec::with_capacity(if self.differentiate { rows } else { 0 });
-        let cases = self.scenes.views.iter().zip(states.chunks_exact(STATE_FEATURES));
-        for ((view, state), actions) in cases.zip(actions.chunks_exact(rows / views)) {
-            for action in actions {
-                let features = action_features(&self.scenes.table, view, *action);
-                out.extend_from_slice(state);
-                out.extend(features.map(|feature| feature.value as f32));
-                if self.differentiate {
-                    slopes.push(features.map(|feature| feature.slope.map(|slope| slope as f32)));
-                }
+        let inputs = critic_inputs(space);
+        let mut out = Vec::with_capacity(rows * inputs);
+        let mut slopes = Vec::with_capacity(if self.differentiate { rows * action_features(space) } else { 0 });
+        let mut features: Vec<Dual> = Vec::with_capacity(action_features(space));
+        let actions = values(storage, layout)?.chunks_exact(columns);
+        for (row, action) in actions.enumerate() {
+            let view = row / (rows / views);
+            features.clear();
+            push_action_features(&self.scenes.table, &self.scenes.views[view], padded(action), space, &mut features);
+            out.extend_from_slice(&states[view * STATE_FEATURES..][..STATE_FEATURES]);
+            out.extend(features.iter().map(|feature| feature.value as f32));
+            if self.differentiate {
+                slopes.extend(features.iter().map(|feature| feature.slope.map(|slope| slope as f32)));
             }
         }
         self.slopes.get_or_init(|| slopes);
-        Ok((CpuStorage::F32(out), Shape::from((rows, CRITIC_INPUTS))))
+        Ok((CpuStorage::F32(out), Shape::from((rows, inputs))))
     }
 
     fn bwd(&self, _actions: &Tensor, _inputs: &Tensor, gradient: &Tensor) -> Result<Option<Tensor>> {
@@ -159,18 +197,26 @@ mod tests {
         let table = Arc::new(Table::default());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(10);
         let layout = crate::table::Layout::random(&table, &mut rng);
-        let scenes = Scenes::new(&table, View::all(&layout)[..2].to_vec()).unwrap();
-        let actions = Var::new(&[[0.1f32, 0.2], [0.3, 0.4], [0.5, 0.6], [0.7, 0.8]], &Device::Cpu).unwrap();
-        let inputs = scenes.with_actions(&actions).unwrap();
-        let rows: Vec<Vec<f32>> = inputs.to_vec2().unwrap();
-        let states: Vec<Vec<f32>> = scenes.states().to_vec2().unwrap();
-        for (row, input) in rows.iter().enumerate() {
-            assert_eq!(input[..STATE_FEATURES], states[row / 2]);
+        for space in [ActionSpace::PhiV, ActionSpace::Full] {
+            let scenes = Scenes::new(&table, space, View::all(&layout)[..2].to_vec()).unwrap();
+            let values: Vec<Action> =
+                (1..5).map(|row| padded(&[0.1 * row as f32; ACTIONS][..space.actions()])).collect();
+            let actions = Var::from_tensor(&action_rows(space, &values).unwrap()).unwrap();
+            assert_eq!(actions_in(space, &actions).unwrap(), values);
+            let inputs = scenes.with_actions(&actions).unwrap();
+            let rows: Vec<Vec<f32>> = inputs.to_vec2().unwrap();
+            let states: Vec<Vec<f32>> = scenes.states().to_vec2().unwrap();
+            for (row, input) in rows.iter().enumerate() {
+                assert_eq!(input.len(), critic_inputs(space));
+                assert_eq!(input[..STATE_FEATURES], states[row / 2]);
+            }
+            let gradients = inputs.sum_all().unwrap().backward().unwrap();
+            let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
+            let mut features = Vec::new();
+            push_action_features(&table, &scenes.views()[1], values[2], space, &mut features);
+            let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
+            assert!((gradient[2][0] - expected).abs() < 1e-4);
+            assert!(scenes.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());
         }
-        let gradients = inputs.sum_all().unwrap().backward().unwrap();
-        let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
-        let expected = action_features(&table, &scenes.views()[1], [0.5, 0.6]).map(|f| f.slope[0] as f32);
-        assert!((gradient[2][0] - expected.iter().sum::<f32>()).abs() < 1e-4);
-        assert!(scenes.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());
     }
 }

@@ -6,14 +6,14 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::{ACTION_SPACE, ACTIONS},
+    action::ACTIONS,
     adam::Adam,
     ddpg::Ddpg,
-    features::FEATURE_VERSION,
+    features::feature_version,
     mlp::Mlp,
     networks::Networks,
     replay::{Experience, ReplayBuffer},
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    scenes::{ACTOR_INPUTS, critic_inputs},
     trainer::{Task, Trainer},
     view::View,
     weights::{Reader, WeightsError, Writer},
@@ -69,8 +69,8 @@ pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
     writer.finish(&Note {
         task: trainer.task.clone(),
         table: Table::clone(&trainer.table),
-        features: FEATURE_VERSION.to_owned(),
-        actions: ACTION_SPACE.to_owned(),
+        features: feature_version(trainer.task.hyperparameters.actions).to_owned(),
+        actions: trainer.task.hyperparameters.actions.meaning().to_owned(),
         shots: trainer.shots,
         updates: trainer.updates,
         rng: trainer.rng.clone(),
@@ -87,13 +87,14 @@ pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
 pub fn read(bytes: &[u8]) -> Result<Trainer, WeightsError> {
     let reader = Reader::new(bytes)?;
     let note: Note = reader.note()?;
-    if note.features != FEATURE_VERSION || note.actions != ACTION_SPACE {
+    let space = note.task.hyperparameters.actions;
+    if note.features != feature_version(space) || note.actions != space.meaning() {
         return Err(WeightsError::Foreign);
     }
     let networks = |name: &str| -> Result<Networks, WeightsError> {
         Ok(Networks {
             actor: reader.network(&format!("{name}.actor"), ACTOR_INPUTS)?,
-            critic: reader.network(&format!("{name}.critic"), CRITIC_INPUTS)?,
+            critic: reader.network(&format!("{name}.critic"), critic_inputs(space))?,
         })
     };
     let (online, target) = (networks("online")?, networks("target")?);

@@ -8,10 +8,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::{ACTION_SPACE, Action, cue_inputs},
+    action::{Action, ActionSpace, cue_inputs},
     calendar::today,
     ddpg::{Ddpg, Losses},
-    features::FEATURE_VERSION,
+    features::feature_version,
     hyperparameters::Hyperparameters,
     policy::Policy,
     policy_file::Origin,
@@ -23,6 +23,9 @@ use crate::{
     game::Reward,
     table::{Layout, Table},
 };
+
+/// Steps of resting contacts that are followed in practice.
+const PATIENCE: u32 = 20;
 
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,8 +107,8 @@ impl Trainer {
         let origin = Origin {
             table: self.table.name.clone(),
             reward: self.task.reward,
-            actions: ACTION_SPACE.to_owned(),
-            features: FEATURE_VERSION.to_owned(),
+            actions: self.task.hyperparameters.actions.meaning().to_owned(),
+            features: feature_version(self.task.hyperparameters.actions).to_owned(),
             seed: self.task.seed,
             shots: self.shots,
             date: today(),
@@ -116,6 +119,10 @@ impl Trainer {
         Ok(Policy::new(self.agent.target().duplicate()?, origin))
     }
 
+    const fn space(&self) -> ActionSpace {
+        self.task.hyperparameters.actions
+    }
+
     /// Plays some shots, then learns from a batch of those that are remembered.
     ///
     /// # Errors
@@ -124,7 +131,7 @@ impl Trainer {
         let pace = self.pace();
         let mean_reward = self.play()?;
         let batch = self.replay.sample(self.task.hyperparameters.batch, &mut self.rng);
-        let scenes = Scenes::new(&self.table, batch.iter().map(|experience| experience.view).collect())?;
+        let scenes = Scenes::new(&self.table, self.space(), batch.iter().map(|experience| experience.view).collect())?;
         let actions: Vec<_> = batch.iter().map(|experience| experience.action).collect();
         let successes: Vec<_> = batch.iter().map(|experience| experience.success).collect();
         let losses = self.agent.update(&scenes, &actions, &successes, pace)?;
@@ -155,7 +162,7 @@ impl Trainer {
         if layouts.is_empty() {
             return Ok(0.0);
         }
-        let scenes = Scenes::new(&self.table, layouts.iter().flat_map(View::all).collect())?;
+        let scenes = Scenes::new(&self.table, self.space(), layouts.iter().flat_map(View::all).collect())?;
         let (actions, logits) = self.agent.online().judge(&scenes)?;
         let heads = actions.len() / scenes.views().len();
         let mut total = 0.0;
@@ -173,7 +180,7 @@ impl Trainer {
             return Ok(0.0);
         }
         let views = layouts.iter().map(|layout| View::new(layout, self.rng.random_range(0..VIEWS))).collect();
-        let scenes = Scenes::new(&self.table, views)?;
+        let scenes = Scenes::new(&self.table, self.space(), views)?;
         let actions = self.agent.online().actions(&scenes)?;
         let heads = actions.len() / layouts.len();
         let mut total = 0.0;
@@ -186,8 +193,9 @@ impl Trainer {
 
     /// Plays and remembers one shot near `choice`; returns its reward.
     fn shoot(&mut self, layout: &Layout, view: View, choice: Action) -> f64 {
-        let action = self.task.hyperparameters.exploration.stray(choice, &mut self.rng);
-        let reward = self.task.reward.of(&self.table, layout, &cue_inputs(&self.table, &view, action));
+        let action = self.task.hyperparameters.exploration.stray(self.space(), choice, &mut self.rng);
+        let cue = cue_inputs(&self.table, &view, action);
+        let reward = self.task.reward.within(&self.table, layout, &cue, PATIENCE);
         let success = (reward / highest(self.task.reward)) as f32;
         self.replay.push(Experience { view, action, success });
         reward
@@ -197,8 +205,8 @@ impl Trainer {
 /// The largest reward there is: the critic's probabilities end at one.
 const fn highest(reward: Reward) -> f64 {
     match reward {
-        Reward::R1 | Reward::R1Difficulty | Reward::R3 => 1.0,
         Reward::R2 | Reward::R4 => 2.0,
+        _ => 1.0,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::table::{Layout, Table};
 
 /// One way to look at a layout: a first object ball, and the side of it on which the cue ball shall pass.
 ///
-/// A shot without english plays the same in a mirror. So the layout is mirrored until the cue ball always passes on
+/// A shot plays the same in a mirror that swaps the sides of its english, too. So the layout is mirrored until the cue ball always passes on
 /// the *left* of the first ball and lies in the right half of the table (x >= 0): an agent then learns one kind of
 /// shot instead of eight.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,11 @@ impl View {
     /// A direction of this view as an angle on the table, rad.
     pub fn angle_on_table(&self, direction: DVec2) -> f64 {
         (self.mirror * direction).to_angle()
+    }
+
+    /// A tip position to the left of the centre, as seen in this view, on the table: a mirror swaps left and right.
+    pub fn side_on_table(&self, left: f64) -> f64 {
+        self.mirror.x * self.mirror.y * left
     }
 
     /// The lines from ball to ball.

@@ -330,6 +330,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             }
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
+        self.observer.contact_step()?;
         self.crowd.step();
         let coarseness = self.crowd.coarseness();
         self.resting = Resting::begin(self.table, &self.constants, now, &states, self.resting.as_deref(), coarseness)

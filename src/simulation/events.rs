@@ -132,6 +132,11 @@ pub trait Observer {
     /// An event has happened. `Break` ends the simulation: the outcome is decided.
     fn event(&mut self, event: Event) -> ControlFlow<()>;
 
+    /// A resting contact is about to be followed for another step; a stiff one takes thousands. `Break` gives the shot up.
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
     /// A ball has moved along `segment` until time `end`, s. Called only where [`Observer::SEGMENTS`] is set.
     fn segment(&mut self, _ball: usize, _segment: &super::Segment, _end: f64) {}
 }

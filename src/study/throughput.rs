@@ -172,8 +172,8 @@ fn updates(
     let mut agent = Ddpg::new(hyper, &mut rng)?;
     let views =
         layouts.iter().take(batch).enumerate().map(|(index, layout)| View::new(layout, index % VIEWS)).collect();
-    let scenes = Scenes::new(&Arc::new(table.clone()), views)?;
-    let actions: Vec<_> = (0..batch).map(|_| [rng.random_range(-0.9..0.9), rng.random_range(-0.9..0.9)]).collect();
+    let scenes = Scenes::new(&Arc::new(table.clone()), agent.hyperparameters().actions, views)?;
+    let actions: Vec<_> = (0..batch).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
     let successes: Vec<_> = (0..batch).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
     let start = Instant::now();
     let mut done = 0_u64;

@@ -1,0 +1,121 @@
+//! What a stroke makes of the cue ball until it meets the first ball, in closed form and with slopes: features for the
+//! critic, no simulation.
+
+use super::{action::Meaning, dual::Dual};
+use crate::table::Table;
+
+/// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
+#[derive(Clone, Copy, Debug)]
+pub struct Stroke {
+    /// Speed just after the stroke, m/s.
+    pub speed: Dual,
+    /// Rolling speed of the spin about the axis across the line of aim, as a share of the speed: 1 is natural roll, less
+    /// than 0 is draw. Just after the stroke.
+    pub roll: Dual,
+    /// The same when the ball arrives.
+    pub roll_on_arrival: Dual,
+    /// Sidespin about the vertical as a surface speed, as a share of the speed.
+    pub side: Dual,
+    /// Spin about the line of aim as a surface speed, as a share of the speed: it swerves the ball.
+    pub masse: Dual,
+    /// How far the ball has swerved to the left on arrival, m.
+    pub swerve: Dual,
+    /// Sideways speed on arrival as a share of the speed: the angle by which its course has turned, rad.
+    pub turn: Dual,
+    /// Speed on arrival, m/s.
+    pub speed_on_arrival: Dual,
+}
+
+impl Stroke {
+    /// The stroke of an action over `distance`, m. The ball's speed is taken as that of the stroke until it arrives, and the
+    /// friction's direction as that of the first slip: good to a few percent for the shots that matter.
+    pub fn of(table: &Table, action: &Meaning, distance: f64) -> Self {
+        let Meaning { speed, tip: [a, b], theta, .. } = *action;
+        // Thesis equations 9, 15 and 16, as in `physics::strike`.
+        let c = (-(a * a) - b * b + 1.0).at_least(1e-6).sqrt();
+        let (sin, cos) = theta.sin_cos();
+        let lever = b * cos - c * sin;
+        let force = speed * 2.0 * ((a * a + lever * lever) * 2.5 + (1.0 + table.ball_mass / table.cue_mass)).recip();
+        let start = force * cos;
+        let per_speed = (cos).recip() * 2.5;
+        let (roll, side, masse) = (lever * per_speed, -a * 2.5, -(a * sin) * per_speed);
+
+        // The slip at the cloth (5), as shares of the speed: along the aim 1 - roll, and sideways the spin about the aim.
+        let (along, across) = (-roll + 1.0, masse);
+        let slip = (along * along + across * across + 1e-9).sqrt();
+        let grip = table.sliding_friction * table.gravity;
+        let sliding = start * slip * (2.0 / (7.0 * grip));
+        let way = start.recip() * distance;
+        let time = way.min(sliding);
+        let share = slip.recip();
+        let push = -(across * share) * grip;
+        let sideways = push * time;
+        // Friction turns slip into roll: the slip falls at 7/2 of the friction, 5/2 of it by the spin.
+        let slowed = start - along * share * grip * time;
+        let rolled = roll * start + along * share * time * (2.5 * grip);
+        let swerve = push * time * time * 0.5 + sideways * (way - time);
+        let arrival = slowed.at_least(0.05);
+        Self {
+            speed: start,
+            roll,
+            roll_on_arrival: rolled * arrival.recip(),
+            side,
+            masse,
+            swerve,
+            turn: sideways * arrival.recip(),
+            speed_on_arrival: arrival,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        learning::{action::cue_inputs, view::View},
+        physics::strike,
+        simulation::Recording,
+        table::Layout,
+    };
+    use glam::DVec2;
+    use rand::{RngExt, SeedableRng};
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn the_cue_ball_arrives_as_the_simulator_says() {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+        for name in crate::table::PRESETS {
+            let table = Table::preset(name).unwrap();
+            let mut worst = 0.0_f64;
+            for index in 0..400 {
+                let first = DVec2::new(rng.random_range(0.3..1.0), rng.random_range(-0.3..0.3));
+                let layout = Layout::new([DVec2::new(-0.2, 0.1), first, DVec2::new(-1.0, -0.5)]);
+                let view = View::new(&layout, 2 * (index % 2));
+                let mut action: [f32; 5] = std::array::from_fn(|_| rng.random_range(-0.7..0.7));
+                action[1] = rng.random_range(0.0..1.0);
+                let meaning = Meaning::of(&table, action);
+                let distance = first.distance(layout.balls[0]);
+                let stroke = Stroke::of(&table, &meaning, distance);
+                let cue = cue_inputs(&table, &view, action);
+                let impulse = strike(&table, &cue);
+                assert!((impulse.velocity.length() - stroke.speed.value).abs() < 1e-9);
+                let recording = Recording::new(
+                    &table,
+                    &Layout::new([layout.balls[0], DVec2::new(-1.0, 0.6), layout.balls[2]]),
+                    &cue,
+                )
+                .unwrap();
+                // When the free cue ball is as far away as the first ball is.
+                let to = (first - layout.balls[0]).normalize();
+                let along = |t: f64| (recording.positions(t)[0] - layout.balls[0]).dot(to) - distance;
+                let Some(tick) = (1..4000).find(|tick| along(f64::from(*tick) * 1e-3) >= 0.0) else { continue };
+                let at = recording.positions(f64::from(tick) * 1e-3)[0];
+                let side = if view.mirror.x * view.mirror.y < 0.0 { -1.0 } else { 1.0 };
+                let passed = side * to.perp_dot(at - first) / (2.0 * table.radius);
+                worst = worst.max((passed - meaning.offset.value).abs());
+                println!("{name} {passed:.3} {:.3} {:?}", meaning.offset.value, stroke.swerve.value);
+            }
+            println!("{name} {worst}");
+        }
+    }
+}
