@@ -62,6 +62,28 @@ impl Reward {
         }
     }
 
+    /// The largest reward that a shot can earn.
+    pub const fn highest(self) -> f64 {
+        match self {
+            Self::R2 | Self::R4 => 2.0,
+            _ => 1.0,
+        }
+    }
+
+    /// Whether it says just whether a shot makes a point under some rule, 1 or 0.
+    pub const fn is_point(self) -> bool {
+        matches!(self, Self::R3 | Self::OneCushion | Self::ThreeCushion)
+    }
+
+    /// The reward of a point under `rule`.
+    pub const fn for_rule(rule: Rule) -> Self {
+        match rule {
+            Rule::StraightRail => Self::R3,
+            Rule::OneCushion => Self::OneCushion,
+            Rule::ThreeCushion => Self::ThreeCushion,
+        }
+    }
+
     /// The reward of a shot, simulated just until it is decided. The layout and the stroke are taken as they are.
     pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
         self.within(table, layout, cue, u32::MAX)

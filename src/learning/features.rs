@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use super::{
-    action::{Action, ActionSpace, Meaning},
+    action::{Action, Meaning},
     dual::{Dual, DualVector},
     stroke::Stroke,
     view::{Line, View, free_path},
@@ -19,20 +19,10 @@ pub const STATE_FEATURES: usize = 38;
 const TYPICAL_SPEED: f64 = 6.0;
 
 /// Numbers about a view and an action.
-pub const fn action_features(space: ActionSpace) -> usize {
-    match space {
-        ActionSpace::PhiV => 30,
-        ActionSpace::Full => 58,
-    }
-}
+pub const ACTION_FEATURES: usize = 58;
 
 /// Changes whenever the features change: weights fit one version only.
-pub const fn feature_version(space: ActionSpace) -> &'static str {
-    match space {
-        ActionSpace::PhiV => "contact-frame-1",
-        ActionSpace::Full => "final-course-1",
-    }
-}
+pub const FEATURE_VERSION: &str = "final-course-1";
 
 /// Appends [`STATE_FEATURES`] numbers of the order of one: where the balls lie, how they lie to each other, the cushions
 /// behind the first ball, and the second ball's images in the cushions as seen from the first.
@@ -70,16 +60,16 @@ pub fn push_state_features(table: &Table, view: &View, out: &mut Vec<f32>) {
     }
 }
 
-/// Numbers about a shot, with their slopes along the action: [`action_features`] of them.
+/// Numbers about a shot, with their slopes along the action: [`ACTION_FEATURES`] of them.
 ///
 /// At the moment of contact the line of centres and the tangent at the first ball decide where the cue ball goes. So
 /// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network
 /// would need many units to find this rotation by itself, and points are missed by a degree. Where the spin takes the
 /// cue ball from there in the end, its final direction, is the second such frame.
-pub fn push_action_features(table: &Table, view: &View, action: Action, space: ActionSpace, out: &mut Vec<Dual>) {
+pub fn push_action_features(table: &Table, view: &View, action: Action, out: &mut Vec<Dual>) {
     let meaning = Meaning::of(table, action);
     let lines = view.lines(table);
-    let stroke = (space == ActionSpace::Full).then(|| Stroke::of(table, &meaning, lines.to_first.distance));
+    let stroke = Stroke::of(table, &meaning, lines.to_first.distance);
     let offset = meaning.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
@@ -92,10 +82,7 @@ pub fn push_action_features(table: &Table, view: &View, action: Action, space: A
     let diameter = 2.0 * table.radius;
     // The course turns left of the line to the first ball, the line of centres right of the course by the cut angle.
     let sin_turn = offset * (diameter / lines.to_first.distance);
-    let course = match &stroke {
-        None => DualVector { x: cosine(sin_turn), y: sin_turn },
-        Some(stroke) => DualVector { x: cosine(sin_turn), y: sin_turn + stroke.turn }.normalised(),
-    };
+    let course = DualVector { x: cosine(sin_turn), y: sin_turn + stroke.turn }.normalised();
     let course = course.rotated(lines.to_first.direction);
     let cos_cut = cosine(offset);
     let normal = DualVector { x: course.x * cos_cut + course.y * offset, y: course.y * cos_cut - course.x * offset };
@@ -120,21 +107,19 @@ pub fn push_action_features(table: &Table, view: &View, action: Action, space: A
     // How far the cue ball can go along the tangent; its slope is left out, for it jumps in the corners.
     let tangent = DVec2::new(-normal.y.value, normal.x.value);
     out.push(Dual::constant(free_path(table, view.first, tangent) / table.length));
-    if let Some(stroke) = stroke {
-        let [left, up, elevation] = [2, 3, 4].map(|index| Dual::action(index, f64::from(action[index])));
-        out.extend([left, up, elevation, left * left, up * up, left * up, left * elevation]);
-        out.extend([stroke.speed, stroke.speed_on_arrival].map(|speed| speed * (1.0 / TYPICAL_SPEED)));
-        out.extend([stroke.roll, stroke.roll_on_arrival, stroke.side, stroke.masse, stroke.turn].map(|x| x * 0.5));
-        let end = final_course(table, &stroke, course, normal, offset, cos_cut);
-        let size = (end.dot(end) + 1e-4).sqrt();
-        let heading = DualVector { x: end.x * size.recip(), y: end.y * size.recip() };
-        out.extend([size, heading.x, heading.y]);
-        for towards in targets {
-            out.extend([heading.dot(towards), heading.perp_dot(towards)]);
-        }
-        let DualVector { x, y } = heading;
-        out.push(Dual::constant(free_path(table, view.first, DVec2::new(x.value, y.value)) / table.length));
+    let [left, up, elevation] = [2, 3, 4].map(|index| Dual::action(index, f64::from(action[index])));
+    out.extend([left, up, elevation, left * left, up * up, left * up, left * elevation]);
+    out.extend([stroke.speed, stroke.speed_on_arrival].map(|speed| speed * (1.0 / TYPICAL_SPEED)));
+    out.extend([stroke.roll, stroke.roll_on_arrival, stroke.side, stroke.masse, stroke.turn].map(|x| x * 0.5));
+    let end = final_course(table, &stroke, course, normal, offset, cos_cut);
+    let size = (end.dot(end) + 1e-4).sqrt();
+    let heading = DualVector { x: end.x * size.recip(), y: end.y * size.recip() };
+    out.extend([size, heading.x, heading.y]);
+    for towards in targets {
+        out.extend([heading.dot(towards), heading.perp_dot(towards)]);
     }
+    let DualVector { x, y } = heading;
+    out.push(Dual::constant(free_path(table, view.first, DVec2::new(x.value, y.value)) / table.length));
 }
 
 /// Velocity of the cue ball once it rolls after meeting the first ball, as a share of its speed on arrival: the collision
@@ -177,26 +162,21 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    const SPACES: [ActionSpace; 2] = [ActionSpace::PhiV, ActionSpace::Full];
-
-    fn features(table: &Table, view: &View, action: Action, space: ActionSpace) -> Vec<Dual> {
+    fn features(table: &Table, view: &View, action: Action) -> Vec<Dual> {
         let mut out = Vec::new();
-        push_action_features(table, view, action, space, &mut out);
-        assert_eq!(out.len(), action_features(space));
+        push_action_features(table, view, action, &mut out);
+        assert_eq!(out.len(), ACTION_FEATURES);
         out
     }
 
-    /// An action with noughts where the space does not use it.
-    fn random(space: ActionSpace, rng: &mut Xoshiro256PlusPlus, limit: f32) -> Action {
-        let mut action = [0.0; ACTIONS];
-        action[..space.actions()].fill_with(|| rng.random_range(-limit..=limit));
-        action
+    fn random(rng: &mut Xoshiro256PlusPlus, limit: f32) -> Action {
+        std::array::from_fn(|_| rng.random_range(-limit..=limit))
     }
 
     #[test]
     fn features_are_finite_of_order_one_and_as_many_as_promised() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
-        for space in SPACES {
+        {
             for name in crate::table::PRESETS {
                 let table = Table::preset(name).unwrap();
                 for case in 0..400 {
@@ -205,8 +185,8 @@ mod tests {
                     push_state_features(&table, &view, &mut state);
                     assert_eq!(state.len(), STATE_FEATURES);
                     assert!(state.iter().all(|x| x.abs() <= 4.0), "{state:?}");
-                    let action = random(space, &mut rng, 1.0);
-                    for (index, feature) in features(&table, &view, action, space).iter().enumerate() {
+                    let action = random(&mut rng, 1.0);
+                    for (index, feature) in features(&table, &view, action).iter().enumerate() {
                         assert!(feature.value.abs() <= 8.0, "{index}: {feature:?}");
                         assert!(feature.slope.iter().all(|slope| slope.abs() < 200.0), "{index}: {feature:?}");
                     }
@@ -222,7 +202,7 @@ mod tests {
         let layout = Layout::new([DVec2::ZERO, DVec2::new(diameter, 0.0), DVec2::new(0.0, -diameter)]);
         for view in View::all(&layout) {
             for action in [[-1.0, 0.0, 1.0, 1.0, 1.0], [1.0; ACTIONS], [0.0, 1.0, -1.0, 0.0, -1.0]] {
-                let features = features(&table, &view, action, ActionSpace::Full);
+                let features = features(&table, &view, action);
                 assert!(features.iter().all(|f| f.value.is_finite() && f.slope.iter().all(|s| s.is_finite())));
             }
         }
@@ -232,15 +212,15 @@ mod tests {
     fn slopes_agree_with_finite_differences() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-        for (space, case) in SPACES.into_iter().flat_map(|space| (0..50).map(move |case| (space, case))) {
+        for case in 0..50 {
             let view = View::new(&Layout::random(&table, &mut rng), case % 4);
-            let action = random(space, &mut rng, 0.8);
-            let here = features(&table, &view, action, space);
-            for along in 0..space.actions() {
+            let action = random(&mut rng, 0.8);
+            let here = features(&table, &view, action);
+            for along in 0..ACTIONS {
                 let moved = |step: f32| {
                     let mut action = action;
                     action[along] += step;
-                    (features(&table, &view, action, space), f64::from(action[along]))
+                    (features(&table, &view, action), f64::from(action[along]))
                 };
                 let ((after, x1), (before, x0)) = (moved(1e-3), moved(-1e-3));
                 // The free paths' slopes are left out on purpose.

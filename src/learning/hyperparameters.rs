@@ -37,6 +37,12 @@ pub struct Hyperparameters {
     /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
     /// left behind.
     pub replay: usize,
+    /// Share of the misses that are remembered a second time as the points that they would have been with the second ball
+    /// elsewhere (hindsight experience replay, thesis 6.1.1). For rewards of points only.
+    pub hindsight: f64,
+    /// Share of the shots of an update that are not the agent's own but a search's solutions (demonstrations, thesis
+    /// 6.1.2). For rewards of points only.
+    pub demonstrations: f64,
     /// Weight of the logit beside the probability in what the actor climbs: without it there is no slope where the
     /// critic is certain of a miss.
     pub logit_weight: f64,
@@ -60,6 +66,8 @@ impl Default for Hyperparameters {
             shots_per_update: 192,
             critic_chooses: 0.3,
             replay: 1 << 17,
+            hindsight: 0.0,
+            demonstrations: 0.0,
             logit_weight: 0.02,
             exploration: Exploration { noise: vec![0.015, 0.05, 0.2], uniform: 0.1 },
         }
@@ -103,6 +111,8 @@ impl Hyperparameters {
         positive("gradient_clip", self.gradient_clip)?;
         share("target_rate", self.target_rate)?;
         share("critic_chooses", self.critic_chooses)?;
+        share("hindsight", self.hindsight)?;
+        share("demonstrations", self.demonstrations)?;
         share("logit_weight", self.logit_weight)?;
         share("exploration.uniform", self.exploration.uniform)?;
         for scale in &self.exploration.noise {

@@ -7,7 +7,7 @@ use super::{
     action::{Action, aim_at},
     hyperparameters::Hyperparameters,
     mlp::Mlp,
-    scenes::{ACTOR_INPUTS, Scenes, actions_in, critic_inputs},
+    scenes::{ACTOR_INPUTS, CRITIC_INPUTS, Scenes, actions_in},
 };
 
 /// Steps of a sequence that fills the square evenly (powers of the inverse of the plastic number, Roberts 2018).
@@ -38,7 +38,7 @@ impl Networks {
         }
         let sizes = |inputs, hidden: &[usize], outputs| [&[inputs], hidden, &[outputs]].concat();
         let actor_sizes = sizes(ACTOR_INPUTS, &hyper.actor_layers, hyper.heads * outputs);
-        let critic_sizes = sizes(critic_inputs(hyper.actions), &hyper.critic_layers, 1);
+        let critic_sizes = sizes(CRITIC_INPUTS, &hyper.critic_layers, 1);
         Ok(Self {
             actor: Mlp::random(&actor_sizes, rng)?.with_output_bias(&start)?,
             critic: Mlp::random(&critic_sizes, rng)?,

@@ -5,11 +5,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    features::feature_version,
+    features::FEATURE_VERSION,
     hyperparameters::Hyperparameters,
     networks::Networks,
     policy::Policy,
-    scenes::{ACTOR_INPUTS, critic_inputs},
+    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
     weights::{Reader, WeightsError, Writer},
 };
 use crate::{game::Reward, storage::write_atomic};
@@ -26,7 +26,7 @@ pub struct Origin {
     pub reward: Reward,
     /// What its actions mean ([`ActionSpace::meaning`](super::action::ActionSpace::meaning)).
     pub actions: String,
-    /// What its networks are told ([`feature_version`]).
+    /// What its networks are told ([`FEATURE_VERSION`]).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,
@@ -105,7 +105,7 @@ impl Policy {
             if same { Ok(()) } else { Err(error()) }
         };
         let space = origin.hyperparameters.actions;
-        version("features", &origin.features, feature_version(space))?;
+        version("features", &origin.features, FEATURE_VERSION)?;
         version("actions", &origin.actions, space.meaning())?;
         let network = |name, inputs, outputs: &dyn Fn(usize) -> bool, expected: &str| {
             let network = reader.network(name, inputs)?;
@@ -118,7 +118,7 @@ impl Policy {
             network("actor", ACTOR_INPUTS, &heads, "a network with as many outputs a head as its actions have numbers")
                 .map_err(content)?;
         let one = |outputs| outputs == 1;
-        let critic = network("critic", critic_inputs(space), &one, "a network with one output").map_err(content)?;
+        let critic = network("critic", CRITIC_INPUTS, &one, "a network with one output").map_err(content)?;
         Ok(Self { networks: Networks { actor, critic }, origin })
     }
 

@@ -7,7 +7,7 @@ use candle_core::{CpuStorage, CustomOp1, Device, Layout, Result, Shape, Tensor, 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
     dual::Dual,
-    features::{STATE_FEATURES, action_features, push_action_features, push_state_features},
+    features::{ACTION_FEATURES, STATE_FEATURES, push_action_features, push_state_features},
     tensors::{stored_values, values},
     view::View,
 };
@@ -17,9 +17,7 @@ use crate::table::Table;
 pub const ACTOR_INPUTS: usize = STATE_FEATURES;
 
 /// Inputs of the critic.
-pub const fn critic_inputs(space: ActionSpace) -> usize {
-    STATE_FEATURES + action_features(space)
-}
+pub const CRITIC_INPUTS: usize = STATE_FEATURES + ACTION_FEATURES;
 
 /// Actions as the rows of a tensor, the unused numbers left out.
 ///
@@ -132,10 +130,9 @@ impl Join {
         let (storage, layout) = gradient.storage_and_layout();
         let gradient = stored_values(&storage, layout)?;
         let space = self.scenes.space;
-        let (used, inputs, features) = (space.actions(), critic_inputs(space), action_features(space));
-        let rows = slopes.len() / features;
+        let (used, rows) = (space.actions(), slopes.len() / ACTION_FEATURES);
         let mut out: Vec<f32> = Vec::with_capacity(rows * used);
-        for (slopes, row) in slopes.chunks_exact(features).zip(gradient.chunks_exact(inputs)) {
+        for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(CRITIC_INPUTS)) {
             let mut sum = [0.0; ACTIONS];
             for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
                 for (sum, slope) in sum.iter_mut().zip(slope) {
@@ -161,15 +158,14 @@ impl CustomOp1 for Join {
         }
         let (state_storage, state_layout) = self.scenes.states.storage_and_layout();
         let states = stored_values(&state_storage, state_layout)?;
-        let inputs = critic_inputs(space);
-        let mut out = Vec::with_capacity(rows * inputs);
-        let mut slopes = Vec::with_capacity(if self.differentiate { rows * action_features(space) } else { 0 });
-        let mut features: Vec<Dual> = Vec::with_capacity(action_features(space));
+        let mut out = Vec::with_capacity(rows * CRITIC_INPUTS);
+        let mut slopes = Vec::with_capacity(if self.differentiate { rows * ACTION_FEATURES } else { 0 });
+        let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES);
         let actions = values(storage, layout)?.chunks_exact(columns);
         for (row, action) in actions.enumerate() {
             let view = row / (rows / views);
             features.clear();
-            push_action_features(&self.scenes.table, &self.scenes.views[view], padded(action), space, &mut features);
+            push_action_features(&self.scenes.table, &self.scenes.views[view], padded(action), &mut features);
             out.extend_from_slice(&states[view * STATE_FEATURES..][..STATE_FEATURES]);
             out.extend(features.iter().map(|feature| feature.value as f32));
             if self.differentiate {
@@ -177,7 +173,7 @@ impl CustomOp1 for Join {
             }
         }
         self.slopes.get_or_init(|| slopes);
-        Ok((CpuStorage::F32(out), Shape::from((rows, inputs))))
+        Ok((CpuStorage::F32(out), Shape::from((rows, CRITIC_INPUTS))))
     }
 
     fn bwd(&self, _actions: &Tensor, _inputs: &Tensor, gradient: &Tensor) -> Result<Option<Tensor>> {
@@ -207,13 +203,13 @@ mod tests {
             let rows: Vec<Vec<f32>> = inputs.to_vec2().unwrap();
             let states: Vec<Vec<f32>> = scenes.states().to_vec2().unwrap();
             for (row, input) in rows.iter().enumerate() {
-                assert_eq!(input.len(), critic_inputs(space));
+                assert_eq!(input.len(), CRITIC_INPUTS);
                 assert_eq!(input[..STATE_FEATURES], states[row / 2]);
             }
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
-            push_action_features(&table, &scenes.views()[1], values[2], space, &mut features);
+            push_action_features(&table, &scenes.views()[1], values[2], &mut features);
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
             assert!(scenes.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());

@@ -9,11 +9,11 @@ use super::{
     action::ACTIONS,
     adam::Adam,
     ddpg::Ddpg,
-    features::feature_version,
+    features::FEATURE_VERSION,
     mlp::Mlp,
     networks::Networks,
     replay::{Experience, ReplayBuffer},
-    scenes::{ACTOR_INPUTS, critic_inputs},
+    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
     trainer::{Task, Trainer},
     view::View,
     weights::{Reader, WeightsError, Writer},
@@ -69,7 +69,7 @@ pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
     writer.finish(&Note {
         task: trainer.task.clone(),
         table: Table::clone(&trainer.table),
-        features: feature_version(trainer.task.hyperparameters.actions).to_owned(),
+        features: FEATURE_VERSION.to_owned(),
         actions: trainer.task.hyperparameters.actions.meaning().to_owned(),
         shots: trainer.shots,
         updates: trainer.updates,
@@ -88,13 +88,13 @@ pub fn read(bytes: &[u8]) -> Result<Trainer, WeightsError> {
     let reader = Reader::new(bytes)?;
     let note: Note = reader.note()?;
     let space = note.task.hyperparameters.actions;
-    if note.features != feature_version(space) || note.actions != space.meaning() {
+    if note.features != FEATURE_VERSION || note.actions != space.meaning() {
         return Err(WeightsError::Foreign);
     }
     let networks = |name: &str| -> Result<Networks, WeightsError> {
         Ok(Networks {
             actor: reader.network(&format!("{name}.actor"), ACTOR_INPUTS)?,
-            critic: reader.network(&format!("{name}.critic"), critic_inputs(space))?,
+            critic: reader.network(&format!("{name}.critic"), CRITIC_INPUTS)?,
         })
     };
     let (online, target) = (networks("online")?, networks("target")?);

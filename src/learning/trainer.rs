@@ -11,7 +11,9 @@ use super::{
     action::{Action, ActionSpace, cue_inputs},
     calendar::today,
     ddpg::{Ddpg, Losses},
-    features::feature_version,
+    demonstrations::demonstrate,
+    features::FEATURE_VERSION,
+    hindsight::relabel,
     hyperparameters::Hyperparameters,
     policy::Policy,
     policy_file::Origin,
@@ -108,7 +110,7 @@ impl Trainer {
             table: self.table.name.clone(),
             reward: self.task.reward,
             actions: self.task.hyperparameters.actions.meaning().to_owned(),
-            features: feature_version(self.task.hyperparameters.actions).to_owned(),
+            features: FEATURE_VERSION.to_owned(),
             seed: self.task.seed,
             shots: self.shots,
             date: today(),
@@ -147,13 +149,25 @@ impl Trainer {
 
     /// Plays the shots of one turn, each on a fresh layout, and returns their mean reward.
     fn play(&mut self) -> Result<f64> {
-        let Hyperparameters { shots_per_update, critic_chooses, .. } = self.task.hyperparameters;
+        let Hyperparameters { shots_per_update, critic_chooses, demonstrations, .. } = self.task.hyperparameters;
         let layouts: Vec<_> = (0..shots_per_update).map(|_| Layout::random(&self.table, &mut self.rng)).collect();
-        let chosen = ((shots_per_update as f64 * critic_chooses).round() as usize).min(layouts.len());
-        let mut total = self.play_favourites(&layouts[..chosen])?;
-        total += self.play_any(&layouts[chosen..])?;
+        let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
+        let (shown, own) = layouts.split_at(part(demonstrations, shots_per_update));
+        self.learn_from_the_expert(shown);
+        let (chosen, any) = own.split_at(part(critic_chooses, own.len()));
+        let total = self.play_favourites(chosen)? + self.play_any(any)?;
         self.shots += layouts.len() as u64;
-        Ok(total / layouts.len().max(1) as f64)
+        Ok(total / own.len().max(1) as f64)
+    }
+
+    /// Remembers an expert's shot on each layout for which there is one.
+    fn learn_from_the_expert(&mut self, layouts: &[Layout]) {
+        let (reward, space) = (self.task.reward, self.space());
+        for layout in layouts {
+            if let Some(shot) = demonstrate(&self.table, reward, space, layout, PATIENCE, &mut self.rng) {
+                self.replay.push(shot);
+            }
+        }
     }
 
     /// Plays near the critic's favourite on every layout: there it must learn where it is wrong. Returns the rewards'
@@ -196,17 +210,16 @@ impl Trainer {
         let action = self.task.hyperparameters.exploration.stray(self.space(), choice, &mut self.rng);
         let cue = cue_inputs(&self.table, &view, action);
         let reward = self.task.reward.within(&self.table, layout, &cue, PATIENCE);
-        let success = (reward / highest(self.task.reward)) as f32;
+        let success = (reward / self.task.reward.highest()) as f32;
         self.replay.push(Experience { view, action, success });
+        let hindsight = self.task.hyperparameters.hindsight;
+        if hindsight > 0.0 && success < 1.0 && self.rng.random_bool(hindsight) {
+            let shot = (layout, &view, action);
+            if let Some(point) = relabel(&self.table, self.task.reward, shot, PATIENCE, &mut self.rng) {
+                self.replay.push(point);
+            }
+        }
         reward
-    }
-}
-
-/// The largest reward there is: the critic's probabilities end at one.
-const fn highest(reward: Reward) -> f64 {
-    match reward {
-        Reward::R2 | Reward::R4 => 2.0,
-        _ => 1.0,
     }
 }
 
