@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::search::{anything, variation};
 use crate::{
-    game::{Referee, Rule, Tally},
+    game::{Referee, Reward, Rule, Tally},
     learning::{Policy, PolicyError},
     physics::{CueInputs, strike},
     simulation::simulate,
@@ -102,25 +102,33 @@ pub struct Recommendation {
 #[derive(Clone, Debug)]
 pub struct Coach {
     table: Table,
-    policy: Option<Policy>,
+    policies: Vec<Policy>,
 }
 
 impl Coach {
-    /// A coach with the policy that is bundled for this table, if there is one; without, it searches.
+    /// A coach with the policies that are bundled for this table, if there are any; without, it searches.
     ///
     /// # Errors
-    /// Where the bundled policy is damaged.
+    /// Where a bundled policy is damaged.
     pub fn new(table: Table) -> Result<Self, PolicyError> {
         // A user's table of the same name is another table: the policy has never played on it.
         let is_preset = Table::preset(&table.name).is_ok_and(|preset| preset == table);
-        let policy = if is_preset { Policy::bundled(&table.name).transpose()? } else { None };
-        Ok(Self { table, policy })
+        let rules = if is_preset { Rule::ALL.as_slice() } else { &[] };
+        let policies = rules.iter().filter_map(|rule| Policy::bundled(&table.name, *rule)).collect::<Result<_, _>>()?;
+        Ok(Self { table, policies })
     }
 
-    /// The same coach with another policy.
+    /// The same coach with one other policy, which it asks whatever the rule is.
     #[must_use]
     pub fn with_policy(self, policy: Policy) -> Self {
-        Self { policy: Some(policy), ..self }
+        Self { policies: vec![policy], ..self }
+    }
+
+    /// The policy that it asks under `rule`: the one that was trained for it, else any, for a shot that makes some point is
+    /// a good start of a search.
+    pub fn policy(&self, rule: Rule) -> Option<&Policy> {
+        let trained_for = |policy: &&Policy| policy.origin().reward == Reward::for_rule(rule);
+        self.policies.iter().find(trained_for).or(self.policies.first())
     }
 
     /// The table that it knows.
@@ -128,9 +136,9 @@ impl Coach {
         &self.table
     }
 
-    /// The policy's own shot, unchecked; `None` where there is no policy.
-    pub fn policy_shot(&self, layout: &Layout) -> Option<CueInputs> {
-        self.policy.as_ref().map(|policy| policy.propose(&self.table, layout))
+    /// The policy's own shot under `rule`, unchecked; `None` where there is no policy.
+    pub fn policy_shot(&self, layout: &Layout, rule: Rule) -> Option<CueInputs> {
+        self.policy(rule).map(|policy| policy.propose(&self.table, layout))
     }
 
     /// Looks for a shot that makes the point. The shot never oversteps the table's miscue limit.
@@ -139,7 +147,7 @@ impl Coach {
     /// Where the layout is impossible.
     pub fn recommend(&self, layout: &Layout, request: &Request) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
-        Ok(Attempt::new(&self.table, layout, request).run(self.policy.as_ref()))
+        Ok(Attempt::new(&self.table, layout, request).run(self.policy(request.rule)))
     }
 }
 
@@ -268,7 +276,7 @@ mod tests {
 
     #[test]
     fn without_time_there_is_still_an_attempt_and_it_is_not_called_a_solution() {
-        let coach = Coach { table: Table::preset("thesis").unwrap(), policy: None };
+        let coach = Coach { table: Table::preset("thesis").unwrap(), policies: Vec::new() };
         let request = Request { rule: Rule::ThreeCushion, budget: Duration::ZERO, ..Request::default() };
         let advice = coach.recommend(&Layout::opening(coach.table()), &request).unwrap();
         advice.cue.validate().unwrap();
@@ -278,7 +286,7 @@ mod tests {
 
     #[test]
     fn a_cancelled_search_ends() {
-        let coach = Coach { table: Table::default(), policy: None };
+        let coach = Coach { table: Table::default(), policies: Vec::new() };
         let request = Request { budget: Duration::from_secs(3600), rule: Rule::ThreeCushion, ..Request::default() };
         request.cancel.store(true, Ordering::Relaxed);
         let advice = coach.recommend(&Layout::opening(coach.table()), &request).unwrap();

@@ -1,11 +1,14 @@
 //! `carom evaluate`: measure the recommender or a policy on held-out layouts.
 
 use std::{
+    f64::consts::PI,
     io::Write,
     path::Path,
     time::{Duration, Instant},
 };
 
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;
 
 use super::{Failure, input::table_named, recommend::coach_for};
@@ -39,12 +42,16 @@ pub struct Args {
     /// Play the networks' own shot: one pass, no simulator call.
     #[arg(long)]
     policy_only: bool,
-    /// With --policy-only, what counts as a success: r1 or r3. Of the others, which have no success, the mean is given.
-    #[arg(long, default_value_t = Reward::R3, requires = "policy_only")]
-    reward: Reward,
-    /// Of the recommender, what counts as a point: straight, one-cushion or three-cushion.
-    #[arg(long, default_value_t = Rule::StraightRail, conflicts_with = "policy_only")]
+    /// What counts as a point: straight, one-cushion or three-cushion.
+    #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
+    /// With --policy-only, what is measured in place of the rule: r1, r1-difficulty, r2, r3 or r4. Where it is more than
+    /// yes or no, the mean is given.
+    #[arg(long, requires = "policy_only", conflicts_with = "rule")]
+    reward: Option<Reward>,
+    /// Measure a search of so many shots of random phi and V, which the simulator checks: the first that succeeds counts.
+    #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"])]
+    random_search: Option<u32>,
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
     budget_ms: u64,
@@ -76,22 +83,27 @@ struct Report {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let table = table_named(&args.table)?;
-    // The player and the judge are all that differs between what can be measured.
-    let report = if args.policy_only {
-        let policy = policy_named(&args.policy, &table)?;
+    let rule_reward = Reward::for_rule(args.rule);
+    // The player and what it is measured by are all that differs.
+    let report = if let Some(shots) = args.random_search {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(args.seed);
+        measure(args, &table, "random search", rule_reward, &mut |layout| {
+            random_search(&table, layout, args.rule, shots, &mut rng)
+        })
+    } else if args.policy_only {
+        let policy = policy_named(&args.policy, &table, args.rule)?;
         let trained_on = &policy.origin().table;
         if *trained_on != table.name {
             eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
         }
-        let judge = Judge::Reward(args.reward);
-        measure(args, &table, "policy", judge, &mut |layout| policy.propose(&table, layout))
+        let reward = args.reward.unwrap_or(rule_reward);
+        measure(args, &table, "policy", reward, &mut |layout| policy.propose(&table, layout))
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
         let budget = Duration::from_millis(args.budget_ms);
         let request = Request { rule: args.rule, budget, seed: args.seed, ..Request::default() };
         let mut simulations = 0;
-        let judge = Judge::Rule(args.rule);
-        let mut report = measure(args, &table, "recommender", judge, &mut |layout| {
+        let mut report = measure(args, &table, "recommender", rule_reward, &mut |layout| {
             coach.recommend(layout, &request).map_or(NO_SHOT, |advice| {
                 simulations += advice.simulations;
                 advice.cue
@@ -113,32 +125,17 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
 const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
 
-/// What a shot is measured by.
-#[derive(Clone, Copy, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Judge {
-    Reward(Reward),
-    Rule(Rule),
-}
-
-impl Judge {
-    fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
-        match self {
-            Self::Reward(reward) => reward.of(table, layout, cue),
-            Self::Rule(rule) => f64::from(u8::from(scores(rule, table, layout, cue))),
+/// The first of `shots` shots in a random direction at a random speed that makes the point; the last one where none does.
+fn random_search(table: &Table, layout: &Layout, rule: Rule, shots: u32, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+    let mut cue = NO_SHOT;
+    for _ in 0..shots {
+        let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
+        cue = CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed };
+        if scores(rule, table, layout, &cue) {
+            break;
         }
     }
-
-    fn is_binary(self) -> bool {
-        matches!(self, Self::Rule(_) | Self::Reward(Reward::R1 | Reward::R3))
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Reward(reward) => reward.name(),
-            Self::Rule(rule) => rule.name(),
-        }
-    }
+    cue
 }
 
 /// Lets `player` decide on every layout and plays what it decides.
@@ -146,7 +143,7 @@ fn measure(
     args: &Args,
     table: &Table,
     name: &'static str,
-    judge: Judge,
+    reward: Reward,
     player: &mut dyn FnMut(&Layout) -> CueInputs,
 ) -> Report {
     let (mut total, mut successes, mut seconds, mut slowest) = (0.0, 0, 0.0, 0.0_f64);
@@ -156,19 +153,19 @@ fn measure(
         let taken = start.elapsed().as_secs_f64();
         seconds += taken;
         slowest = slowest.max(taken);
-        let reward = judge.of(table, &layout, &cue);
-        total += reward;
-        successes += usize::from(reward >= 1.0);
+        let earned = reward.of(table, &layout, &cue);
+        total += earned;
+        successes += usize::from(earned >= 1.0);
     }
     let count = args.layouts as usize;
     Report {
         player: name,
         policy: args.policy.clone(),
         table: table.name.clone(),
-        measure: judge.name(),
+        measure: reward.name(),
         seed: args.seed,
         mean_reward: total / count as f64,
-        success: judge.is_binary().then(|| SuccessRate::new(successes, count)),
+        success: (reward == Reward::R1 || reward.is_point()).then(|| SuccessRate::new(successes, count)),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * slowest,
         simulations_per_layout: None,
@@ -198,12 +195,13 @@ fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result
     }
 }
 
-/// The bundled policy for `table`, or the one in the file.
-fn policy_named(name: &str, table: &Table) -> Result<Policy, Failure> {
+/// The bundled policy for `rule` on `table`, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
     let policy = if name == "bundled" {
-        Policy::bundled(&table.name).ok_or_else(|| {
+        Policy::bundled(&table.name, rule).ok_or_else(|| {
             Failure::wrong_input(format_args!(
-                "no policy is bundled for the table \"{}\"; use --table match, or --policy FILE with one from `carom train`",
+                "no policy is bundled for the table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+                 `carom train`",
                 table.name
             ))
         })?
@@ -239,7 +237,7 @@ mod tests {
             phi: (layout.balls[1] - layout.balls[0]).to_angle(),
             speed: 4.0,
         };
-        let report = measure(&args, &table, "straight", Judge::Reward(Reward::R1), &mut at_the_first_ball);
+        let report = measure(&args, &table, "straight", Reward::R1, &mut at_the_first_ball);
         let success = report.success.unwrap();
         assert_eq!((report.mean_reward, success.successes, success.layouts), (1.0, 50, 50));
         assert!(success.low > 0.9 && report.layouts_per_second > 0.0);
@@ -248,8 +246,9 @@ mod tests {
     #[test]
     fn unknown_tables_and_policies_are_named() {
         assert!(table_named("snooker").unwrap_err().to_string().contains("snooker"));
-        let thesis = Table::preset("thesis").unwrap();
-        assert!(policy_named("bundled", &thesis).unwrap_err().to_string().contains("thesis"));
-        assert!(policy_named("no/such/file", &thesis).unwrap_err().to_string().contains("no/such/file"));
+        let mut own = Table::preset("thesis").unwrap();
+        own.name = "cellar".to_owned();
+        assert!(policy_named("bundled", &own, Rule::OneCushion).unwrap_err().to_string().contains("cellar"));
+        assert!(policy_named("no/such/file", &own, Rule::OneCushion).unwrap_err().to_string().contains("no/such/file"));
     }
 }

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     coach::{Coach, Recommendation, Request, Skill, Source},
-    game::Rule,
+    game::{Reward, Rule},
     learning::Policy,
     physics::{CueInputs, strike},
     table::{Layout, Table},
@@ -127,12 +127,16 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
     if args.policy_only {
-        if rule != Rule::StraightRail {
-            eprintln!("note: the networks play straight rail; of the rule \"{rule}\" they know nothing");
-        }
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
-        let cue = coach.policy_shot(layout).ok_or_else(|| no_policy(coach.table()))?;
+        let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
+        if policy.origin().reward != Reward::for_rule(rule) {
+            eprintln!(
+                "note: this policy was trained for {}; of the rule \"{rule}\" it knows nothing",
+                policy.origin().reward
+            );
+        }
+        let cue = policy.propose(coach.table(), layout);
         return Ok(Answer {
             cue,
             solved: None,

@@ -95,13 +95,16 @@ impl Policy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{game::Reward, learning::evaluation::held_out_layouts};
+    use crate::{
+        game::{Reward, Rule},
+        learning::evaluation::held_out_layouts,
+    };
     use glam::DVec2;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     fn bundled() -> Policy {
-        Policy::bundled("match").unwrap().unwrap()
+        Policy::bundled("match", Rule::StraightRail).unwrap().unwrap()
     }
 
     #[test]

@@ -12,10 +12,20 @@ use super::{
     scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
     weights::{Reader, WeightsError, Writer},
 };
-use crate::{game::Reward, storage::write_atomic};
+use crate::{
+    game::{Reward, Rule},
+    storage::write_atomic,
+};
 
-/// The bundled policies: the table's name and the file.
-const BUNDLED: [(&str, &[u8]); 1] = [("match", include_bytes!("../../models/match-r3.safetensors"))];
+/// The bundled policies: the table's name, what was rewarded, and the file.
+const BUNDLED: [(&str, Reward, &[u8]); 6] = [
+    ("match", Reward::R3, include_bytes!("../../models/match-r3.safetensors")),
+    ("match", Reward::OneCushion, include_bytes!("../../models/match-one-cushion.safetensors")),
+    ("match", Reward::ThreeCushion, include_bytes!("../../models/match-three-cushion.safetensors")),
+    ("thesis", Reward::R3, include_bytes!("../../models/thesis-r3.safetensors")),
+    ("thesis", Reward::OneCushion, include_bytes!("../../models/thesis-one-cushion.safetensors")),
+    ("thesis", Reward::ThreeCushion, include_bytes!("../../models/thesis-three-cushion.safetensors")),
+];
 
 /// Where a policy comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,13 +86,14 @@ pub enum PolicyError {
 }
 
 impl Policy {
-    /// The policy that comes with the program for the table called `table`, if there is one.
+    /// The policy that comes with the program for `rule` on the table called `table`, if there is one.
     ///
     /// # Errors
     /// Where the bundled file is damaged, which a test rules out.
-    pub fn bundled(table: &str) -> Option<Result<Self, PolicyError>> {
-        let (name, bytes) = BUNDLED.into_iter().find(|(name, _)| *name == table)?;
-        Some(Self::from_bytes(bytes, &format!("the bundled policy for \"{name}\"")))
+    pub fn bundled(table: &str, rule: Rule) -> Option<Result<Self, PolicyError>> {
+        let reward = Reward::for_rule(rule);
+        let (.., bytes) = BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (table, reward))?;
+        Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{table}\"")))
     }
 
     /// Reads a policy from a file.
@@ -146,17 +157,23 @@ mod tests {
     use candle_core::{Device, Tensor};
 
     fn bundled() -> Policy {
-        Policy::bundled("match").unwrap().unwrap()
+        Policy::bundled("match", Rule::StraightRail).unwrap().unwrap()
     }
 
     fn is_shared<T: Send + Sync>(_: &T) {}
 
     #[test]
-    fn the_bundled_policy_reads_and_says_what_it_is_for() {
-        let policy = bundled();
-        is_shared(&policy);
-        assert_eq!((policy.origin().table.as_str(), policy.origin().reward), ("match", Reward::R3));
-        assert!(Policy::bundled("thesis").is_none());
+    fn every_bundled_policy_reads_and_says_what_it_is_for() {
+        for table in crate::table::PRESETS {
+            for rule in Rule::ALL {
+                let policy = Policy::bundled(table, rule).unwrap().unwrap();
+                is_shared(&policy);
+                assert_eq!((policy.origin().table.as_str(), policy.origin().reward), (table, Reward::for_rule(rule)));
+            }
+        }
+        assert!(Policy::bundled("snooker", Rule::StraightRail).is_none());
+        let size: usize = BUNDLED.iter().map(|(.., bytes)| bytes.len()).sum();
+        assert!(size <= 10_000_000, "{size} bytes of weights");
     }
 
     #[test]

@@ -103,7 +103,7 @@ pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figu
     let request = Request::default();
     let advise = |layout: &Layout| coach.recommend(layout, &request).is_ok();
     note("recommendations", None, coach.table(), 1, rate(time, &layouts, advise));
-    let decide = |layout: &Layout| coach.policy_shot(layout);
+    let decide = |layout: &Layout| coach.policy_shot(layout, request.rule);
     note("network decisions", None, coach.table(), 1, rate(time, &layouts, decide));
     for (sizes, actor, critic, batch) in [
         // The batch of thesis Table 4 and the layers of the example to which it refers (its reference 20).
