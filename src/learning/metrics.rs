@@ -30,7 +30,7 @@ pub struct Record {
     /// Loss of the actor, for agents that have one.
     #[serde(rename = "train/actor_loss", default, skip_serializing_if = "Option::is_none")]
     pub actor_loss: Option<f64>,
-    /// Mean value that the agent gives its own choices. `Stable-Baselines3` logs none; CleanRL logs it as
+    /// Mean value that the agent gives its own choices. `Stable-Baselines3` logs none; `CleanRL` logs it as
     /// `losses/qf1_values` beside its losses, whose group is called `train` here.
     #[serde(rename = "train/q_value")]
     pub q_value: f64,
