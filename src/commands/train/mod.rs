@@ -35,6 +35,7 @@ use crate::{
 /// (metrics.jsonl), the last two checkpoints and the policy. Ctrl-C saves and stops, twice it stops at once; --resume
 /// goes on as if nothing had happened, after a crash too: to the same weights, bit for bit.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::option_option, reason = "clap's way to tell a flag that is missing from one without a value")]
 pub struct Args {
     // Its help lists the agents.
     #[arg(long, value_name = "AGENT", help = agents())]
@@ -84,9 +85,8 @@ pub struct Args {
     #[arg(long, allow_negative_numbers = true)]
     minutes: Option<f64>,
     /// List the runs in this folder, by default the user's, and train nothing.
-    #[arg(long, value_name = "DIR", num_args = 0..=1, default_missing_value = "",
-        conflicts_with_all = ["resume", "run", "from", "seeds", "minutes"])]
-    list: Option<PathBuf>,
+    #[arg(long, value_name = "DIR", num_args = 0..=1, conflicts_with_all = ["resume", "run", "from", "seeds", "minutes"])]
+    list: Option<Option<PathBuf>>,
     /// Print the metrics, or the list, as JSON Lines on standard output.
     #[arg(long)]
     json: bool,
@@ -106,7 +106,7 @@ struct Session<'a> {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.list {
-        return listing::print(Some(folder.as_path()).filter(|folder| !folder.as_os_str().is_empty()), args.json);
+        return listing::print(folder.as_deref(), args.json);
     }
     let limit = args.minutes.map(minutes).transpose()?;
     let stop = Arc::new(AtomicBool::new(false));

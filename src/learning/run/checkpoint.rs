@@ -334,16 +334,14 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let learner = Trainer::new(small_task(), Table::default()).unwrap();
         let mut writer = Writer::default();
-        let mut note = crate::learning::learner::note_of(&Note {
+        let note = Note {
             checksum: UNSEALED.to_owned(),
-            format: FORMAT,
+            format: 99,
             agent: "ddpg".to_owned(),
             shots: 0,
             state: state(),
             learner: learner.save(&mut writer).unwrap(),
-        })
-        .unwrap();
-        note["format"] = 99.into();
+        };
         let mut bytes = writer.finish(&note).unwrap();
         assert!(seal(&mut bytes));
         fs::write(folder.path().join(CURRENT), bytes).unwrap();
