@@ -35,7 +35,8 @@ impl Staged {
         let folder = folder_of(path);
         std::fs::create_dir_all(folder)?;
         let mut file = readable_by_all(folder)?;
-        file.write_all(bytes)?;
+        // Not through the temporary file, which would add its own name to what went wrong.
+        file.as_file_mut().write_all(bytes)?;
         file.as_file().sync_all()?;
         Ok(Self { file, path: path.to_owned() })
     }

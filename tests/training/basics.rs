@@ -48,9 +48,7 @@ fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile(
     let line = "train --config small.toml --steps 100000000 --evaluate-every 2000 --evaluation-layouts 20";
     let mut child = start(here, line);
     let runs = here.join("carom/runs");
-    while fs::read_dir(&runs).map_or(0, Iterator::count) == 0 {
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
+    wait_for(&runs, &mut child);
     let run = fs::read_dir(&runs).unwrap().next().unwrap().unwrap().path();
     let name = run.file_name().unwrap().to_str().unwrap();
     // The first lines of metrics show that the signal handlers stand and training is under way.

@@ -4,8 +4,8 @@ use std::{path::Path, time::Duration};
 
 use crate::common::{Files, done, folder, start};
 
-/// A run of some seconds with a checkpoint every few hundredths of one.
-const LONG: &str = "train --config small.toml --steps 80000 --evaluate-every 1000 --evaluation-layouts 20 --seed 9";
+/// A run of two seconds or more with a checkpoint every hundredth.
+const LONG: &str = "train --config small.toml --steps 240000 --evaluate-every 1000 --evaluation-layouts 20 --seed 9";
 
 /// Fewest kills that have to hit the program at work, and most that are tried.
 const KILLS: [u32; 2] = [8, 40];
@@ -17,7 +17,7 @@ fn a_run_that_is_killed_at_random_moments_ends_in_the_same_files() {
     done(here, &format!("{LONG} --run whole"));
     let killed = here.join("killed");
     // Delays that differ and are spread evenly (multiples of the golden ratio); the machine's own timing does the rest.
-    let delays = (1..=KILLS[1]).map(|kill| Duration::from_secs_f64(0.004 + 0.25 * (f64::from(kill) * 0.618).fract()));
+    let delays = (1..=KILLS[1]).map(|kill| Duration::from_secs_f64(0.004 + 0.15 * (f64::from(kill) * 0.618).fract()));
     let mut hits = 0;
     for delay in delays {
         let mut child = start(here, &resume_or_start(&killed));

@@ -37,11 +37,9 @@ use crate::{
 #[derive(Debug, clap::Args)]
 #[expect(clippy::option_option, reason = "clap's way to tell a flag that is missing from one without a value")]
 pub struct Args {
-    // Its help lists the agents.
-    #[arg(long, value_name = "AGENT", help = agents())]
+    #[arg(long, help = agents())]
     agent: Option<String>,
-    /// What it is rewarded for: r1, r1-difficulty, r2, r3 or r4. By default as --from, or r3.
-    #[arg(long)]
+    #[arg(long, help = rewards())]
     reward: Option<Reward>,
     /// The table: "match", "thesis" or the path of a TOML file. By default as --from, or "match".
     #[arg(long)]
@@ -97,6 +95,11 @@ fn agents() -> String {
     format!("The agent: {agents}. By default that of --from, or ddpg")
 }
 
+fn rewards() -> String {
+    let rewards = Reward::ALL.map(Reward::name).join(", ");
+    format!("What it is rewarded for: {rewards}. By default as --from, or {}", Reward::default())
+}
+
 /// How long to train and how to report.
 struct Session<'a> {
     limit: Option<Duration>,
@@ -135,8 +138,8 @@ fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure
     if is_group(folder) {
         return several::resume(folder, jobs, session);
     }
-    let (run, notice) = Run::resume(folder).map_err(failure)?;
-    if let Some(notice) = notice {
+    let (run, notices) = Run::resume(folder).map_err(failure)?;
+    for notice in notices {
         eprintln!("warning: {notice}");
     }
     train(run, session)

@@ -81,8 +81,8 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
 
 /// Trains the run with this seed and returns whether it is finished.
 fn train_one(group: &Group, seed: u64, limit: Option<Duration>, session: &Session<'_>) -> Result<bool, RunError> {
-    let (mut run, notice) = group.run(seed)?;
-    if let Some(notice) = notice {
+    let (mut run, notices) = group.run(seed)?;
+    for notice in notices {
         eprintln!("warning: seed {seed}: {notice}");
     }
     if run.learner().is_finished() {

@@ -16,6 +16,12 @@ use crate::{
     table::Table,
 };
 
+/// This carom.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What `git describe` says of its source, where it was built from a checkout.
+const SOURCE: Option<&str> = option_env!("CAROM_SOURCE");
+
 /// The file's name.
 pub const FILE: &str = "config.json";
 
@@ -97,8 +103,8 @@ impl Config {
             agent: learner.agent().to_owned(),
             plan: learner.plan(),
             started: now(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            source: option_env!("CAROM_SOURCE").map(str::to_owned),
+            version: VERSION.to_owned(),
+            source: SOURCE.map(str::to_owned),
             from,
             schedule,
             settings: learner.settings(),
@@ -122,6 +128,16 @@ impl Config {
         let path = folder.join(FILE);
         let text = serde_json::to_string_pretty(self).map_err(|error| file(&path)(error.into()))?;
         write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))
+    }
+
+    /// A sentence where this is not the carom that started the run.
+    pub fn other_program(&self) -> Option<String> {
+        let name =
+            |version: &str, source: Option<&str>| format!("carom {version} ({})", source.unwrap_or("no checkout"));
+        let (theirs, ours) = (name(&self.version, self.source.as_deref()), name(VERSION, SOURCE));
+        (theirs != ours).then(|| {
+            format!("the run was started by {theirs}, and this is {ours}: it may end in other weights than there")
+        })
     }
 
     /// The day on which it was started, UTC, as 2026-11-20.

@@ -102,26 +102,33 @@ impl Run {
         Ok(run)
     }
 
-    /// The run in `folder` as its last whole checkpoint left it, and a sentence where that is not the last one.
+    /// The run in `folder` as its last whole checkpoint left it, and sentences about what may make
+    /// it another run than the one that was interrupted: the last checkpoint is damaged, or this is another carom.
     ///
     /// # Errors
     /// Where there is no whole checkpoint, or another process works in the folder.
-    pub fn resume(folder: &Path) -> Result<(Self, Option<String>), RunError> {
+    pub fn resume(folder: &Path) -> Result<(Self, Vec<String>), RunError> {
         if !holds_checkpoints(folder) {
             return Err(RunError::Missing(folder.display().to_string()));
         }
         let lock = lock(folder)?;
         remove_partial_files(folder).map_err(file(folder))?;
         let (checkpoints, Loaded { learner, state, fallback, .. }) = Checkpoints::open(folder)?;
-        let notice = fallback
-            .map(|damage| format!("{damage}; going on from {}, after {} shots", checkpoint::PREVIOUS, learner.shots()));
+        let mut notices = Vec::new();
+        if let Some(damage) = fallback {
+            let (name, shots) = (checkpoint::PREVIOUS, learner.shots());
+            notices.push(format!("{damage}; going on from {name}, after {shots} shots"));
+        }
         let config = Config::read(folder).or_else(|_| {
             // It was killed before it had one, or somebody took it away: the checkpoint knows what it said.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             config.write(folder).map(|()| config)
         })?;
+        if !learner.is_finished() {
+            notices.extend(config.other_program());
+        }
         let folder = folder.to_owned();
-        Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notice))
+        Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notices))
     }
 
     /// The run's folder.

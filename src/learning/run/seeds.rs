@@ -137,17 +137,17 @@ impl Group {
         (0..self.note.seeds).map(move |index| first.wrapping_add(index))
     }
 
-    /// The run with this seed: a new one, or the one that is there as it was left, with a sentence where its last
-    /// checkpoint could not be used.
+    /// The run with this seed: a new one, or the one that is there as it was left, with what [`Run::resume`]
+    /// has to say.
     ///
     /// # Errors
     /// As [`Run::create`] and [`Run::resume`].
-    pub fn run(&self, seed: u64) -> Result<(Run, Option<String>), RunError> {
+    pub fn run(&self, seed: u64) -> Result<(Run, Vec<String>), RunError> {
         let folder = self.member(seed);
         if holds_checkpoints(&folder) {
             return Run::resume(&folder);
         }
-        Ok((self.note.order.start(&folder, seed, self.weights.as_ref())?, None))
+        Ok((self.note.order.start(&folder, seed, self.weights.as_ref())?, Vec::new()))
     }
 
     fn member(&self, seed: u64) -> PathBuf {
