@@ -15,6 +15,7 @@ pub mod exploration;
 pub mod features;
 pub mod hindsight;
 pub mod hyperparameters;
+pub mod learner;
 mod matmul;
 pub mod metrics;
 pub mod mlp;

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 use super::{
     action::{Action, ActionSpace, cue_inputs},
     calendar::today,
-    ddpg::{Ddpg, Losses},
+    ddpg::Ddpg,
     demonstrations::demonstrate,
     features::FEATURE_VERSION,
     hindsight::relabel,
     hyperparameters::Hyperparameters,
+    learner::Turn,
     policy::Policy,
     policy_file::Origin,
     replay::{Experience, ReplayBuffer},
@@ -40,15 +41,6 @@ pub struct Task {
     pub shots: u64,
     /// The agent's settings.
     pub hyperparameters: Hyperparameters,
-}
-
-/// What one turn of the loop did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn {
-    /// Mean reward of the shots played, with their noise.
-    pub mean_reward: f64,
-    /// Losses of the update.
-    pub losses: Losses,
 }
 
 /// An agent at practice on a table.
@@ -138,7 +130,9 @@ impl Trainer {
         let successes: Vec<_> = batch.iter().map(|experience| experience.success).collect();
         let losses = self.agent.update(&scenes, &actions, &successes, pace)?;
         self.updates += 1;
-        Ok(Turn { mean_reward, losses })
+        // What the actor climbs is the critic's mean value of its actions.
+        let q_value = -losses.actor;
+        Ok(Turn { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
     }
 
     /// Part of the first learning rates that is left: half a cosine from 1 at the first shot to 0 at the last.
