@@ -53,6 +53,9 @@ pub struct Args {
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    /// One such setting, after those of the file: --set actions=full, --set hindsight=0.5, --set heads=8. May be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
     /// Start with the weights of another run (its folder, or its name) or of a policy or checkpoint file: same
     /// networks, new optimiser, new memory, new schedule.
     #[arg(long, value_name = "RUN|FILE")]
@@ -72,7 +75,7 @@ pub struct Args {
     /// Go on with this run or these seeds (a folder, or a name among the user's runs), with the settings they started
     /// with.
     #[arg(long, value_name = "RUN", conflicts_with_all = [
-        "agent", "reward", "table", "seed", "steps", "config", "from", "evaluate_every", "evaluation_layouts", "run",
+        "agent", "reward", "table", "seed", "steps", "config", "set", "from", "evaluate_every", "evaluation_layouts", "run",
         "seeds",
     ])]
     resume: Option<PathBuf>,

@@ -37,7 +37,7 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     };
     // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
     let known = weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
-    let settings = settings(args.config.as_deref(), known)?;
+    let settings = settings(args.config.as_deref(), &args.set, known)?;
     let layouts = args.evaluation_layouts as usize;
     let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
     let folder = args.run.clone().unwrap_or_else(|| {
@@ -49,14 +49,30 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     Ok(Read { order, weights, folder })
 }
 
-/// The settings `known` with what the TOML file at `path` says instead of them.
-fn settings(path: Option<&Path>, known: Option<Value>) -> Result<Value, Failure> {
+/// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them.
+fn settings(path: Option<&Path>, set: &[String], known: Option<Value>) -> Result<Value, Failure> {
     let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
-    let Some(path) = path else { return Ok(settings) };
-    let shown = path.display();
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
-    let refuse = |reason: &str| Failure::wrong_input(format_args!("the settings in {shown}: {reason}"));
-    let read: toml::Table = toml::from_str(&text).map_err(|error| refuse(error.message()))?;
+    if let Some(path) = path {
+        let shown = path.display();
+        let text = std::fs::read_to_string(path).map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
+        replace(&mut settings, &text, &format!("the settings in {shown}"))?;
+    }
+    for pair in set {
+        let shown = format!("--set {pair}");
+        let Some((name, value)) = pair.split_once('=') else {
+            return Err(Failure::wrong_input(format_args!("{shown}: write NAME=VALUE, like hindsight=0.5")));
+        };
+        // A word needs no quotes here.
+        let value: toml::Value = value.parse().unwrap_or_else(|_| toml::Value::String(value.to_owned()));
+        replace(&mut settings, &format!("{name} = {value}"), &shown)?;
+    }
+    Ok(settings)
+}
+
+/// Puts the values of a TOML text in the place of those of the same names.
+fn replace(settings: &mut Value, text: &str, origin: &str) -> Result<(), Failure> {
+    let refuse = |reason: &str| Failure::wrong_input(format_args!("{origin}: {reason}"));
+    let read: toml::Table = toml::from_str(text).map_err(|error| refuse(error.message()))?;
     for (name, value) in read {
         let value = serde_json::to_value(value).map_err(|error| refuse(&error.to_string()))?;
         // TOML knows nan and inf, JSON does not.
@@ -65,5 +81,5 @@ fn settings(path: Option<&Path>, known: Option<Value>) -> Result<Value, Failure>
         }
         settings[name] = value;
     }
-    Ok(settings)
+    Ok(())
 }

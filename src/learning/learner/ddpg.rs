@@ -25,6 +25,12 @@ pub const AGENT: Agent = Agent {
         let hyperparameters: Hyperparameters = serde_json::from_value(settings).map_err(|error| refuse(&error))?;
         hyperparameters.validate().map_err(|error| refuse(&error))?;
         let Plan { reward, seed, shots } = plan;
+        let of_points = hyperparameters.hindsight > 0.0 || hyperparameters.demonstrations > 0.0;
+        if of_points && !reward.is_point() {
+            let reason =
+                "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+            return Err(refuse(&reason));
+        }
         Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
@@ -147,6 +153,7 @@ mod tests {
         assert_eq!(start(some.clone()).unwrap().settings(), some);
         assert_eq!(some["heads"], 2);
         assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
+        assert!(start(serde_json::json!({ "hindsight": 0.5 })).unwrap_err().to_string().contains("hindsight"));
         assert!(start(serde_json::json!({ "heads": 0 })).unwrap_err().to_string().contains("heads = 0"));
     }
 }
