@@ -23,6 +23,7 @@ pub mod networks;
 pub mod pass;
 pub mod policy;
 pub mod policy_file;
+mod practice;
 pub mod replay;
 pub mod run;
 pub mod scenes;

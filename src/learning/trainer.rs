@@ -3,32 +3,15 @@
 use std::sync::Arc;
 
 use candle_core::Result;
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::{Action, ActionSpace, cue_inputs},
-    calendar::today,
-    ddpg::Ddpg,
-    demonstrations::demonstrate,
-    features::FEATURE_VERSION,
-    hindsight::relabel,
-    hyperparameters::Hyperparameters,
-    learner::Turn,
-    policy::Policy,
-    policy_file::Origin,
-    replay::{Experience, ReplayBuffer},
-    scenes::Scenes,
-    view::{VIEWS, View},
+    action::ActionSpace, calendar::today, ddpg::Ddpg, features::FEATURE_VERSION, hyperparameters::Hyperparameters,
+    learner::Turn, policy::Policy, policy_file::Origin, replay::ReplayBuffer, scenes::Scenes,
 };
-use crate::{
-    game::Reward,
-    table::{Layout, Table},
-};
-
-/// Steps of resting contacts that are followed in practice.
-const PATIENCE: u32 = 20;
+use crate::{game::Reward, table::Table};
 
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -113,7 +96,7 @@ impl Trainer {
         Ok(Policy::new(self.agent.target().duplicate()?, origin))
     }
 
-    const fn space(&self) -> ActionSpace {
+    pub(super) const fn space(&self) -> ActionSpace {
         self.task.hyperparameters.actions
     }
 
@@ -139,81 +122,6 @@ impl Trainer {
     pub fn pace(&self) -> f64 {
         let done = (self.shots as f64 / self.task.shots as f64).min(1.0);
         0.5 * (1.0 + (std::f64::consts::PI * done).cos())
-    }
-
-    /// Plays the shots of one turn, each on a fresh layout, and returns their mean reward.
-    fn play(&mut self) -> Result<f64> {
-        let Hyperparameters { shots_per_update, critic_chooses, demonstrations, .. } = self.task.hyperparameters;
-        let layouts: Vec<_> = (0..shots_per_update).map(|_| Layout::random(&self.table, &mut self.rng)).collect();
-        let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
-        let (shown, own) = layouts.split_at(part(demonstrations, shots_per_update));
-        self.learn_from_the_expert(shown);
-        let (chosen, any) = own.split_at(part(critic_chooses, own.len()));
-        let total = self.play_favourites(chosen)? + self.play_any(any)?;
-        self.shots += layouts.len() as u64;
-        Ok(total / own.len().max(1) as f64)
-    }
-
-    /// Remembers an expert's shot on each layout for which there is one.
-    fn learn_from_the_expert(&mut self, layouts: &[Layout]) {
-        let (reward, space) = (self.task.reward, self.space());
-        for layout in layouts {
-            if let Some(shot) = demonstrate(&self.table, reward, space, layout, PATIENCE, &mut self.rng) {
-                self.replay.push(shot);
-            }
-        }
-    }
-
-    /// Plays near the critic's favourite on every layout: there it must learn where it is wrong. Returns the rewards'
-    /// sum.
-    fn play_favourites(&mut self, layouts: &[Layout]) -> Result<f64> {
-        if layouts.is_empty() {
-            return Ok(0.0);
-        }
-        let scenes = Scenes::new(&self.table, self.space(), layouts.iter().flat_map(View::all).collect())?;
-        let (actions, logits) = self.agent.online().judge(&scenes)?;
-        let heads = actions.len() / scenes.views().len();
-        let mut total = 0.0;
-        for (index, layout) in layouts.iter().enumerate() {
-            let rows = index * VIEWS * heads..(index + 1) * VIEWS * heads;
-            let best = rows.max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap_or(0);
-            total += self.shoot(layout, scenes.views()[best / heads], actions[best]);
-        }
-        Ok(total)
-    }
-
-    /// Plays near any head's choice in any view of every layout. Returns the rewards' sum.
-    fn play_any(&mut self, layouts: &[Layout]) -> Result<f64> {
-        if layouts.is_empty() {
-            return Ok(0.0);
-        }
-        let views = layouts.iter().map(|layout| View::new(layout, self.rng.random_range(0..VIEWS))).collect();
-        let scenes = Scenes::new(&self.table, self.space(), views)?;
-        let actions = self.agent.online().actions(&scenes)?;
-        let heads = actions.len() / layouts.len();
-        let mut total = 0.0;
-        for (index, layout) in layouts.iter().enumerate() {
-            let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.shoot(layout, scenes.views()[index], choice);
-        }
-        Ok(total)
-    }
-
-    /// Plays and remembers one shot near `choice`; returns its reward.
-    fn shoot(&mut self, layout: &Layout, view: View, choice: Action) -> f64 {
-        let action = self.task.hyperparameters.exploration.stray(self.space(), choice, &mut self.rng);
-        let cue = cue_inputs(&self.table, &view, action);
-        let reward = self.task.reward.within(&self.table, layout, &cue, PATIENCE);
-        let success = (reward / self.task.reward.highest()) as f32;
-        self.replay.push(Experience { view, action, success });
-        let hindsight = self.task.hyperparameters.hindsight;
-        if hindsight > 0.0 && success < 1.0 && self.rng.random_bool(hindsight) {
-            let shot = (layout, &view, action);
-            if let Some(point) = relabel(&self.table, self.task.reward, shot, PATIENCE, &mut self.rng) {
-                self.replay.push(point);
-            }
-        }
-        reward
     }
 }
 
