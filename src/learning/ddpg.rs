@@ -228,6 +228,44 @@ mod tests {
     }
 
     #[test]
+    fn a_task_with_a_known_optimum_is_solved() {
+        // Success is certain at one action, whatever the layout, and fades with the distance from there.
+        const BEST: [f32; 2] = [0.3, -0.4];
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(22);
+        let layers = vec![32, 32];
+        let hyper = Hyperparameters {
+            actor_layers: layers.clone(),
+            critic_layers: layers,
+            target_rate: 0.02,
+            critic_learning_rate: 3e-3,
+            actor_learning_rate: 3e-3,
+            ..Hyperparameters::default()
+        };
+        let space = hyper.actions;
+        let mut agent = Ddpg::new(hyper, &mut rng).unwrap();
+        let table = Arc::new(Table::default());
+        let mut scenes = |rng: &mut Xoshiro256PlusPlus| {
+            let views = (0..128).map(|index| View::new(&Layout::random(&table, rng), index % 4)).collect();
+            Scenes::new(&table, space, views).unwrap()
+        };
+        for _ in 0..400 {
+            let scenes = scenes(&mut rng);
+            let actions: Vec<Action> = (0..128).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
+            let miss = |action: &Action| (0..2).map(|k| (action[k] - BEST[k]).powi(2)).sum::<f32>();
+            let successes: Vec<f32> = actions.iter().map(|action| (-4.0 * miss(action)).exp()).collect();
+            agent.update(&scenes, &actions, &successes, 1.0).unwrap();
+        }
+        let scenes = scenes(&mut rng);
+        let (actions, logits) = agent.target.judge(&scenes).unwrap();
+        let heads = actions.len() / scenes.views().len();
+        for (actions, logits) in actions.chunks(heads).zip(logits.chunks(heads)) {
+            let best = (0..heads).max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap();
+            let apart = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());
+            assert!(apart[0] < 0.2 && apart[1] < 0.2, "{:?}", actions[best]);
+        }
+    }
+
+    #[test]
     fn a_batch_of_unequal_parts_is_refused() {
         let (mut agent, scenes, actions, successes) = agent_and_batch(ActionSpace::PhiV);
         assert!(agent.update(&scenes, &actions[1..], &successes, 1.0).is_err());
