@@ -112,7 +112,6 @@ impl Run {
             return Err(RunError::Missing(folder.display().to_string()));
         }
         let lock = lock(folder)?;
-        remove_partial_files(folder).map_err(file(folder))?;
         let (checkpoints, Loaded { learner, state, fallback, .. }) = Checkpoints::open(folder)?;
         let mut notices = Vec::new();
         if let Some(damage) = fallback {
@@ -261,9 +260,12 @@ pub fn holds_checkpoints(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
 }
 
+/// Takes possession of a folder, and clears away what was being written there when the last owner was killed.
 fn lock(folder: &Path) -> Result<Lock, RunError> {
     let busy = || RunError::Busy(folder.display().to_string());
-    Lock::take(folder).map_err(file(&folder.join("lock")))?.ok_or_else(busy)
+    let lock = Lock::take(folder).map_err(file(&folder.join("lock")))?.ok_or_else(busy)?;
+    remove_partial_files(folder).map_err(file(folder))?;
+    Ok(lock)
 }
 
 /// Where a turn has led.
