@@ -7,6 +7,7 @@ use serde_json::Value;
 use super::{
     checkpoint::{self, Checkpoints, Loaded},
     config::Start,
+    contents::is_checkpoint,
     error::{OriginError, RunError, file},
 };
 use crate::{
@@ -41,7 +42,7 @@ impl Weights {
             return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
         }
         let bytes = std::fs::read(path).map_err(file(path))?;
-        if checkpoint::is_checkpoint(&bytes) {
+        if is_checkpoint(&bytes) {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
         let policy = Policy::load(path)?;
