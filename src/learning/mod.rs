@@ -2,7 +2,8 @@
 //!
 //! The way of a shot: a [`view`] of the layout, its [`features`], the actor's [`action`], the cue inputs, the
 //! [reward](crate::game::Reward), the [`replay`] buffer. The way of a gradient: [`ddpg`], the [`networks`] and their
-//! [`mlp`], [`adam`]. Around both: the [`trainer`], its [`run`] on disk, [`evaluation`], and the finished [`policy`].
+//! [`mlp`], [`adam`]. Around both: the [`trainer`], which a [`run`] on disk drives like any other [`learner`],
+//! [`evaluation`], and the finished [`policy`].
 
 pub mod action;
 pub mod adam;

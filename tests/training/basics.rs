@@ -45,12 +45,11 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
 fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile() {
     let folder = folder();
     let here = folder.path();
+    // Among the user's own runs, where they are found by name.
+    let name = "mine";
+    let run = here.join("carom/runs").join(name);
     let line = "train --config small.toml --steps 100000000 --evaluate-every 2000 --evaluation-layouts 20";
-    let mut child = start(here, line);
-    let runs = here.join("carom/runs");
-    wait_for(&runs, &mut child);
-    let run = fs::read_dir(&runs).unwrap().next().unwrap().unwrap().path();
-    let name = run.file_name().unwrap().to_str().unwrap();
+    let mut child = start(here, &format!("{line} --run {}", run.display()));
     // The first lines of metrics show that the signal handlers stand and training is under way.
     wait_for(&run.join("metrics.jsonl"), &mut child);
     let listed = || -> Value { serde_json::from_str(&done(here, "train --list --json").out).unwrap() };
@@ -105,7 +104,7 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         ("train --run new --config nan.toml", 2, "target_rate"),
         ("train --run new --config none.toml", 1, "none.toml"),
         ("train --run new --from nowhere", 1, "nowhere"),
-        ("train --run new --from broken.safetensors", 2, "broken.safetensors"),
+        ("train --run new --from broken.safetensors", 1, "broken.safetensors"),
         ("train --resume nowhere", 1, "nowhere"),
         ("train --resume new --seed 2", 2, "--seed"),
         ("train --list nowhere", 1, "nowhere"),

@@ -159,8 +159,9 @@ fn train(mut run: Run, session: &Session<'_>) -> Result<(), Failure> {
         );
     }
     let mut screen = Screen::new(&run, session.json, None);
-    let ending = run.practise(session.limit, session.stop, &mut screen).map_err(failure)?;
+    let ending = run.practise(session.limit, session.stop, &mut screen);
     screen.close();
+    let ending = ending.map_err(failure)?;
     let learner = run.learner();
     let result = if run.policy_path().exists() { run.policy_path() } else { run.folder().to_owned() };
     if !session.json {

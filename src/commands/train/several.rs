@@ -89,7 +89,5 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, session: &Sessio
         return Ok(true);
     }
     let mut screen = Screen::new(&run, session.json, Some(seed));
-    let ending = run.practise(limit, session.stop, &mut screen)?;
-    screen.close();
-    Ok(ending.finished)
+    Ok(run.practise(limit, session.stop, &mut screen)?.finished)
 }

@@ -1,27 +1,13 @@
 //! Checkpoints: the last one and the one before, each whole and verified, so that one of them can always be gone on
 //! from.
 
-use std::{
-    io::Read,
-    path::{Path, PathBuf},
-};
-
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use std::path::{Path, PathBuf};
 
 use super::{
-    checksum::{UNSEALED, is_whole, seal},
-    config::{Schedule, Start},
+    contents::{self, DamageReason, State, restore},
     error::RunError,
-    tally::Tally,
 };
-use crate::{
-    learning::{
-        learner::{Agent, Learner},
-        weights::{Reader, WeightsError, Writer},
-    },
-    storage::Staged,
-};
+use crate::{learning::learner::Learner, storage::Staged};
 
 /// The last checkpoint.
 pub const CURRENT: &str = "checkpoint.safetensors";
@@ -29,99 +15,12 @@ pub const CURRENT: &str = "checkpoint.safetensors";
 /// The one before.
 pub const PREVIOUS: &str = "checkpoint-previous.safetensors";
 
-/// Version of what a checkpoint holds.
-const FORMAT: u32 = 2;
-
-/// Longest header that is believed, bytes. Notes and names of arrays take some thousands.
-const LONGEST_HEADER: u64 = 1 << 24;
-
-/// What a checkpoint says beside the learner's arrays. No clock goes in: equal states give equal files.
-#[derive(Serialize, Deserialize)]
-struct Note {
-    /// First, so that it is found ([`seal`]).
-    checksum: String,
-    format: u32,
-    agent: String,
-    /// Shots played, for whoever reads nothing but the header.
-    shots: u64,
-    #[serde(flatten)]
-    state: State,
-    learner: Value,
-}
-
-/// What of a run lives beside its learner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct State {
-    /// When it reports and is measured.
-    pub schedule: Schedule,
-    /// Whose weights it started from.
-    pub from: Option<Start>,
-    /// What it has to report next.
-    pub tally: Tally,
-}
-
 /// Why a checkpoint cannot be gone on from.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {reason}")]
 pub struct Damage {
     path: String,
     reason: DamageReason,
-}
-
-#[derive(Debug, thiserror::Error)]
-enum DamageReason {
-    #[error("{0}")]
-    File(#[from] std::io::Error),
-    #[error("it is damaged: its content does not fit its checksum")]
-    Checksum,
-    #[error("it has no checksum: it is damaged, or not a checkpoint of this version of carom")]
-    Unsealed,
-    #[error("it has format {0}, and this version of carom reads format {FORMAT}")]
-    Format(u32),
-    #[error("its agent \"{0}\" is not known to this version of carom")]
-    Agent(String),
-    #[error("{0}")]
-    Content(#[from] WeightsError),
-}
-
-/// The bytes of a checkpoint.
-///
-/// # Errors
-/// Whatever candle or safetensors reports.
-pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsError> {
-    let mut writer = Writer::default();
-    let note = Note {
-        checksum: UNSEALED.to_owned(),
-        format: FORMAT,
-        agent: learner.agent().to_owned(),
-        shots: learner.shots(),
-        state: state.clone(),
-        learner: learner.save(&mut writer)?,
-    };
-    let mut bytes = writer.finish(&note)?;
-    if seal(&mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
-}
-
-/// The learner and the run's state in a checkpoint's bytes.
-fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
-    match is_whole(bytes) {
-        Some(true) => {}
-        Some(false) => return Err(DamageReason::Checksum),
-        None => return Err(DamageReason::Unsealed),
-    }
-    let reader = Reader::new(bytes)?;
-    let Version { format } = reader.note()?;
-    if format != FORMAT {
-        return Err(DamageReason::Format(format));
-    }
-    let Note { agent, state, learner, .. } = reader.note()?;
-    let agent = Agent::named(&agent).map_err(|_| DamageReason::Agent(agent))?;
-    Ok(((agent.restore)(&reader, learner)?, state))
-}
-
-/// Whether the bytes claim to be a checkpoint, whole or not.
-pub fn is_checkpoint(bytes: &[u8]) -> bool {
-    is_whole(bytes).is_some()
 }
 
 /// What the checkpoint with these bytes, read from `path`, holds.
@@ -137,35 +36,9 @@ pub fn load(path: &Path, bytes: Vec<u8>) -> Result<Loaded, RunError> {
     Ok(Loaded { learner, state, bytes, fallback: None })
 }
 
-/// The part of a note that every version has.
-#[derive(Deserialize)]
-struct Version {
-    format: u32,
-}
-
-/// Shots that the checkpoint in `folder` has played, from its header alone; `None` where that cannot be read.
+/// Shots that the newer checkpoint in `folder` that says so has played.
 pub fn shots_in(folder: &Path) -> Option<u64> {
-    #[derive(Deserialize)]
-    struct Header {
-        #[serde(rename = "__metadata__")]
-        metadata: std::collections::HashMap<String, String>,
-    }
-    #[derive(Deserialize)]
-    struct Progress {
-        shots: u64,
-    }
-    let read = |name: &str| {
-        let mut file = std::fs::File::open(folder.join(name)).ok()?;
-        let mut length = [0; 8];
-        file.read_exact(&mut length).ok()?;
-        let length = u64::from_le_bytes(length).min(LONGEST_HEADER);
-        let mut text = String::new();
-        file.take(length).read_to_string(&mut text).ok()?;
-        let header: Header = serde_json::from_str(&text).ok()?;
-        let progress: Progress = serde_json::from_str(header.metadata.get("carom")?).ok()?;
-        Some(progress.shots)
-    };
-    read(CURRENT).or_else(|| read(PREVIOUS))
+    [CURRENT, PREVIOUS].iter().find_map(|name| contents::shots_in(&folder.join(name)))
 }
 
 /// What a run goes on from.
@@ -251,7 +124,10 @@ impl Checkpoints {
 mod tests {
     use super::*;
     use crate::{
-        learning::trainer::{Trainer, tests::small_task},
+        learning::{
+            run::{config::Schedule, contents::bytes, tally::Tally},
+            trainer::{Trainer, tests::small_task},
+        },
         table::Table,
     };
     use std::fs;
@@ -327,25 +203,5 @@ mod tests {
         checkpoints.folder = folder.path().to_owned();
         assert_eq!(files(), before);
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (last, false));
-    }
-
-    #[test]
-    fn checkpoints_of_other_formats_are_refused_by_number() {
-        let folder = tempfile::tempdir().unwrap();
-        let learner = Trainer::new(small_task(), Table::default()).unwrap();
-        let mut writer = Writer::default();
-        let note = Note {
-            checksum: UNSEALED.to_owned(),
-            format: 99,
-            agent: "ddpg".to_owned(),
-            shots: 0,
-            state: state(),
-            learner: learner.save(&mut writer).unwrap(),
-        };
-        let mut bytes = writer.finish(&note).unwrap();
-        assert!(seal(&mut bytes));
-        fs::write(folder.path().join(CURRENT), bytes).unwrap();
-        let message = shots_after_opening(folder.path()).unwrap_err().to_string();
-        assert!(message.contains("format 99") && message.contains("format 2"), "{message}");
     }
 }

@@ -58,6 +58,9 @@ pub enum RunError {
         /// What is wrong.
         reason: Box<OriginError>,
     },
+    /// The policy to start from cannot be used.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
     /// The state cannot be turned into a file.
     #[error("the state cannot be saved: {0}")]
     Save(#[from] WeightsError),
@@ -101,9 +104,6 @@ pub enum OriginError {
     /// They cannot be used.
     #[error(transparent)]
     Weights(#[from] WeightsError),
-    /// The policy cannot be used.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
 }
 
 /// The error of a file, for `map_err`.

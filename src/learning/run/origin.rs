@@ -7,13 +7,14 @@ use serde_json::Value;
 use super::{
     checkpoint::{self, Checkpoints, Loaded},
     config::Start,
+    contents::is_checkpoint,
     error::{OriginError, RunError, file},
 };
 use crate::{
     learning::{
         Policy,
         learner::{Learner, note_of},
-        weights::Reader,
+        weights::{Reader, WeightsError},
     },
     storage::write_atomic,
     table::Table,
@@ -41,12 +42,10 @@ impl Weights {
             return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
         }
         let bytes = std::fs::read(path).map_err(file(path))?;
-        if checkpoint::is_checkpoint(&bytes) {
+        if is_checkpoint(&bytes) {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
-        let refuse =
-            |reason: OriginError| RunError::Origin { path: path.display().to_string(), reason: Box::new(reason) };
-        let policy = Policy::load(path).map_err(|reason| refuse(reason.into()))?;
+        let policy = Policy::load(path)?;
         let origin = policy.origin();
         let start = Start {
             path: path.display().to_string(),
@@ -57,7 +56,11 @@ impl Weights {
             seed: origin.seed,
             shots: origin.shots,
         };
-        let settings = note_of(&origin.hyperparameters).map_err(|reason| refuse(reason.into()))?;
+        let refuse = |reason: WeightsError| {
+            let reason = Box::new(OriginError::from(reason));
+            RunError::Origin { path: path.display().to_string(), reason }
+        };
+        let settings = note_of(&origin.hyperparameters).map_err(refuse)?;
         Ok(Self { start, settings, table: None, bytes })
     }
 

@@ -4,7 +4,10 @@ use std::{cell::Cell, fs};
 
 use super::*;
 use crate::{
+    game::Reward,
     learning::{
+        learner::{AGENTS, Plan},
+        metrics::{self, Record},
         policy::Policy,
         trainer::{Trainer, tests::small_task},
     },
@@ -60,30 +63,46 @@ fn a_run_leaves_its_configuration_metrics_checkpoint_and_policy() {
     assert_eq!(finish(&mut run).0, ending);
 }
 
+/// What must not depend on where a run was stopped: the policy, the checkpoint, and the metrics but for the clock.
+type Files = (Option<Vec<u8>>, Vec<u8>, Vec<Record>);
+
+/// The files of a run that is stopped after so many turns, and again, and then finishes.
+fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = start(folder.path());
+    for after in stops {
+        let asked = Cell::new(0);
+        let stop = || asked.replace(asked.get() + 1) == *after;
+        assert!(!run.practise(None, &stop, &mut Told::default()).unwrap().finished);
+        drop(run);
+        run = Run::resume(folder.path()).unwrap().0;
+    }
+    assert!(finish(&mut run).0.finished);
+    let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
+    let lines = lines.into_iter().map(|line| Record { seconds: 0.0, shots_per_second: 0.0, ..line }).collect();
+    let read = |name| fs::read(folder.path().join(name));
+    (read(POLICY).ok(), read(checkpoint::CURRENT).unwrap(), lines)
+}
+
 #[test]
 fn a_run_that_is_stopped_at_any_turn_goes_on_to_the_same_files() {
-    let files = |stops: &[u32]| {
-        let folder = tempfile::tempdir().unwrap();
-        let mut run = small_run(folder.path());
-        for after in stops {
-            let asked = Cell::new(0);
-            let stop = || asked.replace(asked.get() + 1) == *after;
-            assert!(!run.practise(None, &stop, &mut Told::default()).unwrap().finished);
-            drop(run);
-            run = Run::resume(folder.path()).unwrap().0;
-        }
-        assert!(finish(&mut run).0.finished);
-        let lines = fs::read_to_string(folder.path().join(METRICS)).unwrap();
-        let lines: Vec<_> = lines
-            .lines()
-            .map(|line| Record { seconds: 0.0, shots_per_second: 0.0, ..serde_json::from_str(line).unwrap() })
-            .collect();
-        let read = |name| fs::read(folder.path().join(name)).unwrap();
-        (read(POLICY), read(checkpoint::CURRENT), lines)
-    };
-    let whole = files(&[]);
+    let whole = files_of(&small_run, &[]);
+    assert_eq!(whole.2.len(), 5);
     for stops in [[0, 0, 1], [1, 2, 3], [3, 1, 5], [4, 4, 1]] {
-        assert!(files(&stops) == whole, "{stops:?}");
+        assert!(files_of(&small_run, &stops) == whole, "{stops:?}");
+    }
+}
+
+#[test]
+fn every_agent_goes_on_to_the_same_files() {
+    for agent in AGENTS {
+        let start = |folder: &Path| {
+            let plan = Plan { reward: Reward::R1, seed: 3, shots: 1_000 };
+            let learner = (agent.start)(plan, Table::default(), serde_json::json!({})).unwrap();
+            let schedule = Schedule { log_every: 150, evaluate_every: 400, evaluation_layouts: 5 };
+            Run::create(folder, learner, schedule, None).unwrap()
+        };
+        assert!(files_of(&start, &[1, 3]) == files_of(&start, &[]), "{}", agent.name);
     }
 }
 

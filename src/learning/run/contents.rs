@@ -1,0 +1,168 @@
+//! What is in a checkpoint: the learner, the run's own state, and a checksum of it all.
+
+use std::{io::Read, path::Path};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    checksum::{UNSEALED, is_whole, seal},
+    config::{Schedule, Start},
+    tally::Tally,
+};
+use crate::learning::{
+    learner::{Agent, Learner},
+    weights::{Reader, WeightsError, Writer},
+};
+
+/// Version of what a checkpoint holds.
+const FORMAT: u32 = 2;
+
+/// Longest header that is believed, bytes. Notes and names of arrays take some thousands.
+const LONGEST_HEADER: u64 = 1 << 24;
+
+/// What a checkpoint says beside the learner's arrays. No clock goes in: equal states give equal files.
+#[derive(Serialize, Deserialize)]
+struct Note {
+    /// First, so that it is found ([`seal`]).
+    checksum: String,
+    format: u32,
+    agent: String,
+    /// Shots played, for whoever reads nothing but the header.
+    shots: u64,
+    #[serde(flatten)]
+    state: State,
+    learner: Value,
+}
+
+/// What of a run lives beside its learner.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// When it reports and is measured.
+    pub schedule: Schedule,
+    /// Whose weights it started from.
+    pub from: Option<Start>,
+    /// What it has to report next.
+    pub tally: Tally,
+}
+
+/// Why the bytes of a checkpoint cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum DamageReason {
+    /// The file cannot be read.
+    #[error("{0}")]
+    File(#[from] std::io::Error),
+    /// A byte has changed.
+    #[error("it is damaged: its content does not fit its checksum")]
+    Checksum,
+    /// There is no checksum.
+    #[error("it has no checksum: it is damaged, or not a checkpoint of this version of carom")]
+    Unsealed,
+    /// It is of another version.
+    #[error("it has format {0}, and this version of carom reads format {FORMAT}")]
+    Format(u32),
+    /// Nobody can take it up.
+    #[error("its agent \"{0}\" is not known to this version of carom")]
+    Agent(String),
+    /// The learner refuses it.
+    #[error("{0}")]
+    Content(#[from] WeightsError),
+}
+
+/// The bytes of a checkpoint.
+///
+/// # Errors
+/// Whatever candle or safetensors reports.
+pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsError> {
+    let mut writer = Writer::default();
+    let note = Note {
+        checksum: UNSEALED.to_owned(),
+        format: FORMAT,
+        agent: learner.agent().to_owned(),
+        shots: learner.shots(),
+        state: state.clone(),
+        learner: learner.save(&mut writer)?,
+    };
+    let mut bytes = writer.finish(&note)?;
+    if seal(&mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+}
+
+/// The learner and the run's state in a checkpoint's bytes.
+///
+/// # Errors
+/// Where they are damaged or of another version.
+pub fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
+    match is_whole(bytes) {
+        Some(true) => {}
+        Some(false) => return Err(DamageReason::Checksum),
+        None => return Err(DamageReason::Unsealed),
+    }
+    let reader = Reader::new(bytes)?;
+    let Version { format } = reader.note()?;
+    if format != FORMAT {
+        return Err(DamageReason::Format(format));
+    }
+    let Note { agent, state, learner, .. } = reader.note()?;
+    let agent = Agent::named(&agent).map_err(|_| DamageReason::Agent(agent))?;
+    Ok(((agent.restore)(&reader, learner)?, state))
+}
+
+/// Whether the bytes claim to be a checkpoint, whole or not.
+pub fn is_checkpoint(bytes: &[u8]) -> bool {
+    is_whole(bytes).is_some()
+}
+
+/// The part of a note that every version has.
+#[derive(Deserialize)]
+struct Version {
+    format: u32,
+}
+
+/// Shots that the checkpoint at `path` has played, from its header alone; `None` where that cannot be read.
+pub fn shots_in(path: &Path) -> Option<u64> {
+    #[derive(Deserialize)]
+    struct Header {
+        #[serde(rename = "__metadata__")]
+        metadata: std::collections::HashMap<String, String>,
+    }
+    #[derive(Deserialize)]
+    struct Progress {
+        shots: u64,
+    }
+    let mut file = std::fs::File::open(path).ok()?;
+    let mut length = [0; 8];
+    file.read_exact(&mut length).ok()?;
+    let length = u64::from_le_bytes(length).min(LONGEST_HEADER);
+    let mut text = String::new();
+    file.take(length).read_to_string(&mut text).ok()?;
+    let header: Header = serde_json::from_str(&text).ok()?;
+    let progress: Progress = serde_json::from_str(header.metadata.get("carom")?).ok()?;
+    Some(progress.shots)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        learning::trainer::{Trainer, tests::small_task},
+        table::Table,
+    };
+
+    #[test]
+    fn contents_of_other_formats_are_refused_by_number() {
+        let learner = Trainer::new(small_task(), Table::default()).unwrap();
+        let mut writer = Writer::default();
+        let note = Note {
+            checksum: UNSEALED.to_owned(),
+            format: 99,
+            agent: "ddpg".to_owned(),
+            shots: 0,
+            state: State { schedule: Schedule::for_shots(100), from: None, tally: Tally::default() },
+            learner: learner.save(&mut writer).unwrap(),
+        };
+        let mut bytes = writer.finish(&note).unwrap();
+        assert!(seal(&mut bytes));
+        let message = restore(&bytes).unwrap_err().to_string();
+        assert!(message.contains("format 99") && message.contains("format 2"), "{message}");
+    }
+}
