@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{action::ActionSpace, exploration::Exploration};
 
-/// What can be tuned. The defaults trained the bundled policy.
+/// What can be tuned. The defaults trained the bundled policies, but for what the model card says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hyperparameters {
@@ -53,10 +53,10 @@ pub struct Hyperparameters {
 impl Default for Hyperparameters {
     fn default() -> Self {
         Self {
-            actions: ActionSpace::PhiV,
-            heads: 4,
+            actions: ActionSpace::Full,
+            heads: 6,
             actor_layers: vec![256, 256, 256],
-            critic_layers: vec![384, 384, 384],
+            critic_layers: vec![320, 320, 320],
             critic_learning_rate: 1.5e-3,
             actor_learning_rate: 4e-4,
             gradient_clip: 1.0,

@@ -48,7 +48,7 @@ pub struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Shots to play. The learning rates fall to nothing over them.
-    #[arg(long, value_name = "SHOTS", default_value_t = 20_000_000, value_parser = value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = value_parser!(u64).range(1..))]
     steps: u64,
     /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
     #[arg(long, value_name = "FILE")]
