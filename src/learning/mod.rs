@@ -25,6 +25,7 @@ pub mod run;
 pub mod scenes;
 pub mod snapshot;
 mod tensors;
+pub mod thesis;
 pub mod trainer;
 pub mod view;
 pub mod weights;
