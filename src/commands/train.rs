@@ -11,7 +11,6 @@ use std::{
     time::Duration,
 };
 
-use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use signal_hook::{
     consts::{SIGINT, SIGTERM},
@@ -22,11 +21,10 @@ use super::{Failure, input::table_named};
 use crate::{
     game::Reward,
     learning::{
-        hyperparameters::Hyperparameters,
+        learner::{Agent, Learner, Plan, StartError},
         metrics::Record,
         run::{Run, RunError},
         timestamp,
-        trainer::{Task, Trainer},
     },
     storage::Places,
 };
@@ -36,8 +34,8 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The agent.
-    #[arg(long, value_enum, default_value_t = Agent::Ddpg)]
-    agent: Agent,
+    #[arg(long, default_value = "ddpg")]
+    agent: String,
     /// What it is rewarded for: r1, r1-difficulty, r2, r3 or r4.
     #[arg(long, default_value_t = Reward::R3)]
     reward: Reward,
@@ -67,16 +65,9 @@ pub struct Args {
     json: bool,
 }
 
-/// Agents that can be trained.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Agent {
-    /// Deep deterministic policy gradient with several actor heads.
-    Ddpg,
-}
-
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let limit = args.minutes.map(minutes).transpose()?;
-    let (run, mut trainer) = match &args.resume {
+    let (run, mut learner) = match &args.resume {
         Some(folder) => Run::resume(folder).map_err(failure)?,
         None => start(args)?,
     };
@@ -86,47 +77,48 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
         flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
     }
-    let mut screen = Screen::new(&trainer, run.folder(), args.json);
+    let mut screen = Screen::new(learner.as_ref(), run.folder(), args.json);
     let stopped = || stop.load(Ordering::Relaxed);
-    let score = run.practise(&mut trainer, limit, &stopped, &mut |record| screen.show(record)).map_err(failure)?;
+    let score = run.practise(learner.as_mut(), limit, &stopped, &mut |record| screen.show(record)).map_err(failure)?;
     screen.bar.finish_and_clear();
     if !args.json {
         println!(
             "{}: mean {} {:.4} on held-out layouts after {} shots",
             run.policy_path().display(),
-            trainer.task().reward,
+            learner.plan().reward,
             score.mean_reward,
-            trainer.shots()
+            learner.shots()
         );
     }
-    if !trainer.is_finished() {
+    if !learner.is_finished() {
         eprintln!("stopped early; go on with: carom train --resume \"{}\"", run.folder().display());
     }
     Ok(())
 }
 
-fn start(args: &Args) -> Result<(Run, Trainer), Failure> {
-    let hyperparameters = match &args.config {
+fn start(args: &Args) -> Result<(Run, Box<dyn Learner>), Failure> {
+    let agent = Agent::named(&args.agent).map_err(Failure::wrong_input)?;
+    let settings = match &args.config {
         Some(path) => {
             let text = std::fs::read_to_string(path)
                 .map_err(|error| Failure::failed(format_args!("{}: {error}", path.display())))?;
-            let refuse = |reason: &dyn std::fmt::Display| {
-                Failure::wrong_input(format_args!("the hyper-parameters in {}: {reason}", path.display()))
-            };
-            let read: Hyperparameters = toml::from_str(&text).map_err(|error| refuse(&error.message()))?;
-            read.validate().map_err(|error| refuse(&error))?;
-            read
+            toml::from_str(&text).map_err(|error| {
+                Failure::wrong_input(format_args!("the settings in {}: {}", path.display(), error.message()))
+            })?
         }
-        None => Hyperparameters::default(),
+        None => serde_json::json!({}),
     };
     let table = table_named(&args.table)?;
-    let Agent::Ddpg = args.agent;
     let folder = args.run.clone().unwrap_or_else(|| {
-        let name = format!("{}-ddpg-{}-{}-{}", timestamp(), table.name, args.reward, args.seed);
+        let name = format!("{}-{}-{}-{}-{}", timestamp(), agent.name, table.name, args.reward, args.seed);
         Places::of_this_user().runs.join(name)
     });
-    let task = Task { reward: args.reward, seed: args.seed, shots: args.steps, hyperparameters };
-    Run::create(&folder, task, table).map_err(failure)
+    let plan = Plan { reward: args.reward, seed: args.seed, shots: args.steps };
+    let learner = (agent.start)(plan, table, settings).map_err(|error| match error {
+        StartError::Settings(_) => Failure::wrong_input(error),
+        StartError::Network(_) => Failure::failed(error),
+    })?;
+    Ok((Run::create(&folder, learner.as_ref()).map_err(failure)?, learner))
 }
 
 fn minutes(value: f64) -> Result<Duration, Failure> {
@@ -151,21 +143,22 @@ struct Screen {
 }
 
 impl Screen {
-    fn new(trainer: &Trainer, folder: &Path, json: bool) -> Self {
-        let task = trainer.task();
+    fn new(learner: &dyn Learner, folder: &Path, json: bool) -> Self {
+        let plan = learner.plan();
         eprintln!(
-            "training ddpg for {} on \"{}\" with seed {} in {}",
-            task.reward,
-            trainer.table().name,
-            task.seed,
+            "training {} for {} on \"{}\" with seed {} in {}",
+            learner.agent(),
+            plan.reward,
+            learner.table().name,
+            plan.seed,
             folder.display()
         );
-        let bar = if std::io::stderr().is_terminal() { ProgressBar::new(task.shots) } else { ProgressBar::hidden() };
+        let bar = if std::io::stderr().is_terminal() { ProgressBar::new(plan.shots) } else { ProgressBar::hidden() };
         let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left  {msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }
-        bar.set_position(trainer.shots());
+        bar.set_position(learner.shots());
         bar.reset_eta();
         Self { bar, json }
     }

@@ -24,12 +24,16 @@ pub struct Record {
     /// The critic's learning rate now.
     #[serde(rename = "train/learning_rate")]
     pub learning_rate: f64,
-    /// Mean cross entropy of the critic, nats.
+    /// Loss of whatever judges actions: the mean cross entropy of a critic of successes, nats, or a squared error.
     #[serde(rename = "train/critic_loss")]
     pub critic_loss: f64,
-    /// Minus the mean probability that the critic gives the actor's own actions.
-    #[serde(rename = "train/actor_loss")]
-    pub actor_loss: f64,
+    /// Loss of the actor, for agents that have one.
+    #[serde(rename = "train/actor_loss", default, skip_serializing_if = "Option::is_none")]
+    pub actor_loss: Option<f64>,
+    /// Mean value that the agent gives its own choices. `Stable-Baselines3` logs none; `CleanRL` logs it as
+    /// `losses/qf1_values` beside its losses, whose group is called `train` here.
+    #[serde(rename = "train/q_value")]
+    pub q_value: f64,
     /// Mean reward of the shots played, exploration included.
     #[serde(rename = "rollout/ep_rew_mean")]
     pub practice_reward: f64,
@@ -89,7 +93,8 @@ mod tests {
             updates: 3,
             learning_rate: 1e-3,
             critic_loss: 0.5,
-            actor_loss: -0.5,
+            actor_loss: Some(-0.5),
+            q_value: 0.5,
             practice_reward: 0.25,
             held_out_reward: None,
             held_out_reach: None,

@@ -13,6 +13,7 @@ pub mod evaluation;
 pub mod exploration;
 pub mod features;
 pub mod hyperparameters;
+pub mod learner;
 mod matmul;
 pub mod metrics;
 pub mod mlp;

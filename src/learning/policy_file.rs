@@ -33,7 +33,7 @@ pub struct Origin {
     pub seed: u64,
     /// Shots that it practised.
     pub shots: u64,
-    /// Day on which it was written, UTC, as 2026-11-20.
+    /// Day on which it was written, or on which its run was started, UTC, as 2026-11-20.
     pub date: String,
     /// Version of carom that trained it.
     pub version: String,
@@ -128,7 +128,8 @@ impl Policy {
         write_atomic(path, &self.to_bytes().map_err(std::io::Error::other)?)
     }
 
-    fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
+    /// The bytes of the file that [`Policy::save`] writes.
+    pub(super) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
             writer.add_network(name, network)?;

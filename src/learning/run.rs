@@ -5,14 +5,15 @@ use std::{
     time::{Duration, Instant},
 };
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::{
-    evaluation::{HELD_OUT_SEED, Score, held_out_layouts, score},
+    calendar::today,
+    evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
+    learner::{Agent, Learner, Plan, Turn},
     metrics::{self, Record},
-    snapshot,
-    trainer::{Task, Trainer, Turn},
-    weights::WeightsError,
+    weights::{Reader, WeightsError, Writer},
 };
 use crate::{
     storage::write_atomic,
@@ -71,35 +72,43 @@ struct Config<'a> {
     version: &'static str,
     table: &'a Table,
     #[serde(flatten)]
-    task: &'a Task,
+    plan: Plan,
+    settings: Value,
+}
+
+/// What a checkpoint says beside its arrays.
+#[derive(Serialize, Deserialize)]
+struct Note {
+    agent: String,
+    learner: Value,
 }
 
 impl Run {
-    /// A new run in `folder`, which is made where it is missing.
+    /// A new run of `learner` in `folder`, which is made where it is missing.
     ///
     /// # Errors
     /// [`RunError::Occupied`] where it holds a run already.
-    pub fn create(folder: &Path, task: Task, table: Table) -> Result<(Self, Trainer), RunError> {
+    pub fn create(folder: &Path, learner: &dyn Learner) -> Result<Self, RunError> {
         let run = Self { folder: folder.to_owned() };
         let config_path = run.folder.join("config.json");
         if config_path.exists() {
             return Err(RunError::Occupied(folder.display().to_string()));
         }
-        let trainer = Trainer::new(task, table)?;
         let version = env!("CARGO_PKG_VERSION");
-        let config = Config { agent: "ddpg", version, table: trainer.table(), task: trainer.task() };
+        let (plan, settings) = (learner.plan(), learner.settings());
+        let config = Config { agent: learner.agent(), version, table: learner.table(), plan, settings };
         // First of all something to go on from, however early the run is killed.
-        run.write_checkpoint(&trainer)?;
+        run.write_checkpoint(learner)?;
         let text = serde_json::to_string_pretty(&config).map_err(|error| file(&config_path)(error.into()))?;
         write_atomic(&config_path, text.as_bytes()).map_err(file(&config_path))?;
-        Ok((run, trainer))
+        Ok(run)
     }
 
-    /// The run in `folder` and its trainer as the last checkpoint left it.
+    /// The run in `folder` and its learner as the last checkpoint left it.
     ///
     /// # Errors
     /// Where there is no whole checkpoint.
-    pub fn resume(folder: &Path) -> Result<(Self, Trainer), RunError> {
+    pub fn resume(folder: &Path) -> Result<(Self, Box<dyn Learner>), RunError> {
         let run = Self { folder: folder.to_owned() };
         let path = run.checkpoint_path();
         if !path.exists() {
@@ -107,7 +116,12 @@ impl Run {
         }
         let bytes = std::fs::read(&path).map_err(file(&path))?;
         let damaged = |reason| RunError::Checkpoint { path: path.display().to_string(), reason };
-        Ok((run, snapshot::read(&bytes).map_err(damaged)?))
+        let restore = || {
+            let reader = Reader::new(&bytes)?;
+            let Note { agent, learner } = reader.note()?;
+            (Agent::named(&agent).map_err(|_| WeightsError::Foreign)?.restore)(&reader, learner)
+        };
+        Ok((run, restore().map_err(damaged)?))
     }
 
     /// The run's folder.
@@ -131,47 +145,54 @@ impl Run {
     /// Where a file cannot be written or training breaks down.
     pub fn practise(
         &self,
-        trainer: &mut Trainer,
+        learner: &mut dyn Learner,
         limit: Option<Duration>,
         stop: &dyn Fn() -> bool,
         report: &mut dyn FnMut(&Record),
     ) -> Result<Score, RunError> {
         let metrics_path = self.folder.join("metrics.jsonl");
-        let last = metrics::rewind(&metrics_path, trainer.shots()).map_err(file(&metrics_path))?;
-        let mut clock = Clock::new(trainer, last.map_or(0.0, |record| record.seconds));
-        let layouts = held_out_layouts(trainer.table(), EVALUATION_LAYOUTS, HELD_OUT_SEED);
+        let last = metrics::rewind(&metrics_path, learner.shots()).map_err(file(&metrics_path))?;
+        let mut clock = Clock::new(learner, last.map_or(0.0, |record| record.seconds));
+        let layouts = held_out_layouts(learner.table(), EVALUATION_LAYOUTS, HELD_OUT_SEED);
         loop {
-            let over = trainer.is_finished() || stop() || limit.is_some_and(|limit| clock.start.elapsed() >= limit);
-            let evaluate = over || trainer.updates().is_multiple_of(EVALUATE_EVERY) && clock.turns > 0;
+            let over = learner.is_finished() || stop() || limit.is_some_and(|limit| clock.start.elapsed() >= limit);
+            let evaluate = over || learner.updates().is_multiple_of(EVALUATE_EVERY) && clock.turns > 0;
             let mut score = None;
             if evaluate {
-                score = Some(self.save(trainer, &layouts)?);
+                score = Some(self.save(learner, &layouts)?);
             }
-            if clock.turns > 0 && (evaluate || trainer.updates().is_multiple_of(LOG_EVERY)) {
-                let record = clock.record(trainer, score);
+            if clock.turns > 0 && (evaluate || learner.updates().is_multiple_of(LOG_EVERY)) {
+                let record = clock.record(learner, score);
                 metrics::append(&metrics_path, &record).map_err(file(&metrics_path))?;
                 report(&record);
             }
             if let Some(score) = score.filter(|_| over) {
                 return Ok(score);
             }
-            clock.add(trainer.turn()?);
+            clock.add(learner.turn()?);
         }
     }
 
     /// Evaluates the policy, then writes it and a checkpoint.
-    fn save(&self, trainer: &Trainer, layouts: &[Layout]) -> Result<Score, RunError> {
-        let score = score(&trainer.policy(0.0)?, trainer.table(), trainer.task().reward, layouts);
+    fn save(&self, learner: &dyn Learner, layouts: &[Layout]) -> Result<Score, RunError> {
+        let score = learner.score(layouts)?;
         let policy_path = self.policy_path();
-        trainer.policy(score.mean_reward)?.save(&policy_path).map_err(file(&policy_path))?;
-        self.write_checkpoint(trainer)?;
+        let refused = |reason| RunError::Checkpoint { path: policy_path.display().to_string(), reason };
+        if let Some(policy) = learner.policy(score.mean_reward, &today()).map_err(refused)? {
+            write_atomic(&policy_path, &policy).map_err(file(&policy_path))?;
+        }
+        self.write_checkpoint(learner)?;
         Ok(score)
     }
 
-    fn write_checkpoint(&self, trainer: &Trainer) -> Result<(), RunError> {
+    fn write_checkpoint(&self, learner: &dyn Learner) -> Result<(), RunError> {
         let path = self.checkpoint_path();
-        let bytes = snapshot::write(trainer)
-            .map_err(|reason| RunError::Checkpoint { path: path.display().to_string(), reason })?;
+        let bytes = || {
+            let mut writer = Writer::default();
+            let note = Note { agent: learner.agent().to_owned(), learner: learner.save(&mut writer)? };
+            writer.finish(&note)
+        };
+        let bytes = bytes().map_err(|reason| RunError::Checkpoint { path: path.display().to_string(), reason })?;
         write_atomic(&path, &bytes).map_err(file(&path))
     }
 }
@@ -190,29 +211,33 @@ struct Clock {
 }
 
 impl Clock {
-    fn new(trainer: &Trainer, seconds_before: f64) -> Self {
-        let last = (seconds_before, trainer.shots());
+    fn new(learner: &dyn Learner, seconds_before: f64) -> Self {
+        let last = (seconds_before, learner.shots());
         Self { start: Instant::now(), seconds_before, last, turns: 0, sum: Turn::default() }
     }
 
     fn add(&mut self, turn: Turn) {
         self.turns += 1;
         self.sum.mean_reward += turn.mean_reward;
-        self.sum.losses.critic += turn.losses.critic;
-        self.sum.losses.actor += turn.losses.actor;
+        self.sum.critic_loss += turn.critic_loss;
+        self.sum.q_value += turn.q_value;
+        if let Some(loss) = turn.actor_loss {
+            *self.sum.actor_loss.get_or_insert_default() += loss;
+        }
     }
 
-    fn record(&mut self, trainer: &Trainer, score: Option<Score>) -> Record {
+    fn record(&mut self, learner: &dyn Learner, score: Option<Score>) -> Record {
         let seconds = self.seconds_before + self.start.elapsed().as_secs_f64();
-        let (shots, turns) = (trainer.shots(), f64::from(self.turns));
+        let (shots, turns) = (learner.shots(), f64::from(self.turns));
         let record = Record {
             shots,
             seconds,
             shots_per_second: (shots - self.last.1) as f64 / (seconds - self.last.0).max(1e-9),
-            updates: trainer.updates(),
-            learning_rate: trainer.pace() * trainer.task().hyperparameters.critic_learning_rate,
-            critic_loss: self.sum.losses.critic / turns,
-            actor_loss: self.sum.losses.actor / turns,
+            updates: learner.updates(),
+            learning_rate: learner.learning_rate(),
+            critic_loss: self.sum.critic_loss / turns,
+            actor_loss: self.sum.actor_loss.map(|sum| sum / turns),
+            q_value: self.sum.q_value / turns,
             practice_reward: self.sum.mean_reward / turns,
             held_out_reward: score.map(|score| score.mean_reward),
             held_out_reach: score.map(|score| score.reach),
@@ -225,21 +250,29 @@ impl Clock {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::{policy::Policy, trainer::tests::small_task};
+    use crate::learning::{
+        policy::Policy,
+        trainer::{Trainer, tests::small_task},
+    };
     use std::{cell::Cell, fs};
+
+    fn small_run(folder: &Path) -> (Run, Box<dyn Learner>) {
+        let learner = Trainer::new(small_task(), Table::default()).unwrap();
+        (Run::create(folder, &learner).unwrap(), Box::new(learner))
+    }
 
     #[test]
     fn a_run_leaves_its_configuration_metrics_checkpoint_and_policy() {
         let folder = tempfile::tempdir().unwrap();
-        let (run, mut trainer) = Run::create(folder.path(), small_task(), Table::default()).unwrap();
+        let (run, mut trainer) = small_run(folder.path());
         let mut lines = 0;
-        let score = run.practise(&mut trainer, None, &|| false, &mut |_| lines += 1).unwrap();
+        let score = run.practise(trainer.as_mut(), None, &|| false, &mut |_| lines += 1).unwrap();
         assert_eq!(lines, 1);
         let policy = Policy::load(&run.policy_path()).unwrap();
         assert_eq!(policy.origin().held_out_reward, score.mean_reward);
         let config = fs::read_to_string(folder.path().join("config.json")).unwrap();
         assert!(config.contains("\"seed\": 5") && config.contains("\"reward\": \"r1\""));
-        let again = Run::create(folder.path(), small_task(), Table::default()).unwrap_err();
+        let again = Run::create(folder.path(), trainer.as_ref()).unwrap_err();
         assert!(again.to_string().contains("--resume"));
     }
 
@@ -247,17 +280,17 @@ mod tests {
     fn a_stopped_run_goes_on_to_the_same_weights() {
         let weights = |stop_after: Option<u32>| {
             let folder = tempfile::tempdir().unwrap();
-            let (run, mut trainer) = Run::create(folder.path(), small_task(), Table::default()).unwrap();
+            let (run, mut trainer) = small_run(folder.path());
             let asked = Cell::new(0);
             let stop = || {
                 asked.set(asked.get() + 1);
                 stop_after.is_some_and(|after| asked.get() > after)
             };
-            run.practise(&mut trainer, None, &stop, &mut |_| {}).unwrap();
+            run.practise(trainer.as_mut(), None, &stop, &mut |_| {}).unwrap();
             if stop_after.is_some() {
                 assert!(!trainer.is_finished());
                 let (run, mut trainer) = Run::resume(folder.path()).unwrap();
-                run.practise(&mut trainer, None, &|| false, &mut |_| {}).unwrap();
+                run.practise(trainer.as_mut(), None, &|| false, &mut |_| {}).unwrap();
                 assert!(trainer.is_finished());
             }
             (fs::read(run.policy_path()).unwrap(), fs::read(run.checkpoint_path()).unwrap())

@@ -4,12 +4,14 @@
 use glam::DVec2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::{
     action::{ACTION_SPACE, ACTIONS},
     adam::Adam,
     ddpg::Ddpg,
     features::FEATURE_VERSION,
+    learner::note_of,
     mlp::Mlp,
     networks::Networks,
     replay::{Experience, ReplayBuffer},
@@ -38,13 +40,12 @@ struct Note {
 /// Numbers of a view in a snapshot.
 const VIEW_NUMBERS: usize = 8;
 
-/// The trainer's state as the bytes of a safetensors file.
+/// Adds the arrays of the trainer's state to a file and returns the rest, its note.
 ///
 /// # Errors
-/// Whatever candle or safetensors reports.
-pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
+/// Whatever candle or serde reports.
+pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
     let (agent, replay) = (&trainer.agent, &trainer.replay);
-    let mut writer = Writer::default();
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
         writer.add_network(&format!("{name}.actor"), &networks.actor)?;
         writer.add_network(&format!("{name}.critic"), &networks.critic)?;
@@ -66,7 +67,7 @@ pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
     writer.add_f64("replay.views", &[held.len(), VIEW_NUMBERS], &views);
     writer.add("replay.actions", &[held.len(), ACTIONS], &actions);
     writer.add("replay.successes", &[held.len()], &successes);
-    writer.finish(&Note {
+    note_of(&Note {
         task: trainer.task.clone(),
         table: Table::clone(&trainer.table),
         features: FEATURE_VERSION.to_owned(),
@@ -80,13 +81,12 @@ pub fn write(trainer: &Trainer) -> Result<Vec<u8>, WeightsError> {
     })
 }
 
-/// The trainer that [`write()`] was given.
+/// The trainer that [`write()`] was given, from the file's arrays and its note.
 ///
 /// # Errors
-/// Where the bytes are damaged or from a version with other features or actions.
-pub fn read(bytes: &[u8]) -> Result<Trainer, WeightsError> {
-    let reader = Reader::new(bytes)?;
-    let note: Note = reader.note()?;
+/// Where they do not fit or are from a version with other features or actions.
+pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
+    let note: Note = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
     if note.features != FEATURE_VERSION || note.actions != ACTION_SPACE {
         return Err(WeightsError::Foreign);
     }
@@ -114,7 +114,7 @@ pub fn read(bytes: &[u8]) -> Result<Trainer, WeightsError> {
         online,
         target,
     };
-    let replay = ReplayBuffer::restore(note.task.hyperparameters.replay, experiences(&reader)?, note.replay_next);
+    let replay = ReplayBuffer::restore(note.task.hyperparameters.replay, experiences(reader)?, note.replay_next);
     let Note { task, table, rng, shots, updates, .. } = note;
     Ok(Trainer { task, table: table.into(), agent, replay, rng, shots, updates })
 }
@@ -147,6 +147,12 @@ mod tests {
     use super::*;
     use crate::learning::trainer::tests::small_task;
 
+    fn bytes(trainer: &Trainer) -> Vec<u8> {
+        let mut writer = Writer::default();
+        let note = write(trainer, &mut writer).unwrap();
+        writer.finish(&note).unwrap()
+    }
+
     #[test]
     fn a_run_that_goes_on_is_bit_for_bit_the_run_that_never_stopped() {
         let mut whole = Trainer::new(small_task(), Table::default()).unwrap();
@@ -155,17 +161,26 @@ mod tests {
             whole.turn().unwrap();
             parts.turn().unwrap();
         }
-        let mut parts = read(&write(&parts).unwrap()).unwrap();
+        let bytes_of_parts = bytes(&parts);
+        let reader = Reader::new(&bytes_of_parts).unwrap();
+        let mut parts = read(&reader, reader.note().unwrap()).unwrap();
         for _ in 0..5 {
             assert_eq!(whole.turn().unwrap(), parts.turn().unwrap());
         }
-        assert_eq!(write(&whole).unwrap(), write(&parts).unwrap());
+        assert_eq!(bytes(&whole), bytes(&parts));
     }
 
     #[test]
-    fn a_damaged_snapshot_is_refused() {
-        let bytes = write(&Trainer::new(small_task(), Table::default()).unwrap()).unwrap();
-        assert!(read(&bytes[..bytes.len() - 1]).is_err());
-        assert!(read(b"").is_err());
+    fn another_note_and_missing_arrays_are_refused() {
+        let mut writer = Writer::default();
+        let note = write(&Trainer::new(small_task(), Table::default()).unwrap(), &mut writer).unwrap();
+        let empty = Writer::default().finish(&note).unwrap();
+        let whole = writer.finish(&note).unwrap();
+        assert!(read(&Reader::new(&empty).unwrap(), note.clone()).unwrap_err().to_string().contains("online.actor"));
+        let reader = Reader::new(&whole).unwrap();
+        let mut other = note;
+        other["features"] = "raw-0".into();
+        assert!(matches!(read(&reader, other), Err(WeightsError::Foreign)));
+        assert!(matches!(read(&reader, Value::Null), Err(WeightsError::Foreign)));
     }
 }

@@ -10,9 +10,10 @@ use serde::{Deserialize, Serialize};
 use super::{
     action::{ACTION_SPACE, Action, cue_inputs},
     calendar::today,
-    ddpg::{Ddpg, Losses},
+    ddpg::Ddpg,
     features::FEATURE_VERSION,
     hyperparameters::Hyperparameters,
+    learner::Turn,
     policy::Policy,
     policy_file::Origin,
     replay::{Experience, ReplayBuffer},
@@ -35,15 +36,6 @@ pub struct Task {
     pub shots: u64,
     /// The agent's settings.
     pub hyperparameters: Hyperparameters,
-}
-
-/// What one turn of the loop did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn {
-    /// Mean reward of the shots played, with their noise.
-    pub mean_reward: f64,
-    /// Losses of the update.
-    pub losses: Losses,
 }
 
 /// An agent at practice on a table.
@@ -129,7 +121,9 @@ impl Trainer {
         let successes: Vec<_> = batch.iter().map(|experience| experience.success).collect();
         let losses = self.agent.update(&scenes, &actions, &successes, pace)?;
         self.updates += 1;
-        Ok(Turn { mean_reward, losses })
+        // What the actor climbs is the critic's mean value of its actions.
+        let q_value = -losses.actor;
+        Ok(Turn { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
     }
 
     /// Part of the first learning rates that is left: half a cosine from 1 at the first shot to 0 at the last.

@@ -112,6 +112,11 @@ impl<'a> Reader<'a> {
         serde_json::from_str(&self.note).map_err(|_| WeightsError::Foreign)
     }
 
+    /// Whether there is an array called `name`.
+    pub fn has(&self, name: &str) -> bool {
+        self.arrays.tensor(name).is_ok()
+    }
+
     /// An array of `f32`, its shape and values.
     ///
     /// # Errors

@@ -1,0 +1,152 @@
+//! The agent with several actor heads, [`Trainer`], as a run drives it.
+
+use serde_json::Value;
+
+use super::{Agent, Learner, Plan, StartError, Turn, note_of};
+use crate::{
+    learning::{
+        evaluation::{Score, score},
+        hyperparameters::Hyperparameters,
+        networks::Networks,
+        scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+        snapshot,
+        trainer::{Task, Trainer},
+        weights::{Reader, WeightsError, Writer},
+    },
+    table::{Layout, Table},
+};
+
+/// The line in the list of agents.
+pub const AGENT: Agent = Agent {
+    name: "ddpg",
+    title: "deep deterministic policy gradient with several actor heads",
+    start: |plan, table, settings| {
+        let refuse = |reason: &dyn std::fmt::Display| StartError::Settings(reason.to_string());
+        let hyperparameters: Hyperparameters = serde_json::from_value(settings).map_err(|error| refuse(&error))?;
+        hyperparameters.validate().map_err(|error| refuse(&error))?;
+        let Plan { reward, seed, shots } = plan;
+        Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
+    },
+    restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
+};
+
+impl Learner for Trainer {
+    fn agent(&self) -> &'static str {
+        AGENT.name
+    }
+
+    fn plan(&self) -> Plan {
+        let Task { reward, seed, shots, .. } = self.task;
+        Plan { reward, seed, shots }
+    }
+
+    fn table(&self) -> &Table {
+        self.table()
+    }
+
+    fn settings(&self) -> Value {
+        // The settings were read from JSON or are the defaults: they can be written.
+        note_of(&self.task.hyperparameters).unwrap_or_default()
+    }
+
+    fn shots(&self) -> u64 {
+        self.shots()
+    }
+
+    fn updates(&self) -> u64 {
+        self.updates()
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.pace() * self.task.hyperparameters.critic_learning_rate
+    }
+
+    fn turn(&mut self) -> candle_core::Result<Turn> {
+        self.turn()
+    }
+
+    fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
+        Ok(score(&self.policy(0.0)?, self.table(), self.task.reward, layouts))
+    }
+
+    fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
+        let mut policy = self.policy(held_out_reward)?;
+        date.clone_into(&mut policy.origin.date);
+        policy.to_bytes().map(Some)
+    }
+
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
+        snapshot::write(self, writer)
+    }
+
+    /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
+    fn adopt(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
+        let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
+        let own = &self.agent.online;
+        let network = |name: &str, inputs, own: &[usize]| {
+            let name = format!("{prefix}{name}");
+            let network = weights.network(&name, inputs)?;
+            if network.sizes() == own {
+                return Ok(network);
+            }
+            let [expected, found] =
+                [own, network.sizes()].map(|sizes| sizes.iter().map(usize::to_string).collect::<Vec<_>>().join("-"));
+            let expected = format!("a network of {expected} units, as the settings say, but {found}");
+            Err(WeightsError::Array { name, expected })
+        };
+        let adopted = Networks {
+            actor: network("actor", ACTOR_INPUTS, own.actor.sizes())?,
+            critic: network("critic", CRITIC_INPUTS, own.critic.sizes())?,
+        };
+        self.agent.target = adopted.duplicate()?;
+        self.agent.online = adopted;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::trainer::tests::small_task;
+
+    #[test]
+    fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {
+        let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
+        teacher.turn().unwrap();
+        let mut writer = Writer::default();
+        let note = teacher.save(&mut writer).unwrap();
+        let checkpoint = writer.finish(&note).unwrap();
+        let policy = Learner::policy(&teacher, 0.5, "2026-11-20").unwrap().unwrap();
+        let weights = |trainer: &Trainer| {
+            let Networks { actor, critic } = trainer.agent.target();
+            [actor, critic].map(|network| network.parameters().to_vec1::<f32>().unwrap())
+        };
+        for file in [checkpoint.as_slice(), &policy] {
+            let mut pupil = Trainer::new(Task { seed: 6, ..small_task() }, Table::default()).unwrap();
+            assert_ne!(weights(&pupil), weights(&teacher));
+            pupil.adopt(&Reader::new(file).unwrap()).unwrap();
+            assert_eq!(weights(&pupil), weights(&teacher));
+            assert_eq!(pupil.shots(), 0);
+
+            let mut task = small_task();
+            task.hyperparameters.critic_layers = vec![8];
+            let refused = Trainer::new(task, Table::default()).unwrap().adopt(&Reader::new(file).unwrap());
+            let refused = refused.unwrap_err().to_string();
+            assert!(
+                refused.contains("critic") && refused.contains("-8-1") && refused.contains("-16-16-1"),
+                "{refused}"
+            );
+        }
+    }
+
+    #[test]
+    fn settings_come_back_and_wrong_ones_are_named() {
+        let plan = Plan { reward: crate::game::Reward::R1, seed: 1, shots: 10 };
+        let start = |settings: Value| (AGENT.start)(plan, Table::default(), settings);
+        let some = start(serde_json::json!({ "heads": 2 })).unwrap().settings();
+        assert_eq!(start(some.clone()).unwrap().settings(), some);
+        assert_eq!(some["heads"], 2);
+        assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
+        assert!(start(serde_json::json!({ "heads": 0 })).unwrap_err().to_string().contains("heads = 0"));
+    }
+}

@@ -1,0 +1,176 @@
+//! What a training run needs of an agent, whichever it is, and the list of agents.
+
+mod ddpg;
+
+use std::fmt::Debug;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    evaluation::Score,
+    weights::{Reader, WeightsError, Writer},
+};
+use crate::{
+    game::Reward,
+    table::{Layout, Table},
+};
+
+/// The agents that can be trained. To add one: implement [`Learner`] and add its line here.
+pub const AGENTS: [Agent; 1] = [ddpg::AGENT];
+
+/// Makes a beginner.
+pub type Start = fn(Plan, Table, Value) -> Result<Box<dyn Learner>, StartError>;
+
+/// Takes up a learner from a file.
+pub type Restore = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
+
+/// A kind of agent: how to make a beginner of it, and how to take up one that was put aside.
+#[derive(Clone, Copy, Debug)]
+pub struct Agent {
+    /// Name on the command line and in files.
+    pub name: &'static str,
+    /// What it is, in one line for people.
+    pub title: &'static str,
+    /// A beginner for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
+    pub start: Start,
+    /// The learner whose [`Learner::save`] filled the file and returned the note.
+    pub restore: Restore,
+}
+
+impl Agent {
+    /// The agent called `name`.
+    ///
+    /// # Errors
+    /// [`UnknownAgent`], which lists them.
+    pub fn named(name: &str) -> Result<Self, UnknownAgent> {
+        AGENTS.into_iter().find(|agent| agent.name == name).ok_or_else(|| UnknownAgent(name.to_owned()))
+    }
+}
+
+/// An agent's name that is not known.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no agent \"{0}\"; use {list}", list = AGENTS.map(|agent| agent.name).join(", "))]
+pub struct UnknownAgent(String);
+
+/// Why an agent cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// A setting is unknown, of another type or outside its range.
+    #[error("the agent's settings: {0}")]
+    Settings(String),
+    /// candle refuses.
+    #[error("the agent cannot start: {0}")]
+    Network(#[from] candle_core::Error),
+}
+
+/// What is to be learnt, and how long; the same for every agent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Plan {
+    /// What earns a reward.
+    pub reward: Reward,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Shots to play.
+    pub shots: u64,
+}
+
+/// What one turn of learning did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turn {
+    /// Mean reward of the shots played, exploration included.
+    pub mean_reward: f64,
+    /// Mean value that the agent gives its own choices, in the units in which it learns: the critic's mean of the
+    /// actor's actions, or the mean of the largest Q.
+    pub q_value: f64,
+    /// Loss of whatever judges actions; 0 where the turn made no update.
+    pub critic_loss: f64,
+    /// Loss of the actor, for agents that have one.
+    pub actor_loss: Option<f64>,
+}
+
+/// An agent at practice. It can be put aside between any two turns and goes on bit for bit as if it had not been: what
+/// it does depends on nothing but its own state.
+pub trait Learner: Debug + Send {
+    /// Its [`Agent::name`].
+    fn agent(&self) -> &'static str;
+
+    /// What it learns.
+    fn plan(&self) -> Plan;
+
+    /// Where it plays.
+    fn table(&self) -> &Table;
+
+    /// All its settings, as an object that [`Agent::start`] takes.
+    fn settings(&self) -> Value;
+
+    /// Shots played so far.
+    fn shots(&self) -> u64;
+
+    /// Updates made so far.
+    fn updates(&self) -> u64;
+
+    /// Learning rate now, of whatever judges actions.
+    fn learning_rate(&self) -> f64;
+
+    /// Whether all shots of the plan have been played.
+    fn is_finished(&self) -> bool {
+        self.shots() >= self.plan().shots
+    }
+
+    /// Plays at least one shot and learns.
+    ///
+    /// # Errors
+    /// Where the networks no longer give finite numbers.
+    fn turn(&mut self) -> candle_core::Result<Turn>;
+
+    /// Plays one shot on every layout as well as it can, without exploration. Its own state, the random numbers to come
+    /// included, stays as it is.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score>;
+
+    /// The bytes of a policy file, for agents whose policy the coach can use. `held_out_reward` is what it has been
+    /// measured to earn, `date` the day on which the run was started.
+    ///
+    /// # Errors
+    /// Whatever candle or safetensors reports.
+    fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError>;
+
+    /// Adds the arrays of its whole state to a file and returns everything else ([`note_of`]).
+    ///
+    /// # Errors
+    /// Whatever candle or serde reports.
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
+
+    /// Takes the weights, and nothing but the weights, from a file that [`Learner::save`] filled, or a policy file, of
+    /// the same kind of agent.
+    ///
+    /// # Errors
+    /// Where the file has no such weights, or some of other sizes: the learner is then unchanged.
+    fn adopt(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError>;
+}
+
+/// What serde makes of `note`, its numbers written as shortly as they are in a file (`f32` as well as `f64`).
+///
+/// # Errors
+/// Whatever serde reports.
+pub fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
+    let text = serde_json::to_string(note).map_err(safetensors::SafeTensorError::from)?;
+    Ok(serde_json::from_str(&text).map_err(safetensors::SafeTensorError::from)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agents_are_found_by_name_and_unknown_ones_are_told_the_names() {
+        for agent in AGENTS {
+            assert_eq!(Agent::named(agent.name).unwrap().name, agent.name);
+        }
+        let unknown = Agent::named("sarsa").unwrap_err().to_string();
+        assert!(unknown.contains("sarsa") && unknown.contains("ddpg"), "{unknown}");
+    }
+}
