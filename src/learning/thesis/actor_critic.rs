@@ -19,13 +19,11 @@ pub struct ActorCritic {
     state: Var,
     updates: u32,
     workspace: Workspace,
-    /// For acting in one state at a time.
-    single: Pass,
 }
 
 impl ActorCritic {
-    /// Networks with weights drawn from `rng`, uniform within ±sqrt(6 / (inputs + outputs)) (Glorot and Bengio 2010,
-    /// what Keras does), and biases of nought; the target networks begin as copies. They learn from batches of `rows`.
+    /// Networks with weights drawn from `rng` (Glorot and Bengio 2010); the target networks begin as copies. They learn
+    /// from batches of `rows`.
     ///
     /// # Errors
     /// Where the sizes do not belong to an actor and its critic.
@@ -48,8 +46,7 @@ impl ActorCritic {
             bail!("networks of sizes {sizes:?} have {count} values, not {}", values.len());
         }
         let state = Var::from_vec(values, count, &Device::Cpu)?;
-        let single = Pass::new(&sizes.actor, 1);
-        Ok(Self { sizes, rates, state, updates, workspace, single })
+        Ok(Self { sizes, rates, state, updates, workspace })
     }
 
     /// Layer sizes.
@@ -93,17 +90,17 @@ impl ActorCritic {
         self.state.narrow(0, actor, critic)
     }
 
-    /// Writes the actor's action in `state` to `action`.
+    /// Writes the actor's action in `state` to `action`, through the buffers of a pass of one row.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn act(&mut self, state: &[f32], action: &mut [f32]) -> Result<()> {
+    pub(super) fn act(&self, single: &mut Pass, state: &[f32], action: &mut [f32]) -> Result<()> {
         if state.len() != self.sizes.states() || action.len() != self.sizes.actions() {
             bail!("an actor of sizes {:?} was given {} and {} values", self.sizes.actor, state.len(), action.len());
         }
         let (storage, layout) = self.state.storage_and_layout();
         let parameters = &stored_values(&storage, layout)?[..self.sizes.parameters()[0]];
-        self.single.forward(parameters, Rows::new(state, state.len()), action, self.sizes.actions());
+        single.forward(parameters, Rows::new(state, state.len()), action, self.sizes.actions());
         Ok(())
     }
 
@@ -119,7 +116,8 @@ impl ActorCritic {
     }
 }
 
-fn glorot(sizes: &[usize], rng: &mut (impl Rng + ?Sized)) -> Vec<f32> {
+/// Weights uniform within ±sqrt(6 / (inputs + outputs)) and biases of nought, as Keras begins.
+pub(super) fn glorot(sizes: &[usize], rng: &mut (impl Rng + ?Sized)) -> Vec<f32> {
     let mut parameters = Vec::with_capacity(parameter_count(sizes));
     for pair in sizes.windows(2) {
         let bound = (6.0 / (pair[0] + pair[1]) as f32).sqrt();
@@ -279,10 +277,10 @@ mod tests {
     fn an_action_is_what_the_actors_network_gives() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         let sizes = Sizes::new(6, 2, &[16, 16, 16], &[32]);
-        let mut agent = ActorCritic::random(sizes.clone(), RATES, 4, &mut rng).unwrap();
+        let agent = ActorCritic::random(sizes.clone(), RATES, 4, &mut rng).unwrap();
         let state = uniform(6, &mut rng);
         let mut action = [0.0; 2];
-        agent.act(&state, &mut action).unwrap();
+        agent.act(&mut Pass::new(&sizes.actor, 1), &state, &mut action).unwrap();
         let actor = Mlp::from_parameters(&sizes.actor, agent.actor().unwrap().to_vec1().unwrap()).unwrap();
         let expected = actor.forward(&Tensor::from_slice(&state, (1, 6), &Device::Cpu).unwrap()).unwrap();
         for (ours, theirs) in action.iter().zip(&expected.to_vec2::<f32>().unwrap()[0]) {
