@@ -72,7 +72,7 @@ impl Default for PlainDdpgSettings {
             batch: 32,
             warm_up: 100,
             noise: OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 0.01 },
-            noise_restarts: false,
+            noise_restarts: true,
         }
     }
 }
