@@ -1,4 +1,4 @@
-//! Today's date, for the notes in files and the names of runs.
+//! Dates and times, for the notes in files and the names of runs.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -8,12 +8,22 @@ pub fn today() -> String {
     format!("{year:04}-{month:02}-{day:02}")
 }
 
-/// Now in UTC as `20261120-143005`, which sorts by time and is a file name everywhere.
-pub fn timestamp() -> String {
-    let seconds = seconds();
+/// Now in UTC as `2026-11-20T14:30:05Z`.
+pub fn now() -> String {
+    moment(SystemTime::now())
+}
+
+/// A moment in UTC as `2026-11-20T14:30:05Z`; 1970 where it lies before.
+pub fn moment(time: SystemTime) -> String {
+    let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let (year, month, day) = date(seconds / 86_400);
     let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
-    format!("{year:04}{month:02}{day:02}-{hour:02}{minute:02}{second:02}")
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+}
+
+/// Now in UTC as `20261120-143005`, which sorts by time and is a file name everywhere.
+pub fn timestamp() -> String {
+    now().replace(['-', ':', 'Z'], "").replace('T', "-")
 }
 
 fn seconds() -> u64 {
@@ -46,6 +56,10 @@ mod tests {
         assert_eq!(date(20_777), (2026, 11, 20));
         assert_eq!(date(47_541), (2100, 3, 1));
         assert_eq!(today().len(), 10);
+        assert_eq!(
+            moment(UNIX_EPOCH + std::time::Duration::from_secs(11_016 * 86_400 + 3_661)),
+            "2000-02-29T01:01:01Z"
+        );
         assert_eq!(timestamp().len(), 15);
     }
 }

@@ -1,10 +1,12 @@
 //! What a run reports, as JSON Lines with the names that users of Stable-Baselines3 know.
 
-use std::{fs, io::Write as _, path::Path};
+use std::{
+    fs,
+    io::{self, Seek, SeekFrom, Write as _},
+    path::{Path, PathBuf},
+};
 
 use serde::{Deserialize, Serialize};
-
-use crate::storage::write_atomic;
 
 /// One line of a run's metrics. Means are over the updates since the line before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,40 +47,100 @@ pub struct Record {
     pub held_out_reach: Option<f64>,
 }
 
-/// Appends a line.
-///
-/// # Errors
-/// Whatever the file system reports.
-pub fn append(path: &Path, record: &Record) -> std::io::Result<()> {
-    let mut line = serde_json::to_string(record)?;
-    line.push('\n');
-    // One write call a line: whoever follows the file sees whole lines.
-    fs::OpenOptions::new().create(true).append(true).open(path)?.write_all(line.as_bytes())
-}
-
-/// Drops what was written after `shots` shots, and a last line that was cut off, so that a run that goes on from there
-/// writes no line twice. Returns the last line that is left.
+/// All whole lines in a file; those that are no records are left out.
 ///
 /// # Errors
 /// Whatever the file system reports; a missing file is an empty one.
-pub fn rewind(path: &Path, shots: u64) -> std::io::Result<Option<Record>> {
-    let text = match fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(error),
-    };
-    let (mut kept, mut last) = (String::with_capacity(text.len()), None);
-    for line in text.lines() {
-        if let Ok(record) = serde_json::from_str::<Record>(line)
-            && record.shots <= shots
-        {
-            kept.push_str(line);
-            kept.push('\n');
-            last = Some(record);
+pub fn read(path: &Path) -> io::Result<Vec<Record>> {
+    Ok(whole_lines(&content(path)?).filter_map(|line| serde_json::from_slice(line).ok()).collect())
+}
+
+/// A run's file of metrics while the run writes it. Lines that cannot be written wait in memory.
+#[derive(Debug)]
+pub struct MetricsFile {
+    path: PathBuf,
+    /// Bytes of whole lines in the file.
+    length: u64,
+    waiting: Vec<u8>,
+}
+
+impl MetricsFile {
+    /// Opens the file of a run that goes on after `shots` shots: what was written later, and a last line that was cut
+    /// off, is dropped, so that no line comes twice. Returns the last line that is left, too.
+    ///
+    /// # Errors
+    /// Whatever the file system reports; a missing file is an empty one.
+    pub fn open(path: &Path, shots: u64) -> io::Result<(Self, Option<Record>)> {
+        let bytes = content(path)?;
+        let (mut length, mut last) = (0, None);
+        for line in whole_lines(&bytes) {
+            match serde_json::from_slice::<Record>(line) {
+                Ok(record) if record.shots > shots => break,
+                Ok(record) => last = Some(record),
+                // Whoever wrote this line, it is not ours to drop.
+                Err(_) => {}
+            }
+            length += line.len() as u64;
+        }
+        if length < bytes.len() as u64 {
+            fs::OpenOptions::new().write(true).open(path)?.set_len(length)?;
+        }
+        Ok((Self { path: path.to_owned(), length, waiting: Vec::new() }, last))
+    }
+
+    /// Adds a line to those that wait.
+    pub fn push(&mut self, record: &Record) {
+        // A record has nothing but numbers under fixed names, and memory takes any number of bytes.
+        if serde_json::to_writer(&mut self.waiting, record).is_ok() {
+            self.waiting.push(b'\n');
         }
     }
-    write_atomic(path, kept.as_bytes())?;
-    Ok(last)
+
+    /// Writes the lines that wait.
+    ///
+    /// # Errors
+    /// Whatever the file system reports; the lines then go on waiting, and the file has whole lines only.
+    pub fn flush(&mut self) -> io::Result<()> {
+        self.write().map(|_| ())
+    }
+
+    /// Writes the lines that wait, and returns when they would outlive a power cut.
+    ///
+    /// # Errors
+    /// As [`MetricsFile::flush`].
+    pub fn sync(&mut self) -> io::Result<()> {
+        self.write()?.sync_data()
+    }
+
+    fn write(&mut self) -> io::Result<fs::File> {
+        let mut file = fs::OpenOptions::new().create(true).truncate(false).write(true).open(&self.path)?;
+        if !self.waiting.is_empty() {
+            // Somebody may have emptied the file: it is not filled up with zeros.
+            self.length = self.length.min(file.metadata()?.len());
+            file.set_len(self.length)?;
+            file.seek(SeekFrom::End(0))?;
+            // In one call: whoever follows the file sees whole lines.
+            if let Err(error) = file.write_all(&self.waiting) {
+                let _ = file.set_len(self.length);
+                return Err(error);
+            }
+            self.length += self.waiting.len() as u64;
+            self.waiting.clear();
+        }
+        Ok(file)
+    }
+}
+
+fn content(path: &Path) -> io::Result<Vec<u8>> {
+    match fs::read(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+        content => content,
+    }
+}
+
+/// The lines that have an end, with it.
+fn whole_lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n"))
 }
 
 #[cfg(test)]
@@ -112,17 +174,38 @@ mod tests {
     }
 
     #[test]
-    fn rewinding_drops_later_lines_and_a_torn_one() {
+    fn a_run_that_goes_on_drops_later_lines_and_a_torn_one() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
-        assert_eq!(rewind(&path, 5).unwrap(), None);
+        let (mut file, none) = MetricsFile::open(&path, 5).unwrap();
+        assert_eq!(none, None);
         for shots in [1, 2, 3] {
-            append(&path, &record(shots)).unwrap();
+            file.push(&record(shots));
+            file.flush().unwrap();
         }
         let torn = fs::read_to_string(&path).unwrap() + "{\"time/total";
+        fs::write(&path, &torn).unwrap();
+        assert_eq!(MetricsFile::open(&path, 3).unwrap().1, Some(record(3)));
         fs::write(&path, torn).unwrap();
-        assert_eq!(rewind(&path, 2).unwrap(), Some(record(2)));
-        append(&path, &record(4)).unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 3);
+        let (mut file, last) = MetricsFile::open(&path, 2).unwrap();
+        assert_eq!(last, Some(record(2)));
+        file.push(&record(4));
+        file.sync().unwrap();
+        assert_eq!(read(&path).unwrap(), [record(1), record(2), record(4)]);
+    }
+
+    #[test]
+    fn lines_that_cannot_be_written_wait_and_come_later() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let (mut file, _) = MetricsFile::open(&path, 0).unwrap();
+        fs::create_dir(&path).unwrap();
+        for shots in [1, 2] {
+            file.push(&record(shots));
+            assert!(file.sync().is_err());
+        }
+        fs::remove_dir(&path).unwrap();
+        file.sync().unwrap();
+        assert_eq!(read(&path).unwrap(), [record(1), record(2)]);
     }
 }

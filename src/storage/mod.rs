@@ -1,7 +1,9 @@
 //! Files: where they live and how they are written without ever leaving half a file behind.
 
 mod atomic;
+mod lock;
 mod places;
 
-pub use atomic::write_atomic;
+pub use atomic::{Staged, remove_partial_files, write_atomic};
+pub use lock::Lock;
 pub use places::Places;

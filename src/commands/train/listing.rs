@@ -1,0 +1,75 @@
+//! `carom train --list`: the runs there are.
+
+use std::{
+    io::{self, Write},
+    path::Path,
+};
+
+use crate::{
+    commands::Failure,
+    learning::run::list::{Summary, runs_in},
+    storage::Places,
+};
+
+/// Prints the runs in `folder`, or the user's.
+pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
+    let own = Places::of_this_user().runs;
+    // Somebody who has never trained has no folder yet.
+    let runs = match (folder, folder.unwrap_or(&own)) {
+        (None, own) if !own.exists() => Vec::new(),
+        (_, folder) => {
+            runs_in(folder).map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))?
+        }
+    };
+    let mut out = io::stdout().lock();
+    if json {
+        for run in &runs {
+            serde_json::to_writer(&mut out, run).map_err(io::Error::from)?;
+            writeln!(out)?;
+        }
+        return Ok(());
+    }
+    if runs.is_empty() {
+        eprintln!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display());
+        return Ok(());
+    }
+    for row in table(&runs) {
+        writeln!(out, "{row}")?;
+    }
+    Ok(())
+}
+
+const HEADINGS: [&str; 10] =
+    ["name", "agent", "reward", "table", "seed", "shots", "best", "last", "last written (UTC)", "state"];
+
+/// Columns that are numbers and stand to the right.
+const NUMBERS: [usize; 4] = [4, 5, 6, 7];
+
+fn table(runs: &[Summary]) -> Vec<String> {
+    let reward = |reward: Option<f64>| reward.map_or_else(|| "-".to_owned(), |reward| format!("{reward:.4}"));
+    let mut rows = vec![HEADINGS.map(str::to_owned)];
+    rows.extend(runs.iter().map(|run| {
+        [
+            run.name.clone(),
+            run.agent.clone(),
+            run.reward.to_string(),
+            run.table.clone(),
+            run.seed.to_string(),
+            format!("{}/{}", run.shots, run.planned_shots),
+            reward(run.best_reward),
+            reward(run.last_reward),
+            run.changed.clone(),
+            run.state.name().to_owned(),
+        ]
+    }));
+    let widths: [usize; HEADINGS.len()] =
+        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+    rows.iter()
+        .map(|row| {
+            let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| {
+                if NUMBERS.contains(&column) { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+            });
+            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+        })
+        .collect()
+}

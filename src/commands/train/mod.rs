@@ -1,0 +1,217 @@
+//! `carom train`: train agents without a screen.
+
+mod listing;
+mod order;
+mod screen;
+mod several;
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
+
+use clap::value_parser;
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    flag,
+};
+
+use self::screen::Screen;
+use super::Failure;
+use crate::{
+    game::Reward,
+    learning::{
+        learner::{AGENTS, StartError},
+        run::{Run, RunError, seeds::is_group},
+    },
+    storage::Places,
+};
+
+/// Train an agent without a screen. The run's folder holds its configuration (config.json), its metrics as JSON Lines
+/// (metrics.jsonl), the last two checkpoints and the policy. Ctrl-C saves and stops, twice it stops at once; --resume
+/// goes on as if nothing had happened, after a crash too: to the same weights, bit for bit.
+#[derive(Debug, clap::Args)]
+#[expect(clippy::option_option, reason = "clap's way to tell a flag that is missing from one without a value")]
+pub struct Args {
+    // Its help lists the agents.
+    #[arg(long, value_name = "AGENT", help = agents())]
+    agent: Option<String>,
+    /// What it is rewarded for: r1, r1-difficulty, r2, r3 or r4. By default as --from, or r3.
+    #[arg(long)]
+    reward: Option<Reward>,
+    /// The table: "match", "thesis" or the path of a TOML file. By default as --from, or "match".
+    #[arg(long)]
+    table: Option<String>,
+    /// Seed of everything random: the same seed gives the same weights.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Shots to play. The learning rates fall to nothing over them.
+    #[arg(long, value_name = "SHOTS", default_value_t = 20_000_000, value_parser = value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Settings of the agent that differ from its defaults, or from those of --from, as a TOML file.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Start with the weights of another run (its folder, or its name) or of a policy or checkpoint file: same
+    /// networks, new optimiser, new memory, new schedule.
+    #[arg(long, value_name = "RUN|FILE")]
+    from: Option<PathBuf>,
+    /// Shots between two measurements on held-out layouts; by default a fiftieth of the shots, at least 10,000.
+    #[arg(long, value_name = "SHOTS", value_parser = value_parser!(u64).range(1..))]
+    evaluate_every: Option<u64>,
+    /// Held-out layouts of a measurement.
+    #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = value_parser!(u32).range(1..=10_000_000))]
+    evaluation_layouts: u32,
+    /// The run's folder; by default a new one among the user's runs.
+    #[arg(long, value_name = "DIR")]
+    run: Option<PathBuf>,
+    /// Train so many seeds, from --seed on, each in a folder of the run's folder, and write the spread to seeds.csv.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1000))]
+    seeds: Option<u64>,
+    /// Go on with this run or these seeds (a folder, or a name among the user's runs), with the settings they started
+    /// with.
+    #[arg(long, value_name = "RUN", conflicts_with_all = [
+        "agent", "reward", "table", "seed", "steps", "config", "from", "evaluate_every", "evaluation_layouts", "run",
+        "seeds",
+    ])]
+    resume: Option<PathBuf>,
+    /// Seeds that are trained at the same time, a thread each.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=256))]
+    jobs: u32,
+    /// Stop after this many minutes, finished or not.
+    #[arg(long, allow_negative_numbers = true)]
+    minutes: Option<f64>,
+    /// List the runs in this folder, by default the user's, and train nothing.
+    #[arg(long, value_name = "DIR", num_args = 0..=1, conflicts_with_all = ["resume", "run", "from", "seeds", "minutes"])]
+    list: Option<Option<PathBuf>>,
+    /// Print the metrics, or the list, as JSON Lines on standard output.
+    #[arg(long)]
+    json: bool,
+}
+
+fn agents() -> String {
+    let agents = AGENTS.map(|agent| format!("{} ({})", agent.name, agent.title)).join(", ");
+    format!("The agent: {agents}. By default that of --from, or ddpg")
+}
+
+/// How long to train and how to report.
+struct Session<'a> {
+    limit: Option<Duration>,
+    stop: &'a (dyn Fn() -> bool + Sync),
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(folder) = &args.list {
+        return listing::print(folder.as_deref(), args.json);
+    }
+    let limit = args.minutes.map(minutes).transpose()?;
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        // The second signal ends the program at once: the first one waits for the turn and the measurement.
+        flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
+        flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
+    }
+    #[cfg(unix)]
+    // A write beyond the limit on file sizes shall fail and be reported, not end the program.
+    flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
+    let session = Session { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json };
+    if let Some(name) = &args.resume {
+        return resume(&run_named(name), args.jobs, &session);
+    }
+    let read = order::read(args)?;
+    if let Some(seeds) = args.seeds {
+        return several::start(read, seeds, args.jobs, &session);
+    }
+    let order::Read { order, weights, folder } = read;
+    train(order.start(&folder, order.plan.seed, weights.as_ref()).map_err(failure)?, &session)
+}
+
+/// Goes on with one run or several.
+fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
+    if is_group(folder) {
+        return several::resume(folder, jobs, session);
+    }
+    let (run, notice) = Run::resume(folder).map_err(failure)?;
+    if let Some(notice) = notice {
+        eprintln!("warning: {notice}");
+    }
+    train(run, session)
+}
+
+/// Trains one run and says how it ended.
+fn train(mut run: Run, session: &Session<'_>) -> Result<(), Failure> {
+    let learner = run.learner();
+    if learner.is_finished() {
+        eprintln!(
+            "{} is finished: all its {} shots have been played; start a new run with its weights by --from",
+            run.folder().display(),
+            learner.plan().shots
+        );
+    }
+    let mut screen = Screen::new(&run, session.json, None);
+    let ending = run.practise(session.limit, session.stop, &mut screen).map_err(failure)?;
+    screen.close();
+    let learner = run.learner();
+    let result = if run.policy_path().exists() { run.policy_path() } else { run.folder().to_owned() };
+    if !session.json {
+        println!(
+            "{}: mean {} {:.4} on held-out layouts after {} shots",
+            result.display(),
+            learner.plan().reward,
+            ending.score.mean_reward,
+            learner.shots()
+        );
+    }
+    if !ending.finished {
+        eprintln!("{}", how_to_go_on(run.folder()));
+    }
+    Ok(())
+}
+
+fn how_to_go_on(folder: &Path) -> String {
+    format!("stopped early; go on with: carom train --resume \"{}\"", folder.display())
+}
+
+/// The folder `name`, or the one called so among the user's runs.
+fn run_named(name: &Path) -> PathBuf {
+    if name.exists() {
+        return name.to_owned();
+    }
+    let known = Places::of_this_user().runs.join(name);
+    if known.exists() { known } else { name.to_owned() }
+}
+
+fn minutes(value: f64) -> Result<Duration, Failure> {
+    let accepted = value > 0.0;
+    let duration = Duration::try_from_secs_f64(60.0 * value).ok().filter(|_| accepted);
+    duration.ok_or_else(|| {
+        Failure::wrong_input(format_args!("--minutes {value} is no time to train; accepted is a number above 0"))
+    })
+}
+
+fn failure(error: RunError) -> Failure {
+    match error {
+        RunError::Occupied(_)
+        | RunError::Agent(_)
+        | RunError::Origin { .. }
+        | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),
+        _ => Failure::failed(error),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_time_is_refused_and_named() {
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
+        }
+        assert_eq!(minutes(0.5).unwrap(), Duration::from_secs(30));
+    }
+}

@@ -1,0 +1,69 @@
+//! From the command line to what a new run is made of.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::{Args, failure, run_named};
+use crate::{
+    commands::{Failure, input::table_named},
+    learning::{
+        learner::Plan,
+        run::{Schedule, origin::Weights, seeds::Order},
+        timestamp,
+    },
+    storage::Places,
+};
+
+/// What to train, with which weights, where.
+pub struct Read {
+    pub order: Order,
+    pub weights: Option<Weights>,
+    pub folder: PathBuf,
+}
+
+/// What the command line orders. Whatever it leaves open is as in the run that the weights come from, or the default.
+pub fn read(args: &Args) -> Result<Read, Failure> {
+    let weights = args.from.as_deref().map(|from| Weights::load(&run_named(from))).transpose().map_err(failure)?;
+    let start = weights.as_ref().map(|weights| &weights.start);
+    let agent = args.agent.clone().or_else(|| start.map(|start| start.agent.clone()));
+    let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
+    let reward = args.reward.or_else(|| start.map(|start| start.reward)).unwrap_or_default();
+    let table = match (&args.table, &weights) {
+        (Some(name), _) => table_named(name)?,
+        (None, Some(Weights { table: Some(table), .. })) => table.clone(),
+        (None, Some(weights)) => table_named(&weights.start.table)?,
+        (None, None) => table_named("match")?,
+    };
+    // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
+    let known = weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
+    let settings = settings(args.config.as_deref(), known)?;
+    let layouts = args.evaluation_layouts as usize;
+    let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
+    let folder = args.run.clone().unwrap_or_else(|| {
+        let name = format!("{}-{agent}-{}-{reward}-{}", timestamp(), table.name, args.seed);
+        Places::of_this_user().runs.join(name)
+    });
+    let plan = Plan { reward, seed: args.seed, shots: args.steps };
+    let order = Order { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
+    Ok(Read { order, weights, folder })
+}
+
+/// The settings `known` with what the TOML file at `path` says instead of them.
+fn settings(path: Option<&Path>, known: Option<Value>) -> Result<Value, Failure> {
+    let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
+    let Some(path) = path else { return Ok(settings) };
+    let shown = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
+    let refuse = |reason: &str| Failure::wrong_input(format_args!("the settings in {shown}: {reason}"));
+    let read: toml::Table = toml::from_str(&text).map_err(|error| refuse(error.message()))?;
+    for (name, value) in read {
+        let value = serde_json::to_value(value).map_err(|error| refuse(&error.to_string()))?;
+        // TOML knows nan and inf, JSON does not.
+        if value.is_null() {
+            return Err(refuse(&format!("{name} is not a finite number")));
+        }
+        settings[name] = value;
+    }
+    Ok(settings)
+}

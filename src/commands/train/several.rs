@@ -1,0 +1,95 @@
+//! Several seeds: one after the other or side by side, and the spread between them.
+
+use std::{
+    path::Path,
+    sync::atomic::{AtomicUsize, Ordering},
+    time::{Duration, Instant},
+};
+
+use super::{Session, failure, how_to_go_on, order::Read, screen::Screen};
+use crate::{
+    commands::Failure,
+    learning::run::{RunError, seeds::Group},
+};
+
+/// Trains new runs with `seeds` seeds, `jobs` at a time.
+pub fn start(read: Read, seeds: u64, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
+    let Read { order, weights, folder } = read;
+    train(&Group::create(&folder, order, seeds, weights).map_err(failure)?, jobs, session)
+}
+
+/// Goes on with the runs in `folder`.
+pub fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
+    train(&Group::resume(folder).map_err(failure)?, jobs, session)
+}
+
+fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
+    let seeds: Vec<u64> = group.seeds().collect();
+    let (next, begin) = (AtomicUsize::new(0), Instant::now());
+    // A worker takes seeds until there are none, or it is told to stop. It returns what went wrong, and whether all its
+    // runs are finished.
+    let work = || {
+        let (mut errors, mut finished) = (Vec::new(), true);
+        while let Some(seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let left = session.limit.map(|limit| limit.saturating_sub(begin.elapsed()));
+            if (session.stop)() || left.is_some_and(|left| left.is_zero()) {
+                finished = false;
+                break;
+            }
+            match train_one(group, *seed, left, session) {
+                Ok(done) => finished &= done,
+                Err(error) => errors.push(format!("seed {seed}: {error}")),
+            }
+        }
+        (errors, finished)
+    };
+    let outcomes: Vec<_> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().map(std::thread::ScopedJoinHandle::join).collect()
+    });
+    let spread = group.write_spread().map_err(failure)?;
+    if let Some(spread) = spread.filter(|_| !session.json) {
+        let sd = spread.sd.map(|sd| format!(", standard deviation {sd:.4}")).unwrap_or_default();
+        println!(
+            "{}: mean {:.4}{sd}, {:.4} to {:.4} on held-out layouts, seeds: {}, after {} shots",
+            group.folder().display(),
+            spread.mean,
+            spread.min,
+            spread.max,
+            spread.seeds,
+            spread.shots
+        );
+    }
+    let (mut errors, mut finished) = (Vec::new(), true);
+    for outcome in outcomes {
+        match outcome {
+            Ok((wrong, done)) => {
+                errors.extend(wrong);
+                finished &= done;
+            }
+            Err(_) => errors.push("a thread ended in a defect of carom's".to_owned()),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(Failure::failed(errors.join("; ")));
+    }
+    if !finished {
+        eprintln!("{}", how_to_go_on(group.folder()));
+    }
+    Ok(())
+}
+
+/// Trains the run with this seed and returns whether it is finished.
+fn train_one(group: &Group, seed: u64, limit: Option<Duration>, session: &Session<'_>) -> Result<bool, RunError> {
+    let (mut run, notice) = group.run(seed)?;
+    if let Some(notice) = notice {
+        eprintln!("warning: seed {seed}: {notice}");
+    }
+    if run.learner().is_finished() {
+        return Ok(true);
+    }
+    let mut screen = Screen::new(&run, session.json, Some(seed));
+    let ending = run.practise(limit, session.stop, &mut screen)?;
+    screen.close();
+    Ok(ending.finished)
+}

@@ -1,0 +1,64 @@
+//! A checksum within the file that it guards: any changed byte is noticed, wherever it stands.
+
+/// What a file that is to be sealed has at one place: the checksum is the first field of a JSON note, which stands as a
+/// text in the JSON of the header.
+const MARK: &[u8] = br#"{\"checksum\":\""#;
+
+/// Hexadecimal digits of a checksum.
+const DIGITS: usize = 16;
+
+/// What stands in the note until the file is sealed.
+pub const UNSEALED: &str = "0000000000000000";
+
+/// Puts the checksum in its place. `false` where there is no place for it.
+pub fn seal(bytes: &mut [u8]) -> bool {
+    let Some(place) = place(bytes) else { return false };
+    bytes[place..place + DIGITS].copy_from_slice(UNSEALED.as_bytes());
+    let digits = format!("{:016x}", hash([&*bytes].into_iter()));
+    bytes[place..place + DIGITS].copy_from_slice(digits.as_bytes());
+    true
+}
+
+/// Whether the content fits its checksum; `None` where there is none.
+pub fn is_whole(bytes: &[u8]) -> Option<bool> {
+    let place = place(bytes)?;
+    let digits = &bytes[place..place + DIGITS];
+    let parts = [&bytes[..place], UNSEALED.as_bytes(), &bytes[place + DIGITS..]];
+    Some(digits == format!("{:016x}", hash(parts.into_iter())).as_bytes())
+}
+
+fn place(bytes: &[u8]) -> Option<usize> {
+    let place = bytes.windows(MARK.len()).position(|window| window == MARK)? + MARK.len();
+    (place + DIGITS <= bytes.len()).then_some(place)
+}
+
+/// FNV-1a with 64 bits. For a given byte every step maps sums one to one, so that a single changed byte always changes
+/// the result; several do but for one chance in 2^64. It guards against accidents, not against an adversary.
+fn hash<'a>(parts: impl Iterator<Item = &'a [u8]>) -> u64 {
+    parts
+        .flatten()
+        .fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_changed_byte_is_noticed() {
+        // The published value of this hash for "foobar".
+        assert_eq!(hash([b"foo".as_slice(), b"bar"].into_iter()), 0x8594_4171_f739_67e8);
+        let mut bytes = format!("{{\"note\":\"{{\\\"checksum\\\":\\\"{UNSEALED}\\\"}}\"}}  weights").into_bytes();
+        assert!(seal(&mut bytes));
+        assert_eq!(is_whole(&bytes), Some(true));
+        for index in 0..bytes.len() {
+            for change in [1, 0x20, 0x80, 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[index] ^= change;
+                assert_ne!(is_whole(&damaged), Some(true), "byte {index}");
+            }
+            assert_ne!(is_whole(&bytes[..index]), Some(true), "cut at {index}");
+        }
+        assert!(!seal(&mut b"nothing to seal".to_vec()));
+    }
+}

@@ -1,0 +1,131 @@
+//! What `config.json` says of a run.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::error::{RunError, file};
+use crate::{
+    game::Reward,
+    learning::{
+        calendar::now,
+        learner::{Learner, Plan},
+    },
+    storage::write_atomic,
+    table::Table,
+};
+
+/// The file's name.
+pub const FILE: &str = "config.json";
+
+/// When a run reports and is measured, in shots: it must not depend on the clock, or a run that was interrupted would
+/// give other lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Schedule {
+    /// Shots between two lines of metrics.
+    pub log_every: u64,
+    /// Shots between two measurements on held-out layouts, each with a line and a checkpoint.
+    pub evaluate_every: u64,
+    /// Layouts of a measurement.
+    pub evaluation_layouts: usize,
+}
+
+/// Fewest shots between two measurements by default: with fewer, a short run would do little but measure itself.
+const FEWEST_SHOTS: u64 = 10_000;
+
+/// Layouts of a measurement by default: enough for a standard error of half a percent near 0.95.
+const LAYOUTS: usize = 2_000;
+
+impl Schedule {
+    /// What suits a run of so many shots: 50 measurements, and five lines for each.
+    pub fn for_shots(shots: u64) -> Self {
+        Self::new((shots / 50).max(FEWEST_SHOTS), LAYOUTS)
+    }
+
+    /// Measures every so many shots on so many layouts.
+    pub fn new(evaluate_every: u64, evaluation_layouts: usize) -> Self {
+        Self { log_every: (evaluate_every / 5).max(1), evaluate_every: evaluate_every.max(1), evaluation_layouts }
+    }
+}
+
+/// Whose weights a run started from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Start {
+    /// The run or the policy, as it was given.
+    pub path: String,
+    /// Its agent.
+    pub agent: String,
+    /// Name of its table.
+    pub table: String,
+    /// Its reward.
+    pub reward: Reward,
+    /// Its seed.
+    pub seed: u64,
+    /// Shots that it had practised.
+    pub shots: u64,
+}
+
+/// The content of `config.json`: for people and for [`super::list`]. A run goes on from its checkpoint alone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Config {
+    /// The agent's name.
+    pub agent: String,
+    /// Reward, seed and number of shots.
+    #[serde(flatten)]
+    pub plan: Plan,
+    /// When it was started, UTC.
+    pub started: String,
+    /// Version of carom that started it.
+    pub version: String,
+    /// What `git describe` says of the source of that carom; none where it was not built from a checkout.
+    pub source: Option<String>,
+    /// Whose weights it started from.
+    pub from: Option<Start>,
+    /// When it reports and is measured.
+    pub schedule: Schedule,
+    /// The agent's settings.
+    pub settings: Value,
+    /// The table.
+    pub table: Table,
+}
+
+impl Config {
+    /// That of a run that starts now.
+    pub fn of(learner: &dyn Learner, schedule: Schedule, from: Option<Start>) -> Self {
+        Self {
+            agent: learner.agent().to_owned(),
+            plan: learner.plan(),
+            started: now(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            source: option_env!("CAROM_SOURCE").map(str::to_owned),
+            from,
+            schedule,
+            settings: learner.settings(),
+            table: learner.table().clone(),
+        }
+    }
+
+    /// Reads that of the run in `folder`.
+    ///
+    /// # Errors
+    /// Where there is none, or something else.
+    pub fn read(folder: &Path) -> std::io::Result<Self> {
+        Ok(serde_json::from_slice(&std::fs::read(folder.join(FILE))?)?)
+    }
+
+    /// Writes it for the run in `folder`.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn write(&self, folder: &Path) -> Result<(), RunError> {
+        let path = folder.join(FILE);
+        let text = serde_json::to_string_pretty(self).map_err(|error| file(&path)(error.into()))?;
+        write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))
+    }
+
+    /// The day on which it was started, UTC, as 2026-11-20.
+    pub fn day(&self) -> &str {
+        self.started.get(..10).unwrap_or(&self.started)
+    }
+}

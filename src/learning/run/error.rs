@@ -1,0 +1,112 @@
+//! Why a run cannot start, go on or be saved.
+
+use std::path::Path;
+
+use super::checkpoint::Damage;
+use crate::learning::{
+    PolicyError,
+    learner::{StartError, UnknownAgent},
+    weights::WeightsError,
+};
+
+/// Why a run cannot start, go on or be saved.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The folder already holds a run.
+    #[error("{0} already holds a run; go on with it by --resume {0}, or choose another folder by --run")]
+    Occupied(String),
+    /// The folder holds no run.
+    #[error(
+        "{0} holds no run to go on with: it has no checkpoint.safetensors; carom train --list shows the runs there are"
+    )]
+    Missing(String),
+    /// Another process works in the folder.
+    #[error("another process is training in {0}; wait until it ends or stop it, or choose another folder by --run")]
+    Busy(String),
+    /// A file of the run cannot be read or written.
+    #[error("{path}: {reason}")]
+    File {
+        /// The file.
+        path: String,
+        /// What the system says.
+        reason: std::io::Error,
+    },
+    /// No checkpoint is fit for use.
+    #[error(
+        "no checkpoint in {folder} can be gone on from: {current}{}",
+        previous.as_ref().map_or_else(String::new, |previous| format!("; {previous}"))
+    )]
+    Checkpoints {
+        /// The run's folder.
+        folder: String,
+        /// What is wrong with the last one.
+        current: Box<Damage>,
+        /// What is wrong with the one before, if there is one.
+        previous: Option<Box<Damage>>,
+    },
+    /// The agent is not known.
+    #[error(transparent)]
+    Agent(#[from] UnknownAgent),
+    /// The agent refuses its settings.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The weights to start from do not suit.
+    #[error("{path} has no weights for this run: {reason}")]
+    Origin {
+        /// The file or the run.
+        path: String,
+        /// What is wrong.
+        reason: Box<OriginError>,
+    },
+    /// The state cannot be turned into a file.
+    #[error("the state cannot be saved: {0}")]
+    Save(#[from] WeightsError),
+    /// The networks no longer give finite numbers.
+    #[error("training stopped: {0}")]
+    Training(#[from] candle_core::Error),
+    /// The networks no longer give finite losses.
+    #[error(
+        "training stopped after {shots} shots: the loss is not a finite number any more; try a lower learning rate"
+    )]
+    NotFinite {
+        /// Shots played.
+        shots: u64,
+    },
+    /// The work since the last checkpoint could not be saved.
+    #[error(
+        "the run could not be saved after {shots} shots: {reason}; the last checkpoint is whole: make room, then go on \
+         with: carom train --resume \"{folder}\""
+    )]
+    Unsaved {
+        /// Shots played.
+        shots: u64,
+        /// What went wrong.
+        reason: Box<Self>,
+        /// The run's folder.
+        folder: String,
+    },
+}
+
+/// Why weights are no start for a run.
+#[derive(Debug, thiserror::Error)]
+pub enum OriginError {
+    /// They are of another kind of agent.
+    #[error("they are {found}'s, and the run's agent is {expected}; leave out --agent, or choose other weights")]
+    Agent {
+        /// Whose they are.
+        found: String,
+        /// Whose they should be.
+        expected: String,
+    },
+    /// They cannot be used.
+    #[error(transparent)]
+    Weights(#[from] WeightsError),
+    /// The policy cannot be used.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
+}
+
+/// The error of a file, for `map_err`.
+pub fn file(path: &Path) -> impl FnOnce(std::io::Error) -> RunError {
+    move |reason| RunError::File { path: path.display().to_string(), reason }
+}

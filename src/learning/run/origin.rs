@@ -1,0 +1,105 @@
+//! The weights that a run starts from: another run's, or a policy's.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{
+    checkpoint::{self, Checkpoints, Loaded},
+    config::Start,
+    error::{OriginError, RunError, file},
+};
+use crate::{
+    learning::{
+        Policy,
+        learner::{Learner, note_of},
+        weights::Reader,
+    },
+    storage::write_atomic,
+    table::Table,
+};
+
+/// Weights to start from, and what is known of them.
+#[derive(Clone, Debug)]
+pub struct Weights {
+    /// Whose they are.
+    pub start: Start,
+    /// The settings of the agent that has them.
+    pub settings: Value,
+    /// Its table, where the file has more of it than its name.
+    pub table: Option<Table>,
+    bytes: Vec<u8>,
+}
+
+impl Weights {
+    /// The weights in a run's folder, in a checkpoint or in a policy file.
+    ///
+    /// # Errors
+    /// Where there are none that this version can use.
+    pub fn load(path: &Path) -> Result<Self, RunError> {
+        if path.is_dir() {
+            return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
+        }
+        let bytes = std::fs::read(path).map_err(file(path))?;
+        if checkpoint::is_checkpoint(&bytes) {
+            return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
+        }
+        let refuse =
+            |reason: OriginError| RunError::Origin { path: path.display().to_string(), reason: Box::new(reason) };
+        let policy = Policy::load(path).map_err(|reason| refuse(reason.into()))?;
+        let origin = policy.origin();
+        let start = Start {
+            path: path.display().to_string(),
+            // The one agent whose policy has a file of its own.
+            agent: "ddpg".to_owned(),
+            table: origin.table.clone(),
+            reward: origin.reward,
+            seed: origin.seed,
+            shots: origin.shots,
+        };
+        let settings = note_of(&origin.hyperparameters).map_err(|reason| refuse(reason.into()))?;
+        Ok(Self { start, settings, table: None, bytes })
+    }
+
+    fn of_checkpoint(path: &Path, loaded: Loaded) -> Self {
+        let Loaded { learner, bytes, .. } = loaded;
+        let plan = learner.plan();
+        let start = Start {
+            path: path.display().to_string(),
+            agent: learner.agent().to_owned(),
+            table: learner.table().name.clone(),
+            reward: plan.reward,
+            seed: plan.seed,
+            shots: learner.shots(),
+        };
+        Self { start, settings: learner.settings(), table: Some(learner.table().clone()), bytes }
+    }
+
+    /// The same under what was known of them when the file was copied.
+    #[must_use]
+    pub fn known_as(self, start: Start) -> Self {
+        Self { start, ..self }
+    }
+
+    /// Gives the weights to a beginner.
+    ///
+    /// # Errors
+    /// [`RunError::Origin`] where the agent or the sizes differ.
+    pub fn give_to(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
+        let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason: Box::new(reason) };
+        let (found, expected) = (&self.start.agent, learner.agent());
+        if found != expected {
+            return Err(refuse(OriginError::Agent { found: found.clone(), expected: expected.to_owned() }));
+        }
+        let mut adopt = || learner.adopt(&Reader::new(&self.bytes)?);
+        adopt().map_err(|reason| refuse(reason.into()))
+    }
+
+    /// Keeps a copy of the file.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn write(&self, path: &Path) -> Result<(), RunError> {
+        write_atomic(path, &self.bytes).map_err(file(path))
+    }
+}

@@ -1,0 +1,241 @@
+//! The same run with several seeds, and the spread between them.
+
+use std::{
+    fmt::Write as _,
+    path::{Path, PathBuf},
+};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    METRICS, Run, RunError,
+    config::{Schedule, Start},
+    error::file,
+    holds_checkpoints,
+    origin::Weights,
+};
+use crate::{
+    learning::{
+        learner::{Agent, Learner, Plan},
+        metrics,
+    },
+    storage::{Lock, write_atomic},
+    table::Table,
+};
+
+/// The file that makes a folder a group.
+const FILE: &str = "seeds.json";
+
+/// The spread, in the group's folder.
+const SPREAD: &str = "seeds.csv";
+
+/// The weights that all runs of the group start from, in the group's folder.
+const WEIGHTS: &str = "from.safetensors";
+
+/// What to train.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Order {
+    /// The agent's name.
+    pub agent: String,
+    /// Reward, number of shots, and the first seed.
+    #[serde(flatten)]
+    pub plan: Plan,
+    /// The agent's settings, as far as they differ from its defaults.
+    pub settings: Value,
+    /// When a run reports and is measured.
+    pub schedule: Schedule,
+    /// The table.
+    pub table: Table,
+}
+
+impl Order {
+    /// A new run with this seed.
+    ///
+    /// # Errors
+    /// Where the agent refuses, the weights do not suit, or the folder is taken.
+    pub fn start(&self, folder: &Path, seed: u64, weights: Option<&Weights>) -> Result<Run, RunError> {
+        let learner = self.beginner(seed, weights)?;
+        Run::create(folder, learner, self.schedule, weights.map(|weights| weights.start.clone()))
+    }
+
+    fn beginner(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {
+        let agent = Agent::named(&self.agent)?;
+        let mut learner = (agent.start)(Plan { seed, ..self.plan }, self.table.clone(), self.settings.clone())?;
+        if let Some(weights) = weights {
+            weights.give_to(learner.as_mut())?;
+        }
+        Ok(learner)
+    }
+}
+
+/// What `seeds.json` says.
+#[derive(Debug, Serialize, Deserialize)]
+struct Note {
+    seeds: u64,
+    from: Option<Start>,
+    #[serde(flatten)]
+    order: Order,
+}
+
+/// Runs that differ in their seed alone, in folders of one folder.
+#[derive(Debug)]
+pub struct Group {
+    folder: PathBuf,
+    note: Note,
+    weights: Option<Weights>,
+    _lock: Lock,
+}
+
+impl Group {
+    /// A new group with `seeds` seeds in `folder`, which is made where it is missing.
+    ///
+    /// # Errors
+    /// [`RunError::Occupied`] where it holds runs already, and whatever [`Order::start`] would refuse.
+    pub fn create(folder: &Path, order: Order, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
+        // What is refused is refused before anything is written.
+        order.beginner(order.plan.seed, weights.as_ref())?;
+        std::fs::create_dir_all(folder).map_err(file(folder))?;
+        let lock = super::lock(folder)?;
+        if is_group(folder) || holds_checkpoints(folder) {
+            return Err(RunError::Occupied(folder.display().to_string()));
+        }
+        if let Some(weights) = &weights {
+            weights.write(&folder.join(WEIGHTS))?;
+        }
+        let note = Note { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), order };
+        let path = folder.join(FILE);
+        let text = serde_json::to_string_pretty(&note).map_err(|error| file(&path)(error.into()))?;
+        write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))?;
+        Ok(Self { folder: folder.to_owned(), note, weights, _lock: lock })
+    }
+
+    /// The group in `folder`.
+    ///
+    /// # Errors
+    /// Where its description or its weights cannot be read, or another process works on it.
+    pub fn resume(folder: &Path) -> Result<Self, RunError> {
+        let path = folder.join(FILE);
+        let text = std::fs::read(&path).map_err(file(&path))?;
+        let note: Note = serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))?;
+        let lock = super::lock(folder)?;
+        let weights = match &note.from {
+            Some(start) => Some(Weights::load(&folder.join(WEIGHTS))?.known_as(start.clone())),
+            None => None,
+        };
+        Ok(Self { folder: folder.to_owned(), note, weights, _lock: lock })
+    }
+
+    /// The group's folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The seeds, in order.
+    pub fn seeds(&self) -> impl Iterator<Item = u64> {
+        let first = self.note.order.plan.seed;
+        (0..self.note.seeds).map(move |index| first.wrapping_add(index))
+    }
+
+    /// The run with this seed: a new one, or the one that is there as it was left, with a sentence where its last
+    /// checkpoint could not be used.
+    ///
+    /// # Errors
+    /// As [`Run::create`] and [`Run::resume`].
+    pub fn run(&self, seed: u64) -> Result<(Run, Option<String>), RunError> {
+        let folder = self.member(seed);
+        if holds_checkpoints(&folder) {
+            return Run::resume(&folder);
+        }
+        Ok((self.note.order.start(&folder, seed, self.weights.as_ref())?, None))
+    }
+
+    fn member(&self, seed: u64) -> PathBuf {
+        self.folder.join(format!("seed-{seed}"))
+    }
+
+    /// The spread between the seeds at every measurement, oldest first.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn spread(&self) -> Result<Vec<Spread>, RunError> {
+        let mut rewards = std::collections::BTreeMap::<u64, Vec<f64>>::new();
+        for seed in self.seeds() {
+            let path = self.member(seed).join(METRICS);
+            for line in metrics::read(&path).map_err(file(&path))? {
+                if let Some(reward) = line.held_out_reward {
+                    rewards.entry(line.shots).or_default().push(reward);
+                }
+            }
+        }
+        Ok(rewards.into_iter().map(|(shots, rewards)| Spread::of(shots, &rewards)).collect())
+    }
+
+    /// Writes the spread as CSV and returns its last line, if there is one.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn write_spread(&self) -> Result<Option<Spread>, RunError> {
+        let spread = self.spread()?;
+        let mut text = "shots,seeds,mean,sd,min,max\n".to_owned();
+        for Spread { shots, seeds, mean, sd, min, max } in &spread {
+            let sd = sd.map(|sd| sd.to_string()).unwrap_or_default();
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{shots},{seeds},{mean},{sd},{min},{max}");
+        }
+        let path = self.folder.join(SPREAD);
+        write_atomic(&path, text.as_bytes()).map_err(file(&path))?;
+        Ok(spread.last().copied())
+    }
+}
+
+/// Whether `folder` holds runs with several seeds.
+pub fn is_group(folder: &Path) -> bool {
+    folder.join(FILE).exists()
+}
+
+/// The mean rewards on held-out layouts that several seeds had after as many shots.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Shots played.
+    pub shots: u64,
+    /// Seeds that have come so far.
+    pub seeds: usize,
+    /// Their mean.
+    pub mean: f64,
+    /// Their sample standard deviation; one alone has none.
+    pub sd: Option<f64>,
+    /// The smallest.
+    pub min: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+impl Spread {
+    fn of(shots: u64, rewards: &[f64]) -> Self {
+        let count = rewards.len() as f64;
+        let mean = rewards.iter().sum::<f64>() / count;
+        let squares = rewards.iter().map(|reward| (reward - mean).powi(2)).sum::<f64>();
+        Self {
+            shots,
+            seeds: rewards.len(),
+            mean,
+            sd: (rewards.len() > 1).then(|| (squares / (count - 1.0)).sqrt()),
+            min: rewards.iter().copied().fold(f64::INFINITY, f64::min),
+            max: rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spread_is_that_of_a_sample() {
+        let spread = Spread::of(10, &[0.1, 0.2, 0.6]);
+        assert!((spread.mean - 0.3).abs() < 1e-15 && (spread.sd.unwrap() - 0.07f64.sqrt()).abs() < 1e-15);
+        assert_eq!((spread.seeds, spread.min, spread.max), (3, 0.1, 0.6));
+        assert_eq!(Spread::of(10, &[0.5]).sd, None);
+    }
+}

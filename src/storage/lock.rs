@@ -1,0 +1,69 @@
+//! One process at a time in a folder.
+
+use std::{
+    fs::{File, OpenOptions, TryLockError},
+    io,
+    path::Path,
+    time::Duration,
+};
+
+/// The file that is locked. It stays when the lock is gone: what counts is the system's lock on it, which ends with the
+/// process that holds it, however that ends.
+const FILE: &str = "lock";
+
+/// Attempts to take the lock, and the pause between them: whoever asks [`Lock::is_held`] holds it for an instant.
+const ATTEMPTS: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// The right to write into a folder, until it is dropped.
+#[derive(Debug)]
+pub struct Lock {
+    /// The system lets go of the lock when the file is closed.
+    _file: File,
+}
+
+impl Lock {
+    /// Takes the lock of a folder; `None` if another process has it.
+    ///
+    /// # Errors
+    /// Whatever the file system reports. One that knows no locks is taken at its word: then nothing is locked.
+    pub fn take(folder: &Path) -> io::Result<Option<Self>> {
+        let file = OpenOptions::new().create(true).truncate(false).write(true).open(folder.join(FILE))?;
+        for attempt in 0..ATTEMPTS {
+            if attempt > 0 {
+                std::thread::sleep(PAUSE);
+            }
+            match file.try_lock() {
+                Ok(()) => return Ok(Some(Self { _file: file })),
+                Err(TryLockError::WouldBlock) => {}
+                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                    return Ok(Some(Self { _file: file }));
+                }
+                Err(TryLockError::Error(error)) => return Err(error),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether a process has the lock of a folder.
+    pub fn is_held(folder: &Path) -> bool {
+        let Ok(file) = File::open(folder.join(FILE)) else { return false };
+        matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_locked_until_the_lock_is_dropped() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(!Lock::is_held(folder.path()));
+        let lock = Lock::take(folder.path()).unwrap();
+        assert!(lock.is_some() && Lock::is_held(folder.path()));
+        assert!(Lock::take(folder.path()).unwrap().is_none());
+        drop(lock);
+        assert!(!Lock::is_held(folder.path()) && Lock::take(folder.path()).unwrap().is_some());
+    }
+}
