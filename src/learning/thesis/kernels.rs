@@ -44,7 +44,8 @@ impl<'a> Rows<'a> {
 /// A layer: `x W + b` for every row x, rectified where `rectified` says so. `weights` lie row after row (inputs x
 /// outputs).
 pub(super) fn layer(x: Rows<'_>, weights: &[f32], bias: &[f32], rectified: bool, out: &mut [f32]) {
-    let finish = if rectified { Finish::Rectify(bias) } else { Finish::Add(bias) };
+    let least = if rectified { 0.0 } else { f32::NEG_INFINITY };
+    let finish = Bias { bias, least };
     run(Job { left: x, by_columns: false, right: weights, columns: bias.len(), finish, out });
 }
 
@@ -52,13 +53,13 @@ pub(super) fn layer(x: Rows<'_>, weights: &[f32], bias: &[f32], rectified: bool,
 /// `transposed` is `W^T`, row after row.
 pub(super) fn behind(errors: Rows<'_>, transposed: &[f32], inputs: &[f32], out: &mut [f32]) {
     let columns = transposed.len() / errors.columns;
-    run(Job { left: errors, by_columns: false, right: transposed, columns, finish: Finish::Mask(inputs), out });
+    run(Job { left: errors, by_columns: false, right: transposed, columns, finish: Mask(inputs), out });
 }
 
 /// The gradient of a layer's weights: `x^T d`, summed over the rows.
 pub(super) fn outer(x: Rows<'_>, errors: Rows<'_>, out: &mut [f32]) {
     assert_eq!(errors.stride, errors.columns, "rows that lie one after the other");
-    run(Job { left: x, by_columns: true, right: errors.values, columns: errors.columns, finish: Finish::Keep, out });
+    run(Job { left: x, by_columns: true, right: errors.values, columns: errors.columns, finish: Keep, out });
 }
 
 /// A layer of few outputs: for every row the dot products with the rows of `transposed` (outputs x inputs), plus
@@ -125,26 +126,90 @@ pub(super) fn transpose(values: &[f32], columns: usize, out: &mut [f32]) {
     }
 }
 
-/// What happens to a sum before it is stored.
+/// What happens to sums before they are stored: those of a tile's line, which stand in columns from `column` on and at
+/// `place` in the output. A type and not a value, so that nothing is asked in the loops.
+trait Finish: Copy {
+    fn apply<S: Simd, const WIDTH: usize, const WHOLE: bool>(
+        self,
+        simd: S,
+        sums: [S::f32s; WIDTH],
+        column: usize,
+        place: usize,
+    ) -> [S::f32s; WIDTH];
+}
+
 #[derive(Clone, Copy)]
-enum Finish<'a> {
-    Keep,
-    Add(&'a [f32]),
-    Rectify(&'a [f32]),
-    Mask(&'a [f32]),
+struct Keep;
+
+impl Finish for Keep {
+    #[inline(always)]
+    fn apply<S: Simd, const WIDTH: usize, const WHOLE: bool>(
+        self,
+        _: S,
+        sums: [S::f32s; WIDTH],
+        _: usize,
+        _: usize,
+    ) -> [S::f32s; WIDTH] {
+        sums
+    }
+}
+
+/// Adds a bias and cuts off below `least`.
+#[derive(Clone, Copy)]
+struct Bias<'a> {
+    bias: &'a [f32],
+    least: f32,
+}
+
+impl Finish for Bias<'_> {
+    #[inline(always)]
+    fn apply<S: Simd, const WIDTH: usize, const WHOLE: bool>(
+        self,
+        simd: S,
+        sums: [S::f32s; WIDTH],
+        column: usize,
+        _: usize,
+    ) -> [S::f32s; WIDTH] {
+        let (bias, least) = (load::<S, WIDTH, WHOLE>(simd, &self.bias[column..]), simd.splat_f32s(self.least));
+        std::array::from_fn(
+            #[inline(always)]
+            |index| simd.max_f32s(simd.add_f32s(sums[index], bias[index]), least),
+        )
+    }
+}
+
+/// Leaves nought where a rectified output is nought.
+#[derive(Clone, Copy)]
+struct Mask<'a>(&'a [f32]);
+
+impl Finish for Mask<'_> {
+    #[inline(always)]
+    fn apply<S: Simd, const WIDTH: usize, const WHOLE: bool>(
+        self,
+        simd: S,
+        sums: [S::f32s; WIDTH],
+        _: usize,
+        place: usize,
+    ) -> [S::f32s; WIDTH] {
+        let (outputs, nought) = (load::<S, WIDTH, WHOLE>(simd, &self.0[place..]), simd.splat_f32s(0.0));
+        std::array::from_fn(
+            #[inline(always)]
+            |index| simd.select_f32s(simd.greater_than_f32s(outputs[index], nought), sums[index], nought),
+        )
+    }
 }
 
 /// `left` (or its transposed, `by_columns`) times `right`, a matrix of `columns` columns.
-struct Job<'a> {
+struct Job<'a, F> {
     left: Rows<'a>,
     by_columns: bool,
     right: &'a [f32],
     columns: usize,
-    finish: Finish<'a>,
+    finish: F,
     out: &'a mut [f32],
 }
 
-impl Job<'_> {
+impl<F: Finish> Job<'_, F> {
     fn rows(&self) -> usize {
         if self.by_columns { self.left.columns } else { self.left.count() }
     }
@@ -154,7 +219,7 @@ impl Job<'_> {
     }
 }
 
-fn run(job: Job<'_>) {
+fn run<F: Finish>(job: Job<'_, F>) {
     assert_eq!(job.right.len(), job.inner() * job.columns, "the inner sizes of a product");
     assert_eq!(job.out.len(), job.rows() * job.columns, "the size of a product");
     if !job.out.is_empty() {
@@ -162,56 +227,60 @@ fn run(job: Job<'_>) {
     }
 }
 
-impl WithSimd for Job<'_> {
+impl<F: Finish> WithSimd for Job<'_, F> {
     type Output = ();
 
-    /// Eight sums or more at a time hide the time that a multiply-add takes; the widest tile is not the fastest, for
-    /// it loads more than it computes.
+    /// Eight sums at a time hide how long a multiply-add takes. Tiles of one vector a row beat wider ones here, from
+    /// layers of 16 to layers of 256 units: their part of the right matrix is small enough for the innermost cache.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let (rows, vectors) = (self.rows(), self.columns / S::F32_LANES);
-        match self.by_columns {
-            false if rows >= 8 && vectors < 2 => self.tiles::<S, 8, 1, false>(simd),
-            false if rows >= 4 && vectors >= 2 => self.tiles::<S, 4, 2, false>(simd),
-            false => self.tiles::<S, 1, 1, false>(simd),
-            true if rows >= 8 && vectors < 2 => self.tiles::<S, 8, 1, true>(simd),
-            true if rows >= 4 && vectors >= 2 => self.tiles::<S, 4, 2, true>(simd),
-            true if rows >= 4 => self.tiles::<S, 4, 1, true>(simd),
-            true if vectors >= 2 => self.tiles::<S, 1, 2, true>(simd),
-            true => self.tiles::<S, 1, 1, true>(simd),
+        match (self.by_columns, rows) {
+            (false, _) if vectors == 0 => self.tiles::<S, 1, 1, false, false>(simd),
+            (true, _) if vectors == 0 => self.tiles::<S, 1, 1, true, false>(simd),
+            (false, 8..) => self.tiles::<S, 8, 1, false, true>(simd),
+            (true, 8..) => self.tiles::<S, 8, 1, true, true>(simd),
+            (true, 4..) => self.tiles::<S, 4, 1, true, true>(simd),
+            (true, _) if vectors >= 2 => self.tiles::<S, 1, 2, true, true>(simd),
+            (false, _) => self.tiles::<S, 1, 1, false, true>(simd),
+            (true, _) => self.tiles::<S, 1, 1, true, true>(simd),
         }
     }
 }
 
-impl Job<'_> {
+impl<F: Finish> Job<'_, F> {
     /// The product in tiles of `ROWS` rows and `WIDTH` vectors. The last ones overlap those before, so that all are
-    /// whole; only a matrix narrower than a vector is loaded in part.
+    /// whole; only a matrix narrower than a vector is loaded in part, and then not `WHOLE`.
     #[inline(always)]
-    fn tiles<S: Simd, const ROWS: usize, const WIDTH: usize, const BY_COLUMNS: bool>(self, simd: S) {
+    fn tiles<S: Simd, const ROWS: usize, const WIDTH: usize, const BY_COLUMNS: bool, const WHOLE: bool>(self, simd: S) {
         let (rows, columns, inner) = (self.rows(), self.columns, self.inner());
         let Job { left, right, finish, out, .. } = self;
-        let width = (WIDTH * S::F32_LANES).min(columns);
+        let width = if WHOLE { WIDTH * S::F32_LANES } else { columns };
         for column in steps(columns, width) {
             for row in steps(rows, ROWS) {
                 let panel = right[column..].chunks(columns).take(inner);
                 let mut sums = [[simd.splat_f32s(0.0); WIDTH]; ROWS];
                 if BY_COLUMNS {
                     for (right, left) in panel.zip(left.values.chunks(left.stride)) {
-                        let right = load::<S, WIDTH>(simd, &right[..width]);
-                        add_products(simd, &left[row..][..ROWS], &right, &mut sums);
+                        let right = load::<S, WIDTH, WHOLE>(simd, right);
+                        let Some(left) = left[row..].first_chunk::<ROWS>() else { break };
+                        for (sums, value) in sums.iter_mut().zip(left) {
+                            add_product(simd, *value, &right, sums);
+                        }
                     }
                 } else {
                     let lines: [&[f32]; ROWS] = std::array::from_fn(|line| &left.row(row + line)[..inner]);
                     for (index, right) in panel.enumerate() {
-                        let right = load::<S, WIDTH>(simd, &right[..width]);
-                        let left: [f32; ROWS] = std::array::from_fn(|line| lines[line][index]);
-                        add_products(simd, &left, &right, &mut sums);
+                        let right = load::<S, WIDTH, WHOLE>(simd, right);
+                        for (sums, line) in sums.iter_mut().zip(&lines) {
+                            add_product(simd, line[index], &right, sums);
+                        }
                     }
                 }
                 for (line, sums) in sums.iter().enumerate() {
                     let start = (row + line) * columns + column;
-                    let values = finished(simd, *sums, finish, column..column + width, start..start + width);
-                    store(simd, values, &mut out[start..start + width]);
+                    let values = finish.apply::<S, WIDTH, WHOLE>(simd, *sums, column, start);
+                    store::<S, WIDTH, WHOLE>(simd, values, &mut out[start..start + width]);
                 }
             }
         }
@@ -224,63 +293,37 @@ fn steps(count: usize, size: usize) -> impl Iterator<Item = usize> {
 }
 
 #[inline(always)]
-fn add_products<S: Simd, const ROWS: usize, const WIDTH: usize>(
-    simd: S,
-    left: &[f32],
-    right: &[S::f32s; WIDTH],
-    sums: &mut [[S::f32s; WIDTH]; ROWS],
-) {
-    for (sums, value) in sums.iter_mut().zip(left) {
-        let value = simd.splat_f32s(*value);
-        for (sum, right) in sums.iter_mut().zip(right) {
-            *sum = simd.mul_add_e_f32s(value, *right, *sum);
-        }
+fn add_product<S: Simd, const WIDTH: usize>(simd: S, left: f32, right: &[S::f32s; WIDTH], sums: &mut [S::f32s; WIDTH]) {
+    let left = simd.splat_f32s(left);
+    for (sum, right) in sums.iter_mut().zip(right) {
+        *sum = simd.mul_add_e_f32s(left, *right, *sum);
+    }
+}
+
+/// The vectors at the beginning of `values`, or the part of one that there is.
+#[inline(always)]
+fn load<S: Simd, const WIDTH: usize, const WHOLE: bool>(simd: S, values: &[f32]) -> [S::f32s; WIDTH] {
+    if WHOLE {
+        let (vectors, _) = S::as_simd_f32s(&values[..WIDTH * S::F32_LANES]);
+        std::array::from_fn(
+            #[inline(always)]
+            |index| vectors[index],
+        )
+    } else {
+        [simd.partial_load_f32s(&values[..values.len().min(S::F32_LANES)]); WIDTH]
     }
 }
 
 #[inline(always)]
-fn load<S: Simd, const WIDTH: usize>(simd: S, values: &[f32]) -> [S::f32s; WIDTH] {
-    let (whole, part) = S::as_simd_f32s(values);
-    match whole.first_chunk::<WIDTH>() {
-        Some(vectors) => *vectors,
-        None => [simd.partial_load_f32s(part); WIDTH],
-    }
-}
-
-#[inline(always)]
-fn store<S: Simd, const WIDTH: usize>(simd: S, vectors: [S::f32s; WIDTH], to: &mut [f32]) {
-    let (whole, part) = S::as_mut_simd_f32s(to);
-    match whole.first_chunk_mut::<WIDTH>() {
-        Some(to) => *to = vectors,
-        None => simd.partial_store_f32s(part, vectors[0]),
-    }
-}
-
-/// What is stored for `sums`, which stand in `columns` of their row and at `place` in the output.
-#[inline(always)]
-fn finished<S: Simd, const WIDTH: usize>(
-    simd: S,
-    mut sums: [S::f32s; WIDTH],
-    finish: Finish<'_>,
-    columns: std::ops::Range<usize>,
-    place: std::ops::Range<usize>,
-) -> [S::f32s; WIDTH] {
-    let nought = simd.splat_f32s(0.0);
-    match finish {
-        Finish::Keep => {}
-        Finish::Add(bias) | Finish::Rectify(bias) => {
-            let least = if matches!(finish, Finish::Add(_)) { simd.splat_f32s(f32::NEG_INFINITY) } else { nought };
-            for (sum, bias) in sums.iter_mut().zip(load::<S, WIDTH>(simd, &bias[columns])) {
-                *sum = simd.max_f32s(simd.add_f32s(*sum, bias), least);
-            }
+fn store<S: Simd, const WIDTH: usize, const WHOLE: bool>(simd: S, vectors: [S::f32s; WIDTH], to: &mut [f32]) {
+    if WHOLE {
+        let (to, _) = S::as_mut_simd_f32s(&mut to[..WIDTH * S::F32_LANES]);
+        for (to, vector) in to.iter_mut().zip(vectors) {
+            *to = vector;
         }
-        Finish::Mask(inputs) => {
-            for (sum, input) in sums.iter_mut().zip(load::<S, WIDTH>(simd, &inputs[place])) {
-                *sum = simd.select_f32s(simd.greater_than_f32s(input, nought), *sum, nought);
-            }
-        }
+    } else {
+        simd.partial_store_f32s(to, vectors[0]);
     }
-    sums
 }
 
 #[cfg(test)]
