@@ -15,7 +15,9 @@ const FRAME: [f64; 4] = [64.0, 40.0, 620.0, 300.0];
 /// The figure with its curves, one for every reading, beside the reward of random play and what the thesis says.
 pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> String {
     let [left, top, right, bottom] = FRAME;
-    let values = || curves.iter().flat_map(|curve| &curve.points).map(|point| point.of(figure.measure));
+    // A training that broke down leaves values without bounds: its curve may leave the frame.
+    let sound = || curves.iter().filter(|curve| curve.broke_down.is_none());
+    let values = || sound().flat_map(|curve| &curve.points).map(|point| point.of(figure.measure));
     let most_shots = curves.iter().flat_map(|curve| &curve.points).map(|point| point.shots).max().unwrap_or(1) as f64;
     let highest = values().chain(figure.thesis).chain(random).fold(0.0, f64::max);
     let lowest = values().fold(0.0, f64::min);
@@ -28,11 +30,14 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> Strin
     let mut svg = format!(
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" role="img" font-family="{FONTS}" font-size="13" fill="{INK}">
 <title>{title}: {label} over the shots played</title>
+<clipPath id="frame"><rect x="{left}" y="{top}" width="{frame_width}" height="{frame_height}"/></clipPath>
 <rect width="{width}" height="{height}" rx="10" fill="#ffffff"/>
 <text x="{middle}" y="26" text-anchor="middle" font-weight="600">{title}</text>
 "##,
         title = escaped(figure.title),
         label = figure.measure.label(),
+        frame_width = right - left,
+        frame_height = bottom - top,
         middle = 0.5 * (left + right),
     );
     // Writing to a string cannot fail.
@@ -65,16 +70,21 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> Strin
             legend.push((color, " stroke-dasharray=\"6 4\"", format!("{name}: {}", short(value, y_step / 10.0))));
         }
     }
-    for (reading, curve) in READINGS.iter().zip(curves) {
+    for (index, (reading, curve)) in READINGS.iter().zip(curves).enumerate() {
         let mut path = String::new();
         for point in &curve.points {
             let letter = if path.is_empty() { 'M' } else { 'L' };
-            let _ = write!(path, "{letter}{:.1} {:.1}", x(point.shots as f64), y(point.of(figure.measure)));
+            // Far outside the frame it does not matter where; some viewers choke on large numbers.
+            let at = y(point.of(figure.measure)).clamp(-9_999.0, 9_999.0);
+            let _ = write!(path, "{letter}{:.1} {at:.1}", x(point.shots as f64));
         }
         let color = reading.color;
-        let _ = writeln!(svg, r#"<path d="{path}" fill="none" stroke="{color}" stroke-width="2"/>"#);
+        let _ = writeln!(
+            svg,
+            r#"<path d="{path}" fill="none" stroke="{color}" stroke-width="2" clip-path="url(#frame)"/>"#
+        );
         let ending = if curve.broke_down.is_some() { " (broke down)" } else { "" };
-        legend.insert(0, (color, " stroke-width=\"2\"", format!("{}{ending}", reading.name)));
+        legend.insert(index, (color, " stroke-width=\"2\"", format!("{}{ending}", reading.name)));
     }
     let _ = writeln!(
         svg,
