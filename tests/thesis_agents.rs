@@ -37,9 +37,9 @@ impl Environment for Detour {
     fn observe(&self) -> Observation {
         let first = u32::from(self.goal > 0.0);
         match self.closeness {
-            None => Observation { state: [2.0 * self.goal, 0.0, -1.0, 0.0, 0.0, 0.0], cell: first },
+            None => Observation { state: [2.0 * self.goal, 0.0, -1.0, 0.0, 0.0, 0.0], cell: 40 + first },
             Some(near) => {
-                Observation { state: [2.0 * self.goal, near, 1.0, 0.0, 0.0, 0.0], cell: 2 + (20.0 * near) as u32 }
+                Observation { state: [2.0 * self.goal, near, 1.0, 0.0, 0.0, 0.0], cell: (20.0 * near) as u32 }
             }
         }
     }
