@@ -85,7 +85,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if stop.load(Ordering::Relaxed) {
         let all = session.figures.len();
         return Err(Failure::failed(format_args!(
-            "stopped after {done} of {all} figures; those are in {}",
+            "stopped with {done} of {all} figures complete, in {}",
             args.out.display()
         )));
     }
