@@ -7,6 +7,7 @@ mod failure;
 mod input;
 mod output;
 mod recommend;
+mod reproduce;
 mod simulate;
 mod train;
 
@@ -33,6 +34,7 @@ enum Command {
     Evaluate(evaluate::Args),
     Accuracy(accuracy::Args),
     Bench(bench::Args),
+    Reproduce(reproduce::Args),
 }
 
 impl Cli {
@@ -49,6 +51,7 @@ impl Cli {
             Some(Command::Evaluate(args)) => evaluate::run(&args),
             Some(Command::Accuracy(args)) => accuracy::run(&args),
             Some(Command::Bench(args)) => bench::run(&args),
+            Some(Command::Reproduce(args)) => reproduce::run(&args),
         }
     }
 }

@@ -31,6 +31,7 @@ pub mod scenes;
 pub mod snapshot;
 mod stroke;
 mod tensors;
+pub mod thesis;
 pub mod trainer;
 pub mod view;
 pub mod weights;

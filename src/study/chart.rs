@@ -2,13 +2,16 @@
 
 use std::{fmt::Write, ops::RangeInclusive};
 
-const FONTS: &str = "system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif";
+/// Fonts of every picture.
+pub const FONTS: &str = "system-ui,'Segoe UI',Helvetica,Arial,'DejaVu Sans',sans-serif";
 /// Room beside a panel for its labels: left, right, top, bottom.
 const MARGINS: [f64; 4] = [66.0, 18.0, 34.0, 52.0];
 /// Height of a row of the legend.
 const LEGEND_ROW: f64 = 22.0;
-const INK: &str = "#24292f";
-const GRID: &str = "#e3e6ea";
+/// Colour of text.
+pub const INK: &str = "#24292f";
+/// Colour of the lines behind the curves.
+pub const GRID: &str = "#e3e6ea";
 
 /// How a point is marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -290,7 +293,8 @@ fn shape(mark: Mark, x: f64, y: f64) -> String {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// `text` as it stands in SVG.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 

@@ -10,6 +10,7 @@ mod plots;
 mod precision;
 mod reference_check;
 mod report;
+pub mod reproduction;
 mod shots;
 pub mod stability;
 mod statistics;

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::{
     evaluation::Score,
+    thesis::learner as thesis,
     weights::{Reader, WeightsError, Writer},
 };
 use crate::{
@@ -17,7 +18,7 @@ use crate::{
 };
 
 /// The agents that can be trained. To add one: implement [`Learner`] and add its line here.
-pub const AGENTS: [Agent; 1] = [ddpg::AGENT];
+pub const AGENTS: [Agent; 4] = [ddpg::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
 
 /// Makes a beginner.
 pub type Start = fn(Plan, Table, Value) -> Result<Box<dyn Learner>, StartError>;

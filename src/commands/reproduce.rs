@@ -1,0 +1,122 @@
+//! `carom reproduce`: the thesis' learning curves.
+
+use std::{
+    io::{self, IsTerminal, Write},
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    flag,
+};
+
+use super::{Failure, input::table_named};
+use crate::{
+    storage::write_atomic,
+    study::reproduction::{Drawn, FIGURES, Figure, Measure, Session, SessionError, csv, picture, summary},
+};
+
+/// Train the thesis' agents again and draw its learning curves: figures 21 to 25 and 28 to 30, Q-learning, and DDPG with
+/// r2. Each is drawn for three readings of the word "episode": one shot, 20 shots, or until a miss.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Only this figure: q-learning, 21, 22, 23, 24, 25, 28, r2, 29 or 30. May be given several times.
+    #[arg(long = "figure", value_name = "NAME")]
+    figures: Vec<String>,
+    /// Shots of every training. Default: 50,000 for q-learning, 200,000 to 400,000 for the others
+    #[arg(long, value_name = "SHOTS", value_parser = clap::value_parser!(u64).range(1..))]
+    episodes: Option<u64>,
+    /// Seed of everything random: the same seed gives the same curves.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The table: "match", "thesis" or the path of a TOML file.
+    #[arg(long, default_value = "thesis")]
+    table: String,
+    /// Trainings at a time. The curves do not depend on it. Default: one on each processor
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Folder for a CSV and an SVG file of each figure.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let named = args.figures.iter().map(|name| Figure::named(name).map_err(Failure::wrong_input));
+    let mut figures: Vec<Figure> = named.collect::<Result<_, _>>()?;
+    if figures.is_empty() {
+        figures = FIGURES.to_vec();
+    }
+    let processors = || thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let session = Session {
+        figures,
+        shots: args.episodes,
+        seed: args.seed,
+        threads: args.jobs.map_or_else(processors, usize::from),
+        table: table_named(&args.table)?,
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        // The second signal ends the program at once.
+        flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
+        flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
+    }
+    let bar = progress(session.shots());
+    let mut done = 0;
+    let played = |shots| {
+        bar.inc(shots);
+        !stop.load(Ordering::Relaxed)
+    };
+    let mut hand_over = |drawn: &Drawn| {
+        done += 1;
+        bar.suspend(|| write(args, drawn))
+    };
+    let result = session.run(&played, &mut hand_over);
+    bar.finish_and_clear();
+    result.map_err(|error| match error {
+        SessionError::Start(error) => Failure::failed(error),
+        SessionError::Output(error) => Failure::failed(format_args!("{}: {error}", args.out.display())),
+    })?;
+    if stop.load(Ordering::Relaxed) {
+        let all = session.figures.len();
+        return Err(Failure::failed(format_args!(
+            "stopped with {done} of {all} figures complete, in {}",
+            args.out.display()
+        )));
+    }
+    Ok(())
+}
+
+/// Writes a figure's files and says where its curves ended.
+fn write(args: &Args, drawn: &Drawn) -> io::Result<()> {
+    let curves: Vec<_> = drawn.curves.iter().collect();
+    let name = drawn.figure.file_name();
+    // Random play earns a reward; it has no Q and no loss.
+    let random = (drawn.figure.measure == Measure::MeanReward).then_some(drawn.random);
+    write_atomic(&args.out.join(format!("{name}.csv")), csv(drawn).as_bytes())?;
+    write_atomic(&args.out.join(format!("{name}.svg")), picture(&drawn.figure, &curves, random).as_bytes())?;
+    let mut out = io::stdout().lock();
+    for line in summary(drawn) {
+        // A reader that has gone away must not end the training.
+        let _ = writeln!(out, "{line}");
+    }
+    Ok(())
+}
+
+fn progress(shots: u64) -> ProgressBar {
+    if !io::stderr().is_terminal() {
+        eprintln!("training for {shots} shots");
+        return ProgressBar::hidden();
+    }
+    let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left";
+    let bar = ProgressBar::new(shots);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,196 @@
+//! What the thesis' agents have in common, and the loop in which they play and learn.
+
+use candle_core::Error;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde_json::Value;
+
+use super::{
+    carom::Episode,
+    environment::{Action, Environment, Observation},
+};
+use crate::learning::weights::{Reader, WeightsError, Writer};
+
+/// What an agent does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Choice {
+    /// The action.
+    pub action: Action,
+    /// Its number, for agents with discrete actions.
+    pub index: u32,
+}
+
+/// One shot as an agent learns from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Experience {
+    /// What was seen.
+    pub before: Observation,
+    /// What was done.
+    pub choice: Choice,
+    /// What it earned.
+    pub reward: f64,
+    /// Whether the episode goes on.
+    pub goes_on: bool,
+    /// What is seen now.
+    pub after: Observation,
+}
+
+/// What an update saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Learnt {
+    /// Mean squared error of the values against their targets.
+    pub loss: f64,
+    /// Mean value of the agent's own choices.
+    pub value: f64,
+}
+
+/// A setting outside its range.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("{name} = {value} is outside its range; accepted is {accepted}")]
+pub struct SettingError {
+    name: &'static str,
+    value: f64,
+    accepted: &'static str,
+}
+
+/// Fails where `accept` is false.
+pub(super) fn check(name: &'static str, value: f64, accept: bool, accepted: &'static str) -> Result<(), SettingError> {
+    if accept { Ok(()) } else { Err(SettingError { name, value, accepted }) }
+}
+
+/// Checks that a share is one.
+pub(super) fn check_share(name: &'static str, value: f64) -> Result<(), SettingError> {
+    check(name, value, (0.0..=1.0).contains(&value), "0 to 1")
+}
+
+/// Checks a number that must be positive.
+pub(super) fn check_positive(name: &'static str, value: f64) -> Result<(), SettingError> {
+    check(name, value, value > 0.0 && value <= 1e3, "above 0 and at most 1000")
+}
+
+/// Checks a count.
+pub(super) fn check_count(name: &'static str, value: usize) -> Result<(), SettingError> {
+    check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216")
+}
+
+/// Checks hidden layers.
+pub(super) fn check_layers(name: &'static str, layers: &[usize]) -> Result<(), SettingError> {
+    check(name, layers.len() as f64, (1..=16).contains(&layers.len()), "1 to 16 layers")?;
+    let check_units = |units: &usize| check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer");
+    layers.iter().try_for_each(check_units)
+}
+
+/// An agent's settings.
+pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeOwned + Send {
+    /// When an episode is over.
+    fn episode(&self) -> Episode;
+
+    /// Learning rate.
+    fn learning_rate(&self) -> f64;
+
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// The first one that is outside its range.
+    fn validate(&self) -> Result<(), SettingError>;
+}
+
+/// One of the thesis' agents.
+pub trait Agent: std::fmt::Debug + Send + Sized {
+    /// Name on the command line and in files.
+    const NAME: &'static str;
+
+    /// What it is, in one line for people.
+    const TITLE: &'static str;
+
+    /// Its settings.
+    type Settings: Settings;
+
+    /// A beginner.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    fn new(settings: Self::Settings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error>;
+
+    /// Its settings.
+    fn settings(&self) -> &Self::Settings;
+
+    /// Updates made so far.
+    fn updates(&self) -> u64;
+
+    /// What it does while it learns.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error>;
+
+    /// What it thinks best.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    fn best(&self, seen: &Observation) -> Result<Choice, Error>;
+
+    /// Remembers a shot and learns from those that it remembers; nothing as long as these are too few.
+    ///
+    /// # Errors
+    /// Where the networks no longer give finite numbers.
+    fn learn(&mut self, experience: &Experience, rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error>;
+
+    /// Adds the arrays of its state to a file and returns everything else.
+    ///
+    /// # Errors
+    /// Whatever candle or serde reports.
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
+
+    /// The agent whose [`Agent::save`] filled the file and returned `note`.
+    ///
+    /// # Errors
+    /// Where they do not fit the settings.
+    fn restore(settings: Self::Settings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError>;
+
+    /// Takes what it plays by, and nothing else, from such a file.
+    ///
+    /// # Errors
+    /// Where the file has none that fits.
+    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError>;
+}
+
+/// What one shot brought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Played {
+    /// Its reward.
+    pub reward: f64,
+    /// What was learnt after it.
+    pub learnt: Option<Learnt>,
+}
+
+/// Where an agent and its environment are in their episodes.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Progress {
+    /// Whether an episode is going on.
+    running: bool,
+}
+
+impl Progress {
+    /// Plays a shot and learns (Algorithms 2 to 4), beginning an episode where none is going on.
+    ///
+    /// # Errors
+    /// Where the networks no longer give finite numbers.
+    pub fn shoot<A: Agent>(
+        &mut self,
+        agent: &mut A,
+        environment: &mut impl Environment,
+        rng: &mut Xoshiro256PlusPlus,
+    ) -> Result<Played, Error> {
+        if !self.running {
+            environment.begin(rng);
+        }
+        let before = environment.observe();
+        let choice = agent.explore(&before, rng)?;
+        let outcome = environment.act(choice.action);
+        let (reward, goes_on, after) = (outcome.reward, !outcome.over, environment.observe());
+        self.running = goes_on;
+        let learnt = agent.learn(&Experience { before, choice, reward, goes_on, after }, rng)?;
+        Ok(Played { reward, learnt })
+    }
+}

@@ -1,0 +1,195 @@
+//! The game as the thesis' agents play it: raw positions in, direction and speed out, a reward for every shot.
+
+use std::ops::ControlFlow;
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+
+use super::environment::{Action, Environment, Observation, Outcome, direction_and_speed};
+use crate::{
+    game::{Reward, Tally},
+    physics::{CueInputs, strike},
+    simulation::{Event, Observer, simulate},
+    table::{Layout, Table},
+};
+
+/// When an episode is over. The thesis does not say; its mean rewards, below the most that one shot earns, and its
+/// discount factor of 0.99 speak for one reading each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Episode {
+    /// After one shot: every shot is played on a fresh layout.
+    #[default]
+    OneShot,
+    /// After so many shots, each played from where the balls have stopped.
+    Shots(u32),
+    /// After a miss, or after so many shots, each played from where the balls have stopped.
+    UntilMiss(u32),
+}
+
+/// Rows and columns of the squares in which a table has states (4.2.2).
+const SQUARES: [u32; 2] = [6, 12];
+
+/// A game of carom.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Carom {
+    table: Table,
+    reward: Reward,
+    episode: Episode,
+    layout: Layout,
+    /// Shots played in this episode.
+    shots: u32,
+}
+
+impl Carom {
+    /// A game on `table`.
+    pub fn new(table: Table, reward: Reward, episode: Episode) -> Self {
+        Self { layout: Layout::opening(&table), table, reward, episode, shots: 0 }
+    }
+
+    /// The table.
+    pub const fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// What is rewarded.
+    pub const fn reward(&self) -> Reward {
+        self.reward
+    }
+
+    /// What an agent sees of a layout.
+    pub fn observation(&self, layout: &Layout) -> Observation {
+        let reach = self.table.reach();
+        let (mut state, mut cell) = ([0.0; 6], 0);
+        for (place, ball) in state.chunks_exact_mut(2).zip(layout.balls) {
+            place[0] = (ball.x / reach.x) as f32;
+            place[1] = (ball.y / reach.y) as f32;
+            // The square whose centre is nearest is the one that the ball's centre lies in.
+            let square = |part: f64, count: u32| ((0.5 * (part + 1.0) * f64::from(count)) as u32).min(count - 1);
+            let row = square(ball.y / self.table.half_width(), SQUARES[0]);
+            let column = square(ball.x / self.table.half_length(), SQUARES[1]);
+            cell = (cell * SQUARES[0] + row) * SQUARES[1] + column;
+        }
+        Observation { state, cell }
+    }
+
+    /// The reward of `action` on a layout, by itself.
+    pub fn reward_of(&self, layout: &Layout, action: Action) -> f64 {
+        self.reward.of(&self.table, layout, &cue_inputs(action))
+    }
+
+    /// Plays on from where the balls are; returns the reward and whether the shot was a miss.
+    fn go_on(&mut self, action: Action) -> (f64, bool) {
+        let mut watcher = Watcher::default();
+        let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut watcher);
+        let tally = watcher.tally;
+        self.layout = end.layout();
+        let hit = match self.reward {
+            Reward::R1 | Reward::R1Difficulty | Reward::R2 => tally.met_any(),
+            Reward::R3 | Reward::R4 => tally.met_both(),
+            point => point.value(&self.table, &tally, &self.layout) >= point.highest(),
+        };
+        (self.reward.value(&self.table, &tally, &self.layout), !hit)
+    }
+}
+
+impl Environment for Carom {
+    fn begin(&mut self, rng: &mut Xoshiro256PlusPlus) {
+        self.layout = Layout::random(&self.table, rng);
+        self.shots = 0;
+    }
+
+    fn observe(&self) -> Observation {
+        self.observation(&self.layout)
+    }
+
+    fn act(&mut self, action: Action) -> Outcome {
+        self.shots += 1;
+        match self.episode {
+            // Nothing follows, so the shot need not be played to its end.
+            Episode::OneShot => Outcome { reward: self.reward_of(&self.layout, action), over: true },
+            Episode::Shots(most) => Outcome { reward: self.go_on(action).0, over: self.shots >= most },
+            Episode::UntilMiss(most) => {
+                let (reward, missed) = self.go_on(action);
+                Outcome { reward, over: missed || self.shots >= most }
+            }
+        }
+    }
+}
+
+/// A shot without spin (4.1.3).
+fn cue_inputs(action: Action) -> CueInputs {
+    let [phi, speed] = direction_and_speed(action);
+    CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed }
+}
+
+/// Counts what the cue ball does until all balls stand still.
+#[derive(Default)]
+struct Watcher {
+    tally: Tally,
+}
+
+impl Observer for Watcher {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.tally.note(&event);
+        ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+    use rand::SeedableRng;
+
+    fn thesis() -> Table {
+        Table::preset("thesis").unwrap()
+    }
+
+    #[test]
+    fn squares_number_the_373_248_states_of_the_thesis() {
+        let game = Carom::new(thesis(), Reward::R1, Episode::OneShot);
+        let reach = game.table.reach();
+        assert_eq!(game.observation(&Layout::new([-reach; 3])).cell, 0);
+        let last = game.observation(&Layout::new([reach; 3]));
+        assert_eq!(last.cell, 373_247);
+        assert_eq!(last.state, [1.0; 6]);
+        let moved = Layout::new([reach, reach, reach - DVec2::new(game.table.length / 12.0, 0.0)]);
+        assert_eq!(game.observation(&moved).cell, 373_246);
+    }
+
+    #[test]
+    fn a_game_goes_on_where_the_balls_have_stopped_until_the_episode_is_over() {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+        let mut game = Carom::new(thesis(), Reward::R1, Episode::Shots(2));
+        game.layout = Layout::opening(&game.table);
+        let before = game.observe();
+        // Straight along the table at the red ball.
+        assert_eq!(game.act([0.0, 1.0]), Outcome { reward: 1.0, over: false });
+        assert_ne!(game.observe(), before);
+        assert!(game.act([0.0, 1.0]).over);
+        game.begin(&mut rng);
+        assert_eq!(game.shots, 0);
+
+        let mut game = Carom::new(thesis(), Reward::R1, Episode::UntilMiss(9));
+        game.layout = Layout::opening(&game.table);
+        assert!(!game.act([0.0, 1.0]).over);
+        game.layout = Layout::opening(&game.table);
+        assert_eq!(game.act([1.0, -1.0]), Outcome { reward: 0.0, over: true });
+    }
+
+    #[test]
+    fn one_shot_by_itself_earns_what_it_earns_in_a_game() {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+        for reward in Reward::ALL {
+            let mut alone = Carom::new(thesis(), reward, Episode::OneShot);
+            let mut game = Carom::new(thesis(), reward, Episode::Shots(1));
+            for index in 0..50u8 {
+                alone.begin(&mut rng);
+                game.layout = alone.layout;
+                let action = [f32::from(index) / 25.0 - 1.0, 0.7];
+                assert_eq!(alone.act(action).reward, game.act(action).reward, "{reward}");
+            }
+        }
+    }
+}

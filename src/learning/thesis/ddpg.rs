@@ -1,0 +1,242 @@
+//! The thesis' deep deterministic policy gradient (Algorithm 4, Table 4) with the networks of its reference 20, the
+//! example that comes with keras-rl.
+
+use std::cell::RefCell;
+
+use candle_core::Error;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    actor_critic::ActorCritic,
+    agent::{
+        Agent, Choice, Experience, Learnt, SettingError, Settings, check, check_count, check_layers, check_positive,
+        check_share,
+    },
+    carom::Episode,
+    environment::{ACTIONS, Action, Observation, STATES},
+    exploration::OrnsteinUhlenbeck,
+    memory::{Memory, Transition},
+    pass::Pass,
+    q_learning::check_episode,
+    update::{Batch, Rates, Sizes},
+};
+use crate::learning::{
+    learner::note_of,
+    weights::{Reader, WeightsError, Writer},
+};
+
+/// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlainDdpgSettings {
+    /// When an episode is over.
+    pub episode: Episode,
+    /// Units of the actor's hidden layers; its output is linear.
+    pub actor_layers: Vec<usize>,
+    /// Units of the critic's hidden layers; it sees state and action together.
+    pub critic_layers: Vec<usize>,
+    /// Adam's learning rate.
+    pub learning_rate: f64,
+    /// Part k of the target networks that a soft update keeps (equation 59).
+    pub keep: f64,
+    /// Longest gradient that is not shortened.
+    pub gradient_clip: f64,
+    /// Transitions remembered.
+    pub memory: usize,
+    /// What a reward one shot later is worth now.
+    pub discount: f64,
+    /// Transitions an update learns from.
+    pub batch: usize,
+    /// Shots before the first update.
+    pub warm_up: usize,
+    /// Noise on the actions.
+    pub noise: OrnsteinUhlenbeck,
+    /// Whether the noise begins at nought with every episode, as in keras-rl. With one shot an episode that leaves
+    /// white noise of a standard deviation of `sigma sqrt(dt)`.
+    pub noise_restarts: bool,
+}
+
+impl Default for PlainDdpgSettings {
+    fn default() -> Self {
+        Self {
+            episode: Episode::default(),
+            actor_layers: vec![16; 3],
+            critic_layers: vec![32; 3],
+            learning_rate: 1e-3,
+            keep: 0.999,
+            gradient_clip: 1.0,
+            memory: 50_000,
+            discount: 0.99,
+            batch: 32,
+            warm_up: 100,
+            noise: OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 0.01 },
+            noise_restarts: true,
+        }
+    }
+}
+
+impl Settings for PlainDdpgSettings {
+    fn episode(&self) -> Episode {
+        self.episode
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.learning_rate
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        check_episode(self.episode)?;
+        check_layers("actor_layers", &self.actor_layers)?;
+        check_layers("critic_layers", &self.critic_layers)?;
+        check_positive("learning_rate", self.learning_rate)?;
+        check_share("keep", self.keep)?;
+        check_positive("gradient_clip", self.gradient_clip)?;
+        check_count("memory", self.memory)?;
+        check_share("discount", self.discount)?;
+        check_count("batch", self.batch)?;
+        check_share("noise.dt", self.noise.dt)?;
+        let kept = self.noise.theta * self.noise.dt;
+        check("noise.theta", self.noise.theta, (0.0..2.0).contains(&kept), "0 to 2 / dt")?;
+        check("noise.sigma", self.noise.sigma, (0.0..=1e3).contains(&self.noise.sigma), "0 to 1000")
+    }
+}
+
+impl PlainDdpgSettings {
+    fn sizes(&self) -> Sizes {
+        Sizes::new(STATES, ACTIONS, &self.actor_layers, &self.critic_layers)
+    }
+
+    fn rates(&self) -> Rates {
+        let Self { learning_rate, discount, keep, gradient_clip, .. } = *self;
+        Rates { learning_rate, discount, keep, gradient_clip }
+    }
+}
+
+/// The agent.
+#[derive(Debug)]
+pub struct PlainDdpg {
+    settings: PlainDdpgSettings,
+    networks: ActorCritic,
+    memory: Memory,
+    noise: Action,
+    shots: u64,
+    batch: Batch,
+    /// For acting in one state at a time.
+    single: RefCell<Pass>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Note {
+    shots: u64,
+    updates: u32,
+    next: usize,
+    noise: Action,
+}
+
+impl PlainDdpg {
+    fn with(settings: PlainDdpgSettings, networks: ActorCritic, memory: Memory, noise: Action, shots: u64) -> Self {
+        let batch = Batch::new(networks.sizes(), settings.batch);
+        let single = RefCell::new(Pass::new(&networks.sizes().actor, 1));
+        Self { settings, networks, memory, noise, shots, batch, single }
+    }
+
+    fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<Learnt, Error> {
+        let Batch { inputs, rewards, goes_on, next_inputs } = &mut self.batch;
+        let rows = inputs.as_chunks_mut::<{ STATES + ACTIONS }>().0.iter_mut();
+        let rows = rows.zip(next_inputs.as_chunks_mut::<{ STATES + ACTIONS }>().0).zip(rewards).zip(goes_on);
+        for (((input, next), reward), goes_on) in rows {
+            if let Some(drawn) = self.memory.draw(rng) {
+                input[..STATES].copy_from_slice(&drawn.state);
+                input[STATES..].copy_from_slice(&drawn.action);
+                next[..STATES].copy_from_slice(&drawn.next);
+                *reward = drawn.reward;
+                *goes_on = f32::from(u8::from(drawn.goes_on));
+            }
+        }
+        let seen = self.networks.update(&mut self.batch)?;
+        Ok(Learnt { loss: seen.loss, value: seen.value })
+    }
+}
+
+impl Agent for PlainDdpg {
+    const NAME: &'static str = "thesis-ddpg";
+    const TITLE: &'static str = "the thesis' deep deterministic policy gradient";
+    type Settings = PlainDdpgSettings;
+
+    fn new(settings: PlainDdpgSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
+        let networks = ActorCritic::random(settings.sizes(), settings.rates(), settings.batch, rng)?;
+        let memory = Memory::new(settings.memory);
+        Ok(Self::with(settings, networks, memory, Action::default(), 0))
+    }
+
+    fn settings(&self) -> &PlainDdpgSettings {
+        &self.settings
+    }
+
+    fn updates(&self) -> u64 {
+        u64::from(self.networks.updates())
+    }
+
+    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+        self.noise = self.settings.noise.step(self.noise, rng);
+        let mut choice = self.best(seen)?;
+        for (value, noise) in choice.action.iter_mut().zip(self.noise) {
+            *value += noise;
+        }
+        Ok(choice)
+    }
+
+    fn best(&self, seen: &Observation) -> Result<Choice, Error> {
+        let mut choice = Choice::default();
+        self.networks.act(&mut self.single.borrow_mut(), &seen.state, &mut choice.action)?;
+        Ok(choice)
+    }
+
+    fn learn(&mut self, experience: &Experience, rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error> {
+        self.memory.push(Transition::of(experience));
+        if self.settings.noise_restarts && !experience.goes_on {
+            self.noise = Action::default();
+        }
+        self.shots += 1;
+        if self.shots <= self.settings.warm_up as u64 { Ok(None) } else { self.update(rng).map(Some) }
+    }
+
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
+        let values = self.networks.values()?;
+        writer.add("networks", &[values.len()], &values);
+        let Self { shots, noise, .. } = *self;
+        note_of(&Note { shots, noise, updates: self.networks.updates(), next: self.memory.save(writer) })
+    }
+
+    fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
+        let Note { shots, updates, next, noise } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let (sizes, rates) = (settings.sizes(), settings.rates());
+        let networks = ActorCritic::from_values(sizes, rates, settings.batch, values(&settings, reader)?, updates)?;
+        let memory = Memory::restore(settings.memory, reader, next)?;
+        Ok(Self::with(settings, networks, memory, noise, shots))
+    }
+
+    /// The learning networks become both the learning ones and the targets; the optimisers begin anew.
+    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
+        let mut values = values(&self.settings, reader)?;
+        let (sizes, rates) = (self.settings.sizes(), self.settings.rates());
+        values.truncate(sizes.parameters().iter().sum());
+        values.extend_from_within(..);
+        values.resize(sizes.values(), 0.0);
+        self.networks = ActorCritic::from_values(sizes, rates, self.settings.batch, values, 0)?;
+        Ok(())
+    }
+}
+
+/// The networks' values in a file, as many as the settings want.
+fn values(settings: &PlainDdpgSettings, reader: &Reader<'_>) -> Result<Vec<f32>, WeightsError> {
+    let (_, values) = reader.array("networks")?;
+    let expected = settings.sizes().values();
+    if values.len() == expected {
+        return Ok(values);
+    }
+    let expected = format!("{expected} values, as networks of sizes {:?} have", settings.sizes());
+    Err(WeightsError::Array { name: "networks".to_owned(), expected })
+}

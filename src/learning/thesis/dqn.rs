@@ -1,0 +1,260 @@
+//! Deep Q-learning (thesis Algorithm 3, Tables 2 and 3).
+
+use candle_core::{Device, Error, Tensor, bail};
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    actor_critic::glorot,
+    agent::{
+        Agent, Choice, Experience, Learnt, SettingError, Settings, check_count, check_layers, check_positive,
+        check_share,
+    },
+    carom::Episode,
+    environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
+    exploration::Epsilon,
+    memory::{Memory, Transition},
+    q_learning::{check_episode, check_epsilon},
+};
+use crate::learning::{
+    adam::Adam,
+    learner::note_of,
+    mlp::Mlp,
+    pass::Wanted,
+    weights::{Reader, WeightsError, Writer},
+};
+
+/// Settings of [`Dqn`]: Tables 2 and 3; the thesis says nothing on epsilon.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DqnSettings {
+    /// When an episode is over.
+    pub episode: Episode,
+    /// Units of the hidden layers.
+    pub layers: Vec<usize>,
+    /// Adam's learning rate.
+    pub learning_rate: f64,
+    /// Updates between two copies to the target network.
+    pub target_every: u32,
+    /// Transitions remembered.
+    pub memory: usize,
+    /// What a reward one shot later is worth now.
+    pub discount: f64,
+    /// Transitions an update learns from.
+    pub batch: usize,
+    /// Shots before the first update.
+    pub warm_up: usize,
+    /// The probability of a random action.
+    pub epsilon: Epsilon,
+}
+
+impl Default for DqnSettings {
+    fn default() -> Self {
+        Self {
+            episode: Episode::default(),
+            layers: vec![16; 3],
+            learning_rate: 1e-3,
+            target_every: 10_000,
+            memory: 50_000,
+            discount: 0.99,
+            batch: 32,
+            warm_up: 100,
+            epsilon: Epsilon { first: 1.0, last: 0.1, over: 100_000 },
+        }
+    }
+}
+
+impl Settings for DqnSettings {
+    fn episode(&self) -> Episode {
+        self.episode
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.learning_rate
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        check_episode(self.episode)?;
+        check_layers("layers", &self.layers)?;
+        check_positive("learning_rate", self.learning_rate)?;
+        check_count("target_every", self.target_every as usize)?;
+        check_count("memory", self.memory)?;
+        check_share("discount", self.discount)?;
+        check_count("batch", self.batch)?;
+        check_epsilon(&self.epsilon)
+    }
+}
+
+/// The agent.
+#[derive(Debug)]
+pub struct Dqn {
+    settings: DqnSettings,
+    online: Mlp,
+    target: Mlp,
+    optimiser: Adam,
+    memory: Memory,
+    shots: u64,
+    updates: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Note {
+    shots: u64,
+    updates: u32,
+    next: usize,
+}
+
+impl DqnSettings {
+    fn sizes(&self) -> Vec<usize> {
+        [&[STATES], self.layers.as_slice(), &[DISCRETE_ACTIONS as usize]].concat()
+    }
+}
+
+/// Place and value of the largest number.
+fn largest(values: &[f32]) -> (usize, f32) {
+    values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+}
+
+impl Dqn {
+    /// Learns from a batch that is drawn from the memory.
+    fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<Learnt, Error> {
+        let (rows, actions) = (self.settings.batch, DISCRETE_ACTIONS as usize);
+        let drawn: Vec<&Transition> = (0..rows).filter_map(|_| self.memory.draw(rng)).collect();
+        let states = |of: fn(&Transition) -> [f32; STATES]| {
+            let values: Vec<f32> = drawn.iter().flat_map(|transition| of(transition)).collect();
+            Tensor::from_vec(values, (drawn.len(), STATES), &Device::Cpu)
+        };
+        // The target network is not asked where every episode of the batch was over.
+        let next: Vec<f32> = if drawn.iter().any(|transition| transition.goes_on) {
+            let values =
+                self.target.forward_frozen(&states(|transition| transition.next)?)?.flatten_all()?.to_vec1()?;
+            values.chunks_exact(actions).map(|row: &[f32]| largest(row).1).collect()
+        } else {
+            vec![0.0; rows]
+        };
+        let judged = self.online.record(&states(|transition| transition.state)?, Wanted::Parameters)?;
+        let values: Vec<f32> = judged.outputs().flatten_all()?.to_vec1()?;
+        let mut errors = vec![0.0; values.len()];
+        let (mut loss, mut value) = (0.0, 0.0);
+        for (((row, errors), transition), next) in
+            values.chunks_exact(actions).zip(errors.chunks_exact_mut(actions)).zip(&drawn).zip(next)
+        {
+            let next = if transition.goes_on { self.settings.discount as f32 * next } else { 0.0 };
+            let index = transition.index as usize;
+            let error = row[index] - (transition.reward + next);
+            errors[index] = 2.0 * error / rows as f32;
+            loss += f64::from(error * error) / rows as f64;
+            value += f64::from(largest(row).1) / rows as f64;
+        }
+        let (_, gradient) = judged.backward(&Tensor::from_vec(errors, (rows, actions), &Device::Cpu)?)?;
+        let Some(gradient) = gradient else { bail!("the gradient of the network was not recorded") };
+        self.optimiser.step(self.online.parameters(), &gradient, self.settings.learning_rate, f64::INFINITY)?;
+        self.updates += 1;
+        if self.updates.is_multiple_of(self.settings.target_every) {
+            self.target = self.online.duplicate()?;
+        }
+        Ok(Learnt { loss, value })
+    }
+}
+
+fn choice(index: u32) -> Choice {
+    Choice { action: discrete_action(index), index }
+}
+
+impl Agent for Dqn {
+    const NAME: &'static str = "dqn";
+    const TITLE: &'static str = "the thesis' deep Q-learning";
+    type Settings = DqnSettings;
+
+    fn new(settings: DqnSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
+        let sizes = settings.sizes();
+        let online = Mlp::from_parameters(&sizes, glorot(&sizes, rng))?;
+        Ok(Self {
+            target: online.duplicate()?,
+            optimiser: Adam::new(online.parameters().elem_count())?,
+            memory: Memory::new(settings.memory),
+            online,
+            settings,
+            shots: 0,
+            updates: 0,
+        })
+    }
+
+    fn settings(&self) -> &DqnSettings {
+        &self.settings
+    }
+
+    fn updates(&self) -> u64 {
+        u64::from(self.updates)
+    }
+
+    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+        if rng.random_bool(self.settings.epsilon.after(self.shots)) {
+            return Ok(choice(rng.random_range(0..DISCRETE_ACTIONS)));
+        }
+        self.best(seen)
+    }
+
+    fn best(&self, seen: &Observation) -> Result<Choice, Error> {
+        let state = Tensor::from_slice(&seen.state, (1, STATES), &Device::Cpu)?;
+        let values: Vec<f32> = self.online.forward_frozen(&state)?.flatten_all()?.to_vec1()?;
+        Ok(choice(largest(&values).0 as u32))
+    }
+
+    fn learn(&mut self, experience: &Experience, rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error> {
+        self.memory.push(Transition::of(experience));
+        self.shots += 1;
+        if self.shots <= self.settings.warm_up as u64 { Ok(None) } else { self.update(rng).map(Some) }
+    }
+
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
+        writer.add_network("online", &self.online)?;
+        writer.add_network("target", &self.target)?;
+        for (order, moment) in self.optimiser.state().0.iter().enumerate() {
+            writer.add(format!("moment.{order}"), moment.dims(), &moment.to_vec1()?);
+        }
+        note_of(&Note { shots: self.shots, updates: self.updates, next: self.memory.save(writer) })
+    }
+
+    fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
+        let Note { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let online = network(&settings, reader, "online")?;
+        let moment = |order: usize| {
+            let name = format!("moment.{order}");
+            let (shape, values) = reader.array(&name)?;
+            let expected = online.parameters().elem_count();
+            if shape == [expected] {
+                Ok(values)
+            } else {
+                Err(WeightsError::Array { name, expected: format!("{expected} values") })
+            }
+        };
+        Ok(Self {
+            target: network(&settings, reader, "target")?,
+            optimiser: Adam::from_state([moment(0)?, moment(1)?], updates)?,
+            memory: Memory::restore(settings.memory, reader, next)?,
+            online,
+            settings,
+            shots,
+            updates,
+        })
+    }
+
+    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
+        let online = network(&self.settings, reader, "online")?;
+        self.target = online.duplicate()?;
+        self.online = online;
+        Ok(())
+    }
+}
+
+fn network(settings: &DqnSettings, reader: &Reader<'_>, name: &str) -> Result<Mlp, WeightsError> {
+    let network = reader.network(name, STATES)?;
+    if network.sizes() == settings.sizes() {
+        return Ok(network);
+    }
+    let expected = format!("a network of sizes {:?}, as the settings say", settings.sizes());
+    Err(WeightsError::Array { name: name.to_owned(), expected })
+}

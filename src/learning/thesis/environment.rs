@@ -1,0 +1,97 @@
+//! What an agent of the thesis plays against: states, actions, rewards (its 4.1).
+
+use std::f64::consts::PI;
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// Numbers of a state: where the three balls lie (equation 43).
+pub const STATES: usize = 6;
+
+/// Numbers of an action: direction and speed (4.1.3).
+pub const ACTIONS: usize = 2;
+
+/// A state, each number from -1 to 1.
+pub type State = [f32; STATES];
+
+/// An action; numbers outside -1 to 1 are taken as the nearest of these.
+pub type Action = [f32; ACTIONS];
+
+/// Directions of the discrete actions: -180° to 180° in steps of 5°, both ends counted as the thesis does.
+const DIRECTIONS: u32 = 73;
+
+/// Speeds of the discrete actions: 0.5 to 6 m/s in steps of 0.5 m/s.
+const SPEEDS: u32 = 12;
+
+/// Number of discrete actions (4.2.2).
+pub const DISCRETE_ACTIONS: u32 = DIRECTIONS * SPEEDS;
+
+/// Slowest and fastest shot, m/s.
+const SPEED: [f64; 2] = [0.5, 6.0];
+
+/// The discrete action number `index` as an action.
+pub fn discrete_action(index: u32) -> Action {
+    let (direction, speed) = (index / SPEEDS % DIRECTIONS, index % SPEEDS);
+    let part = |value: u32, count: u32| 2.0 * value as f32 / (count - 1) as f32 - 1.0;
+    [part(direction, DIRECTIONS), part(speed, SPEEDS)]
+}
+
+/// Direction (rad) and speed (m/s) of an action.
+pub fn direction_and_speed(action: Action) -> [f64; 2] {
+    // An action that is not a number becomes the middle, so that a broken network still gives a shot.
+    let [direction, speed] = action.map(|value| if value.is_nan() { 0.0 } else { f64::from(value.clamp(-1.0, 1.0)) });
+    [PI * direction, SPEED[0] + 0.5 * (SPEED[1] - SPEED[0]) * (speed + 1.0)]
+}
+
+/// What an agent sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Observation {
+    /// The state.
+    pub state: State,
+    /// Number of the state among the discrete ones, for agents that look it up in a table.
+    pub cell: u32,
+}
+
+/// What came of an action.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The reward.
+    pub reward: f64,
+    /// Whether the episode is over.
+    pub over: bool,
+}
+
+/// Something to be played.
+pub trait Environment {
+    /// Begins an episode.
+    fn begin(&mut self, rng: &mut Xoshiro256PlusPlus);
+
+    /// What is to be seen now.
+    fn observe(&self) -> Observation;
+
+    /// Carries out an action.
+    fn act(&mut self, action: Action) -> Outcome;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn discrete_actions_are_the_876_of_the_thesis() {
+        assert_eq!(DISCRETE_ACTIONS, 876);
+        let close = |index, degrees: f64, speed: f64| {
+            let [phi, v] = direction_and_speed(discrete_action(index));
+            assert!((phi.to_degrees() - degrees).abs() < 1e-4 && (v - speed).abs() < 1e-5, "{index}: {phi}, {v}");
+        };
+        close(0, -180.0, 0.5);
+        close(11, -180.0, 6.0);
+        close(12, -175.0, 0.5);
+        close(875, 180.0, 6.0);
+    }
+
+    #[test]
+    fn actions_out_of_range_are_the_nearest_in_range() {
+        assert_eq!(direction_and_speed([3.0, -9.0]), [PI, 0.5]);
+        assert_eq!(direction_and_speed([f32::NAN, 1.0]), [0.0, 6.0]);
+    }
+}

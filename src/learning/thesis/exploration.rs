@@ -1,0 +1,88 @@
+//! How the thesis' agents try what they would not choose: epsilon-greedy (4.2.1) and Ornstein-Uhlenbeck noise.
+
+use std::f64::consts::TAU;
+
+use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
+
+use super::environment::{ACTIONS, Action};
+
+/// The probability of a random action, which falls in a straight line.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Epsilon {
+    /// At the first shot.
+    pub first: f64,
+    /// From shot number `over` on.
+    pub last: f64,
+    /// Shots over which it falls.
+    pub over: u64,
+}
+
+impl Epsilon {
+    /// The probability after so many shots.
+    pub fn after(&self, shots: u64) -> f64 {
+        let done = (shots as f64 / self.over.max(1) as f64).min(1.0);
+        self.first + done * (self.last - self.first)
+    }
+}
+
+/// The process of Ornstein and Uhlenbeck around nought, as keras-rl steps it: `x += -theta x dt + sigma sqrt(dt) n`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OrnsteinUhlenbeck {
+    /// How fast it falls back to nought.
+    pub theta: f64,
+    /// How strongly it is pushed.
+    pub sigma: f64,
+    /// Time between two shots.
+    pub dt: f64,
+}
+
+impl OrnsteinUhlenbeck {
+    /// The next value after `now`.
+    pub fn step(&self, now: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
+        let push = (self.sigma * self.dt.sqrt()) as f32;
+        let noise = normal_pair(rng);
+        let kept = (1.0 - self.theta * self.dt) as f32;
+        std::array::from_fn::<f32, ACTIONS, _>(|index| kept * now[index] + push * noise[index])
+    }
+}
+
+/// Two independent standard normal numbers (Box and Muller).
+fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f32; 2] {
+    // 1 - u lies above 0, where the logarithm is finite.
+    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
+    let (sin, cos) = (TAU * rng.random::<f64>()).sin_cos();
+    [(radius * cos) as f32, (radius * sin) as f32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn epsilon_falls_in_a_straight_line_and_stays_low() {
+        let epsilon = Epsilon { first: 1.0, last: 0.2, over: 100 };
+        assert_eq!([0, 50, 100, 999].map(|shots| (epsilon.after(shots) * 1e3).round()), [1e3, 600.0, 200.0, 200.0]);
+    }
+
+    #[test]
+    fn the_process_has_the_spread_and_the_memory_of_its_formula() {
+        let process = OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 1.0 };
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+        let (mut now, mut square, mut product, count) = ([0.0; 2], 0.0, 0.0, 200_000);
+        for _ in 0..count {
+            let next = process.step(now, &mut rng);
+            square += f64::from(next[1] * next[1]);
+            product += f64::from(next[1] * now[1]);
+            now = next;
+        }
+        // Variance of x' = a x + s n: s² / (1 - a²), and a for the correlation of neighbours.
+        let expected = 0.09 / (1.0 - 0.85 * 0.85);
+        assert!((square / f64::from(count) - expected).abs() < 0.01 * expected * 3.0);
+        assert!((product / square - 0.85).abs() < 0.01);
+    }
+}

@@ -1,0 +1,181 @@
+//! The thesis' agents as a training run drives them.
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    agent::{Agent, Progress, Settings},
+    carom::Carom,
+    ddpg::PlainDdpg,
+    dqn::Dqn,
+    q_learning::QLearning,
+};
+use crate::{
+    learning::{
+        evaluation::Score,
+        learner::{self, Learner, Plan, StartError, Turn, note_of},
+        weights::{Reader, WeightsError, Writer},
+    },
+    table::{Layout, Table},
+};
+
+/// Shots of a turn. As many as the agents play before their first update, so that updates come in whole hundreds.
+const SHOTS_PER_TURN: u64 = 100;
+
+/// The lines in the list of agents.
+pub const Q_LEARNING: learner::Agent = line::<QLearning>();
+/// See [`Q_LEARNING`].
+pub const DQN: learner::Agent = line::<Dqn>();
+/// See [`Q_LEARNING`].
+pub const DDPG: learner::Agent = line::<PlainDdpg>();
+
+const fn line<A: Agent + 'static>() -> learner::Agent {
+    learner::Agent { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A> }
+}
+
+fn start<A: Agent + 'static>(plan: Plan, table: Table, settings: Value) -> Result<Box<dyn Learner>, StartError> {
+    let settings: A::Settings =
+        serde_json::from_value(settings).map_err(|error| StartError::Settings(error.to_string()))?;
+    settings.validate().map_err(|error| StartError::Settings(error.to_string()))?;
+    Ok(Box::new(Student::<A>::new(plan, table, settings)?))
+}
+
+fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
+    let note: Note<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+    note.settings.validate().map_err(|_| WeightsError::Foreign)?;
+    let agent = A::restore(note.settings, reader, note.agent)?;
+    let Note { plan, game, progress, rng, shots, .. } = note;
+    Ok(Box::new(Student { plan, agent, game, progress, rng, shots }))
+}
+
+/// An agent and its game.
+#[derive(Debug)]
+pub struct Student<A> {
+    plan: Plan,
+    agent: A,
+    game: Carom,
+    progress: Progress,
+    rng: Xoshiro256PlusPlus,
+    shots: u64,
+}
+
+/// What a file holds beside arrays.
+#[derive(Serialize, Deserialize)]
+struct Note<S> {
+    plan: Plan,
+    settings: S,
+    agent: Value,
+    game: Carom,
+    progress: Progress,
+    rng: Xoshiro256PlusPlus,
+    shots: u64,
+}
+
+impl<A: Agent> Student<A> {
+    /// A beginner.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn new(plan: Plan, table: Table, settings: A::Settings) -> candle_core::Result<Self> {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
+        let game = Carom::new(table, plan.reward, settings.episode());
+        Ok(Self { agent: A::new(settings, &mut rng)?, plan, game, progress: Progress::default(), rng, shots: 0 })
+    }
+
+    /// Plays so many shots and learns after each.
+    ///
+    /// # Errors
+    /// Where the networks no longer give finite numbers.
+    pub fn play(&mut self, shots: u64) -> candle_core::Result<Turn> {
+        let (mut turn, mut updates) = (Turn::default(), 0_u32);
+        for _ in 0..shots {
+            let played = self.progress.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
+            turn.mean_reward += played.reward / shots as f64;
+            if let Some(learnt) = played.learnt {
+                turn.critic_loss += learnt.loss;
+                turn.q_value += learnt.value;
+                updates += 1;
+            }
+        }
+        self.shots += shots;
+        turn.critic_loss /= f64::from(updates.max(1));
+        turn.q_value /= f64::from(updates.max(1));
+        Ok(turn)
+    }
+
+    /// Mean reward of the agent's best shots on `layouts`, and the share of those that earn at least one.
+    fn examine(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
+        let (mut total, mut reached) = (0.0, 0_usize);
+        for layout in layouts {
+            let choice = self.agent.best(&self.game.observation(layout))?;
+            let reward = self.game.reward_of(layout, choice.action);
+            total += reward;
+            reached += usize::from(reward >= 1.0);
+        }
+        let count = layouts.len().max(1) as f64;
+        Ok(Score { mean_reward: total / count, reach: reached as f64 / count })
+    }
+}
+
+impl<A: Agent> Learner for Student<A> {
+    fn agent(&self) -> &'static str {
+        A::NAME
+    }
+
+    fn plan(&self) -> Plan {
+        self.plan
+    }
+
+    fn table(&self) -> &Table {
+        self.game.table()
+    }
+
+    fn settings(&self) -> Value {
+        // The settings were read from JSON or are the defaults: they can be written.
+        note_of(self.agent.settings()).unwrap_or_default()
+    }
+
+    fn shots(&self) -> u64 {
+        self.shots
+    }
+
+    fn updates(&self) -> u64 {
+        self.agent.updates()
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.agent.settings().learning_rate()
+    }
+
+    fn turn(&mut self) -> candle_core::Result<Turn> {
+        let left = self.plan.shots.saturating_sub(self.shots);
+        self.play(left.clamp(1, SHOTS_PER_TURN))
+    }
+
+    fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
+        self.examine(layouts)
+    }
+
+    fn policy(&self, _held_out_reward: f64, _date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
+        Ok(None)
+    }
+
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
+        let agent = self.agent.save(writer)?;
+        note_of(&Note {
+            plan: self.plan,
+            settings: self.agent.settings().clone(),
+            agent,
+            game: self.game.clone(),
+            progress: self.progress,
+            rng: self.rng.clone(),
+            shots: self.shots,
+        })
+    }
+
+    fn adopt(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
+        self.agent.adopt(weights)
+    }
+}

@@ -1,0 +1,145 @@
+//! The library of experiences (thesis 4.3.1): transitions that were played, the oldest making room for the newest.
+
+use rand::{Rng, RngExt};
+
+use super::{
+    agent::Experience,
+    environment::{ACTIONS, Action, STATES, State},
+};
+use crate::learning::weights::{Reader, WeightsError, Writer};
+
+/// One shot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transition {
+    /// The state before.
+    pub state: State,
+    /// What was done.
+    pub action: Action,
+    /// Its number among the discrete actions, for agents that have them.
+    pub index: u32,
+    /// What it earned.
+    pub reward: f32,
+    /// Whether the episode went on.
+    pub goes_on: bool,
+    /// The state after.
+    pub next: State,
+}
+
+/// Numbers of a transition in a file.
+const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
+
+impl Transition {
+    /// What is remembered of an experience.
+    pub fn of(experience: &Experience) -> Self {
+        let Experience { before, choice, reward, goes_on, after } = *experience;
+        let (state, next, reward) = (before.state, after.state, reward as f32);
+        Self { state, action: choice.action, index: choice.index, reward, goes_on, next }
+    }
+
+    fn numbers(&self) -> [f32; NUMBERS] {
+        let [a, b, c, d, e, f] = self.state;
+        let [g, h, i, j, k, l] = self.next;
+        let goes_on = f32::from(u8::from(self.goes_on));
+        // An action's number is below 2^24: exact.
+        [a, b, c, d, e, f, g, h, i, j, k, l, self.action[0], self.action[1], self.index as f32, self.reward, goes_on]
+    }
+
+    fn from_numbers(numbers: &[f32; NUMBERS]) -> Self {
+        let &[a, b, c, d, e, f, g, h, i, j, k, l, phi, speed, index, reward, goes_on] = numbers;
+        let (state, next) = ([a, b, c, d, e, f], [g, h, i, j, k, l]);
+        Self { state, next, action: [phi, speed], index: index as u32, reward, goes_on: goes_on != 0.0 }
+    }
+}
+
+/// A ring of the last transitions.
+#[derive(Clone, Debug)]
+pub struct Memory {
+    held: Vec<Transition>,
+    capacity: usize,
+    /// Where the next one goes once the ring is full.
+    next: usize,
+}
+
+impl Memory {
+    /// An empty ring for `capacity` transitions, at least one.
+    pub fn new(capacity: usize) -> Self {
+        Self { held: Vec::new(), capacity: capacity.max(1), next: 0 }
+    }
+
+    /// Adds a transition.
+    pub fn push(&mut self, transition: Transition) {
+        if self.held.len() < self.capacity {
+            self.held.push(transition);
+        } else {
+            self.held[self.next] = transition;
+            self.next = (self.next + 1) % self.capacity;
+        }
+    }
+
+    /// A transition drawn uniformly; none from an empty ring.
+    pub fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Option<&Transition> {
+        if self.held.is_empty() { None } else { Some(&self.held[rng.random_range(0..self.held.len())]) }
+    }
+
+    /// Adds what is held to a file; returns where the next one goes.
+    pub fn save(&self, writer: &mut Writer) -> usize {
+        let numbers: Vec<f32> = self.held.iter().flat_map(Transition::numbers).collect();
+        writer.add("memory", &[self.held.len(), NUMBERS], &numbers);
+        self.next
+    }
+
+    /// A ring with the content that [`Memory::save`] wrote.
+    ///
+    /// # Errors
+    /// Where the file has none.
+    pub fn restore(capacity: usize, reader: &Reader<'_>, next: usize) -> Result<Self, WeightsError> {
+        let capacity = capacity.max(1);
+        let (shape, numbers) = reader.array("memory")?;
+        if shape.len() != 2 || shape[1] != NUMBERS || shape[0] > capacity {
+            let expected = format!("at most {capacity} rows of {NUMBERS} values");
+            return Err(WeightsError::Array { name: "memory".to_owned(), expected });
+        }
+        let held = numbers.as_chunks::<NUMBERS>().0.iter().map(Transition::from_numbers).collect();
+        Ok(Self { held, capacity, next: next % capacity })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    fn transition(number: u8) -> Transition {
+        let x = f32::from(number);
+        Transition {
+            state: [x, 0.1, 0.2, 0.3, 0.4, 0.5],
+            action: [x / 7.0, -0.3],
+            index: u32::from(number) + 800,
+            reward: x,
+            goes_on: number.is_multiple_of(2),
+            next: [0.6, 0.7, 0.8, 0.9, 1.0, -x],
+        }
+    }
+
+    #[test]
+    fn the_oldest_make_room_and_a_file_gives_back_the_same_ring() {
+        let mut memory = Memory::new(3);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+        assert!(memory.draw(&mut rng).is_none());
+        (0..5).for_each(|number| memory.push(transition(number)));
+        let mut writer = Writer::default();
+        let next = memory.save(&mut writer);
+        let bytes = writer.finish(&"").unwrap();
+        let mut again = Memory::restore(3, &Reader::new(&bytes).unwrap(), next).unwrap();
+        for ring in [&mut memory, &mut again] {
+            ring.push(transition(5));
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+            let mut drawn: Vec<_> = (0..60).map(|_| *ring.draw(&mut rng).unwrap()).collect();
+            drawn.sort_by(|a, b| a.reward.total_cmp(&b.reward));
+            drawn.dedup();
+            assert_eq!(drawn, [transition(3), transition(4), transition(5)]);
+        }
+        assert!(Memory::restore(2, &Reader::new(&bytes).unwrap(), 0).is_err());
+    }
+}

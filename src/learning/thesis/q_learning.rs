@@ -1,0 +1,186 @@
+//! Q-learning with a table (thesis Algorithm 2).
+
+use std::collections::BTreeMap;
+
+use candle_core::Error;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    agent::{Agent, Choice, Experience, Learnt, SettingError, Settings, check, check_positive, check_share},
+    carom::Episode,
+    environment::{DISCRETE_ACTIONS, Observation, discrete_action},
+    exploration::Epsilon,
+};
+use crate::learning::{
+    learner::note_of,
+    weights::{Reader, WeightsError, Writer},
+};
+
+/// Settings of [`QLearning`]. The thesis gives the squares, the actions and epsilon-greedy, but no numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QLearningSettings {
+    /// When an episode is over.
+    pub episode: Episode,
+    /// Part of the way that a value goes to its target (alpha in equation 54).
+    pub learning_rate: f64,
+    /// What a reward one shot later is worth now.
+    pub discount: f64,
+    /// The probability of a random action.
+    pub epsilon: Epsilon,
+}
+
+impl Default for QLearningSettings {
+    fn default() -> Self {
+        Self {
+            episode: Episode::default(),
+            learning_rate: 0.1,
+            discount: 0.99,
+            epsilon: Epsilon { first: 1.0, last: 0.05, over: 25_000 },
+        }
+    }
+}
+
+impl Settings for QLearningSettings {
+    fn episode(&self) -> Episode {
+        self.episode
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.learning_rate
+    }
+
+    fn validate(&self) -> Result<(), SettingError> {
+        check_episode(self.episode)?;
+        check_positive("learning_rate", self.learning_rate)?;
+        check_share("learning_rate", self.learning_rate)?;
+        check_share("discount", self.discount)?;
+        check_epsilon(&self.epsilon)
+    }
+}
+
+pub(super) fn check_episode(episode: Episode) -> Result<(), SettingError> {
+    match episode {
+        Episode::OneShot => Ok(()),
+        Episode::Shots(most) | Episode::UntilMiss(most) => check("episode", f64::from(most), most > 0, "at least 1"),
+    }
+}
+
+pub(super) fn check_epsilon(epsilon: &Epsilon) -> Result<(), SettingError> {
+    check_share("epsilon.first", epsilon.first)?;
+    check_share("epsilon.last", epsilon.last)
+}
+
+/// The agent. Its table begins at nought everywhere; only what has been tried takes room.
+#[derive(Debug)]
+pub struct QLearning {
+    settings: QLearningSettings,
+    /// For each state the actions tried there and their values.
+    table: BTreeMap<u32, Vec<(u32, f32)>>,
+    shots: u64,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Note {
+    shots: u64,
+}
+
+impl QLearning {
+    /// The best action that has earned anything in a state, and its value.
+    fn favourite(&self, cell: u32) -> Option<(u32, f32)> {
+        let tried = self.table.get(&cell)?;
+        // Rewards are not negative, so an action without a positive value is no better than one never tried.
+        tried.iter().filter(|(_, value)| *value > 0.0).copied().max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    fn value_mut(&mut self, cell: u32, index: u32) -> &mut f32 {
+        let tried = self.table.entry(cell).or_default();
+        let place = tried.iter().position(|(known, _)| *known == index).unwrap_or_else(|| {
+            tried.push((index, 0.0));
+            tried.len() - 1
+        });
+        &mut tried[place].1
+    }
+
+    /// States that have been met.
+    pub fn states(&self) -> usize {
+        self.table.len()
+    }
+}
+
+fn choice(index: u32) -> Choice {
+    Choice { action: discrete_action(index), index }
+}
+
+impl Agent for QLearning {
+    const NAME: &'static str = "q-learning";
+    const TITLE: &'static str = "the thesis' Q-learning with a table of squares";
+    type Settings = QLearningSettings;
+
+    fn new(settings: QLearningSettings, _rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
+        Ok(Self { settings, table: BTreeMap::new(), shots: 0 })
+    }
+
+    fn settings(&self) -> &QLearningSettings {
+        &self.settings
+    }
+
+    fn updates(&self) -> u64 {
+        self.shots
+    }
+
+    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+        let any = rng.random_bool(self.settings.epsilon.after(self.shots));
+        let index = if any { None } else { self.favourite(seen.cell).map(|(index, _)| index) };
+        // Among equals, chance decides.
+        Ok(choice(index.unwrap_or_else(|| rng.random_range(0..DISCRETE_ACTIONS))))
+    }
+
+    fn best(&self, seen: &Observation) -> Result<Choice, Error> {
+        // Among equals, a chance that is the same whenever the state is met.
+        let any = || Xoshiro256PlusPlus::seed_from_u64(u64::from(seen.cell)).random_range(0..DISCRETE_ACTIONS);
+        Ok(choice(self.favourite(seen.cell).map_or_else(any, |(index, _)| index)))
+    }
+
+    fn learn(&mut self, experience: &Experience, _rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error> {
+        let highest = |cell| self.favourite(cell).map_or(0.0, |(_, value)| f64::from(value));
+        let value = highest(experience.before.cell);
+        let next = if experience.goes_on { highest(experience.after.cell) } else { 0.0 };
+        let target = experience.reward + self.settings.discount * next;
+        let rate = self.settings.learning_rate;
+        let known = self.value_mut(experience.before.cell, experience.choice.index);
+        let error = target - f64::from(*known);
+        *known += (rate * error) as f32;
+        self.shots += 1;
+        Ok(Some(Learnt { loss: error * error, value }))
+    }
+
+    fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
+        let entries = || self.table.iter().flat_map(|(cell, tried)| tried.iter().map(move |entry| (*cell, *entry)));
+        // States and actions are numbers below 2^24: exact.
+        let numbers: Vec<f32> =
+            entries().flat_map(|(cell, (index, value))| [cell as f32, index as f32, value]).collect();
+        writer.add("table", &[numbers.len() / 3, 3], &numbers);
+        note_of(&Note { shots: self.shots })
+    }
+
+    fn restore(settings: QLearningSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
+        let Note { shots } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let mut agent = Self { settings, table: BTreeMap::new(), shots };
+        agent.adopt(reader)?;
+        Ok(agent)
+    }
+
+    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
+        let (_, numbers) = reader.array("table")?;
+        let mut table: BTreeMap<u32, Vec<(u32, f32)>> = BTreeMap::new();
+        for [cell, index, value] in numbers.as_chunks::<3>().0 {
+            table.entry(*cell as u32).or_default().push((*index as u32, *value));
+        }
+        self.table = table;
+        Ok(())
+    }
+}

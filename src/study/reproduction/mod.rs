@@ -1,0 +1,11 @@
+//! The thesis' learning curves (its figures 21 to 30), trained again.
+
+mod curves;
+mod figures;
+mod picture;
+mod session;
+
+pub use curves::{Curve, EXAMINED, INTERVAL, Point, Training, random_play};
+pub use figures::{FIGURES, Figure, Measure, READINGS, Reading, UnknownFigure};
+pub use picture::picture;
+pub use session::{Drawn, Session, SessionError, csv, summary};
