@@ -4,6 +4,7 @@ use carom::{
     game::Reward,
     learning::{
         learner::{Agent as Line, Learner, Plan},
+        network::weights::{Reader, Writer},
         thesis::{
             agent::{Agent, Progress},
             ddpg::{PlainDdpg, PlainDdpgSettings},
@@ -12,7 +13,6 @@ use carom::{
             exploration::{Epsilon, OrnsteinUhlenbeck},
             q_learning::{QLearning, QLearningSettings},
         },
-        weights::{Reader, Writer},
     },
     table::Table,
 };

@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;
 
-use super::policy::Policy;
+use crate::learning::policy::Policy;
 use crate::{
     game::Reward,
     table::{Layout, Table},

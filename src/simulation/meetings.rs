@@ -129,7 +129,8 @@ fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horiz
 
 #[cfg(test)]
 mod tests {
-    use super::{super::savings::All, *};
+    use super::super::savings::All;
+    use super::*;
     use crate::{physics::BallState, table::Table};
 
     #[test]

@@ -8,10 +8,7 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use crate::learning::{
-    metrics::Record,
-    run::{Run, Watcher},
-};
+use crate::learning::run::{Run, Watcher, metrics::Record};
 
 /// The progress of one run.
 pub struct Screen {

@@ -1,16 +1,14 @@
 //! What a training run needs of an agent, whichever it is, and the list of agents.
 
-mod ddpg;
-
 use std::fmt::Debug;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{
+use crate::learning::{
     evaluation::Score,
+    network::weights::{Reader, WeightsError, Writer},
     thesis::learner as thesis,
-    weights::{Reader, WeightsError, Writer},
 };
 use crate::{
     game::Reward,
@@ -18,7 +16,7 @@ use crate::{
 };
 
 /// The agents that can be trained. To add one: implement [`Learner`] and add its line here.
-pub const AGENTS: [Agent; 4] = [ddpg::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
+pub const AGENTS: [Agent; 4] = [crate::learning::ddpg::learner::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
 
 /// Makes a beginner.
 pub type Start = fn(Plan, Table, Value) -> Result<Box<dyn Learner>, StartError>;

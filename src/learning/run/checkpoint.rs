@@ -125,8 +125,8 @@ mod tests {
     use super::*;
     use crate::{
         learning::{
+            ddpg::trainer::{Trainer, tests::small_task},
             run::{config::Schedule, contents::bytes, tally::Tally},
-            trainer::{Trainer, tests::small_task},
         },
         table::Table,
     };

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::learning::{
     learner::{Agent, Learner},
-    weights::{Reader, WeightsError, Writer},
+    network::weights::{Reader, WeightsError, Writer},
 };
 
 /// Version of what a checkpoint holds.
@@ -144,7 +144,7 @@ pub fn shots_in(path: &Path) -> Option<u64> {
 mod tests {
     use super::*;
     use crate::{
-        learning::trainer::{Trainer, tests::small_task},
+        learning::ddpg::trainer::{Trainer, tests::small_task},
         table::Table,
     };
 

@@ -6,7 +6,7 @@ use super::checkpoint::Damage;
 use crate::learning::{
     PolicyError,
     learner::{StartError, UnknownAgent},
-    weights::WeightsError,
+    network::weights::WeightsError,
 };
 
 /// Why a run cannot start, go on or be saved.

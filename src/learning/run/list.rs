@@ -7,12 +7,9 @@ use std::{
 
 use serde::Serialize;
 
+use super::metrics;
 use super::{METRICS, checkpoint::shots_in, config::Config, holds_checkpoints};
-use crate::{
-    game::Reward,
-    learning::{calendar::moment, metrics},
-    storage::Lock,
-};
+use crate::{game::Reward, learning::calendar::moment, storage::Lock};
 
 /// Whether a run is at work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -10,6 +10,7 @@ mod config;
 mod contents;
 mod error;
 pub mod list;
+pub mod metrics;
 pub mod origin;
 mod practice;
 pub mod seeds;
@@ -17,6 +18,7 @@ mod tally;
 
 use std::path::{Path, PathBuf};
 
+use self::metrics::MetricsFile;
 use self::{
     checkpoint::{Checkpoints, Loaded},
     contents::State,
@@ -28,7 +30,7 @@ pub use self::{
     error::{OriginError, RunError},
     practice::{Ending, Watcher},
 };
-use super::{evaluation::Score, learner::Learner, metrics::MetricsFile};
+use crate::learning::{evaluation::Score, learner::Learner};
 use crate::storage::{Lock, remove_partial_files, write_atomic};
 
 /// The metrics' file in a run's folder.

@@ -14,7 +14,7 @@ use crate::{
     learning::{
         Policy,
         learner::{Learner, note_of},
-        weights::{Reader, WeightsError},
+        network::weights::{Reader, WeightsError},
     },
     storage::write_atomic,
     table::Table,

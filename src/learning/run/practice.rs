@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
+use super::metrics::{MetricsFile, Record};
 use super::{METRICS, Run, RunError, Schedule, error::file};
 use crate::{
     learning::{
         evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
         learner::{Learner, Turn},
-        metrics::{MetricsFile, Record},
     },
     table::Layout,
 };

@@ -8,6 +8,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::metrics;
 use super::{
     METRICS, Run, RunError,
     config::{Schedule, Start},
@@ -16,10 +17,7 @@ use super::{
     origin::Weights,
 };
 use crate::{
-    learning::{
-        learner::{Agent, Learner, Plan},
-        metrics,
-    },
+    learning::learner::{Agent, Learner, Plan},
     storage::{Lock, write_atomic},
     table::Table,
 };

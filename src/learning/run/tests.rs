@@ -2,14 +2,14 @@
 
 use std::{cell::Cell, fs};
 
+use super::metrics::{self, Record};
 use super::*;
 use crate::{
     game::Reward,
     learning::{
+        ddpg::trainer::{Trainer, tests::small_task},
         learner::{AGENTS, Plan},
-        metrics::{self, Record},
         policy::Policy,
-        trainer::{Trainer, tests::small_task},
     },
     table::Table,
 };

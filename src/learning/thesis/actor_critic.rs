@@ -8,7 +8,7 @@ use super::{
     pass::Pass,
     update::{Batch, Rates, Seen, Sizes, Update, Workspace},
 };
-use crate::learning::{pass::parameter_count, tensors::stored_values};
+use crate::learning::network::{pass::parameter_count, tensors::stored_values};
 
 /// Networks, target networks and optimisers.
 #[derive(Debug)]
@@ -138,7 +138,10 @@ fn part(sizes: &Sizes, part: usize, critic: bool) -> std::ops::Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::{adam::Adam, adam::soft_update, mlp::Mlp};
+    use crate::learning::network::{
+        adam::{Adam, soft_update},
+        mlp::Mlp,
+    };
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -9,7 +9,7 @@ use super::{
     carom::Episode,
     environment::{Action, Environment, Observation},
 };
-use crate::learning::weights::{Reader, WeightsError, Writer};
+use crate::learning::network::weights::{Reader, WeightsError, Writer};
 
 /// What an agent does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -24,7 +24,7 @@ use super::{
 };
 use crate::learning::{
     learner::note_of,
-    weights::{Reader, WeightsError, Writer},
+    network::weights::{Reader, WeightsError, Writer},
 };
 
 /// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.

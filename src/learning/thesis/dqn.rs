@@ -19,11 +19,13 @@ use super::{
     q_learning::{check_episode, check_epsilon},
 };
 use crate::learning::{
-    adam::Adam,
     learner::note_of,
-    mlp::Mlp,
-    pass::Wanted,
-    weights::{Reader, WeightsError, Writer},
+    network::{
+        adam::Adam,
+        mlp::Mlp,
+        pass::Wanted,
+        weights::{Reader, WeightsError, Writer},
+    },
 };
 
 /// Settings of [`Dqn`]: Tables 2 and 3; the thesis says nothing on epsilon.

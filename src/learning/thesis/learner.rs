@@ -16,7 +16,7 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{self, Learner, Plan, StartError, Turn, note_of},
-        weights::{Reader, WeightsError, Writer},
+        network::weights::{Reader, WeightsError, Writer},
     },
     table::{Layout, Table},
 };

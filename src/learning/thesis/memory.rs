@@ -6,7 +6,7 @@ use super::{
     agent::Experience,
     environment::{ACTIONS, Action, STATES, State},
 };
-use crate::learning::weights::{Reader, WeightsError, Writer};
+use crate::learning::network::weights::{Reader, WeightsError, Writer};
 
 /// One shot.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::learning::{
     learner::note_of,
-    weights::{Reader, WeightsError, Writer},
+    network::weights::{Reader, WeightsError, Writer},
 };
 
 /// Settings of [`QLearning`]. The thesis gives the squares, the actions and epsilon-greedy, but no numbers.

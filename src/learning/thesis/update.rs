@@ -15,7 +15,7 @@ use super::{
     kernels::Rows,
     pass::{MOST_INPUTS, Pass},
 };
-use crate::learning::pass::parameter_count;
+use crate::learning::network::pass::parameter_count;
 
 /// Parts of the flat tensor, in this order, each the actor's and then the critic's: parameters, target parameters, and
 /// the optimiser's averages of the gradient and of its square.

@@ -1,6 +1,9 @@
 //! Energy never grows: not at an event, and not on the way to the next.
 
-use crate::{physics::BallState, table::BALLS, table::Table};
+use crate::{
+    physics::BallState,
+    table::{BALLS, Table},
+};
 
 use super::{figures::Figures, trace::Trace};
 use crate::physics::Motion;

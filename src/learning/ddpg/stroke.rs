@@ -72,7 +72,7 @@ impl Stroke {
 mod tests {
     use super::*;
     use crate::{
-        learning::{action::cue_inputs, view::View},
+        learning::ddpg::{action::cue_inputs, view::View},
         physics::strike,
         simulation::Recording,
         table::Layout,

@@ -8,8 +8,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::ActionSpace, calendar::today, ddpg::Ddpg, features::FEATURE_VERSION, hyperparameters::Hyperparameters,
-    learner::Turn, policy::Policy, policy_file::Origin, replay::ReplayBuffer, scenes::Scenes,
+    action::ActionSpace, agent::Ddpg, features::FEATURE_VERSION, hyperparameters::Hyperparameters,
+    replay::ReplayBuffer, scenes::Scenes,
+};
+use crate::learning::{
+    calendar::today,
+    learner::Turn,
+    policy::{Policy, file::Origin},
 };
 use crate::{game::Reward, table::Table};
 
@@ -126,7 +131,7 @@ impl Trainer {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::learning) mod tests {
     use super::*;
     use crate::learning::evaluation::{HELD_OUT_SEED, held_out_layouts, score};
 

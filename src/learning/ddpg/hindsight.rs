@@ -93,7 +93,7 @@ impl Observer for Way {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::view::VIEWS;
+    use crate::learning::ddpg::view::VIEWS;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -45,7 +45,7 @@ fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::action::ACTIONS;
+    use crate::learning::ddpg::action::ACTIONS;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -1,13 +1,15 @@
 //! A trained agent as a player: shots for a layout out of one pass through its networks, without the simulator.
 
+pub mod file;
+
 use std::sync::Arc;
 
 use candle_core::Result;
 
-use super::{
+use self::file::Origin;
+use crate::learning::ddpg::{
     action::cue_inputs,
     networks::Networks,
-    policy_file::Origin,
     scenes::Scenes,
     view::{VIEWS, View},
 };
@@ -28,8 +30,8 @@ pub struct Proposal {
 /// Trained networks, ready to play. Cheap to clone and to share between threads.
 #[derive(Clone, Debug)]
 pub struct Policy {
-    pub(super) networks: Networks,
-    pub(super) origin: Origin,
+    pub(in crate::learning) networks: Networks,
+    pub(in crate::learning) origin: Origin,
 }
 
 impl Policy {

@@ -2,16 +2,18 @@
 
 use serde_json::Value;
 
-use super::{Agent, Learner, Plan, StartError, Turn, note_of};
+use super::{
+    hyperparameters::Hyperparameters,
+    networks::Networks,
+    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    snapshot,
+    trainer::{Task, Trainer},
+};
+use crate::learning::learner::{Agent, Learner, Plan, StartError, Turn, note_of};
 use crate::{
     learning::{
         evaluation::{Score, score},
-        hyperparameters::Hyperparameters,
-        networks::Networks,
-        scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
-        snapshot,
-        trainer::{Task, Trainer},
-        weights::{Reader, WeightsError, Writer},
+        network::weights::{Reader, WeightsError, Writer},
     },
     table::{Layout, Table},
 };
@@ -113,7 +115,7 @@ impl Learner for Trainer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::trainer::tests::small_task;
+    use crate::learning::ddpg::trainer::tests::small_task;
 
     #[test]
     fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {

@@ -6,9 +6,9 @@ use rand::Rng;
 use super::{
     action::{Action, aim_at},
     hyperparameters::Hyperparameters,
-    mlp::Mlp,
     scenes::{ACTOR_INPUTS, CRITIC_INPUTS, Scenes, actions_in},
 };
+use crate::learning::network::mlp::Mlp;
 
 /// Steps of a sequence that fills the square evenly (powers of the inverse of the plastic number, Roberts 2018).
 const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];

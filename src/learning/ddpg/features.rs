@@ -158,7 +158,7 @@ fn cosine(sine: Dual) -> Dual {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{learning::action::ACTIONS, table::Layout};
+    use crate::{learning::ddpg::action::ACTIONS, table::Layout};
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 

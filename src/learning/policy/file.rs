@@ -4,13 +4,15 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    features::FEATURE_VERSION,
-    hyperparameters::Hyperparameters,
-    networks::Networks,
-    policy::Policy,
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
-    weights::{Reader, WeightsError, Writer},
+use super::Policy;
+use crate::learning::{
+    ddpg::{
+        features::FEATURE_VERSION,
+        hyperparameters::Hyperparameters,
+        networks::Networks,
+        scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    },
+    network::weights::{Reader, WeightsError, Writer},
 };
 use crate::{
     game::{Reward, Rule},
@@ -19,12 +21,12 @@ use crate::{
 
 /// The bundled policies: the table's name, what was rewarded, and the file.
 const BUNDLED: [(&str, Reward, &[u8]); 6] = [
-    ("match", Reward::R3, include_bytes!("../../models/match-r3.safetensors")),
-    ("match", Reward::OneCushion, include_bytes!("../../models/match-one-cushion.safetensors")),
-    ("match", Reward::ThreeCushion, include_bytes!("../../models/match-three-cushion.safetensors")),
-    ("thesis", Reward::R3, include_bytes!("../../models/thesis-r3.safetensors")),
-    ("thesis", Reward::OneCushion, include_bytes!("../../models/thesis-one-cushion.safetensors")),
-    ("thesis", Reward::ThreeCushion, include_bytes!("../../models/thesis-three-cushion.safetensors")),
+    ("match", Reward::R3, include_bytes!("../../../models/match-r3.safetensors")),
+    ("match", Reward::OneCushion, include_bytes!("../../../models/match-one-cushion.safetensors")),
+    ("match", Reward::ThreeCushion, include_bytes!("../../../models/match-three-cushion.safetensors")),
+    ("thesis", Reward::R3, include_bytes!("../../../models/thesis-r3.safetensors")),
+    ("thesis", Reward::OneCushion, include_bytes!("../../../models/thesis-one-cushion.safetensors")),
+    ("thesis", Reward::ThreeCushion, include_bytes!("../../../models/thesis-three-cushion.safetensors")),
 ];
 
 /// Where a policy comes from.
@@ -142,7 +144,7 @@ impl Policy {
     }
 
     /// The bytes of the file that [`Policy::save`] writes.
-    pub(super) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
+    pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
             writer.add_network(name, network)?;

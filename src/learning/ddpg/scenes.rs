@@ -8,9 +8,9 @@ use super::{
     action::{ACTIONS, Action, ActionSpace},
     dual::Dual,
     features::{ACTION_FEATURES, STATE_FEATURES, push_action_features, push_state_features},
-    tensors::{stored_values, values},
     view::View,
 };
+use crate::learning::network::tensors::{stored_values, values};
 use crate::table::Table;
 
 /// Inputs of the actor.

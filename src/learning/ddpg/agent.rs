@@ -10,11 +10,13 @@ use rand::Rng;
 
 use super::{
     action::Action,
-    adam::{Adam, soft_update},
     hyperparameters::Hyperparameters,
     networks::Networks,
-    pass::Wanted,
     scenes::{Scenes, action_rows},
+};
+use crate::learning::network::{
+    adam::{Adam, soft_update},
+    pass::Wanted,
 };
 
 /// What an update reports.
@@ -143,7 +145,7 @@ fn wanted(gradient: Option<Tensor>) -> Result<Tensor> {
 mod tests {
     use super::*;
     use crate::{
-        learning::{action::ActionSpace, view::View},
+        learning::ddpg::{action::ActionSpace, view::View},
         table::{Layout, Table},
     };
     use candle_core::Var;
@@ -244,7 +246,7 @@ mod tests {
         let space = hyper.actions;
         let mut agent = Ddpg::new(hyper, &mut rng).unwrap();
         let table = Arc::new(Table::default());
-        let mut scenes = |rng: &mut Xoshiro256PlusPlus| {
+        let scenes = |rng: &mut Xoshiro256PlusPlus| {
             let views = (0..128).map(|index| View::new(&Layout::random(&table, rng), index % 4)).collect();
             Scenes::new(&table, space, views).unwrap()
         };

@@ -8,17 +8,21 @@ use serde_json::Value;
 
 use super::{
     action::ACTIONS,
-    adam::Adam,
-    ddpg::Ddpg,
+    agent::Ddpg,
     features::FEATURE_VERSION,
-    learner::note_of,
-    mlp::Mlp,
     networks::Networks,
     replay::{Experience, ReplayBuffer},
     scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
     trainer::{Task, Trainer},
     view::View,
-    weights::{Reader, WeightsError, Writer},
+};
+use crate::learning::{
+    learner::note_of,
+    network::{
+        adam::Adam,
+        mlp::Mlp,
+        weights::{Reader, WeightsError, Writer},
+    },
 };
 use crate::table::Table;
 
@@ -145,7 +149,7 @@ fn experiences(reader: &Reader<'_>) -> Result<Vec<Experience>, WeightsError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::trainer::tests::small_task;
+    use crate::learning::ddpg::trainer::tests::small_task;
 
     fn bytes(trainer: &Trainer) -> Vec<u8> {
         let mut writer = Writer::default();
