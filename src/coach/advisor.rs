@@ -2,6 +2,7 @@
 
 use std::{
     fmt,
+    ops::ControlFlow,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -18,7 +19,7 @@ use crate::{
     game::{Referee, Reward, Rule, Tally},
     learning::{Policy, PolicyError},
     physics::{CueInputs, strike},
-    simulation::simulate,
+    simulation::{Event, Observer, watch},
     table::{Layout, LayoutError, Table},
 };
 
@@ -194,16 +195,18 @@ impl<'a> Attempt<'a> {
 
     /// Whether a shot has been found, or time is up.
     fn is_over(&self) -> bool {
-        !self.solutions.is_empty()
-            || self.start.elapsed() >= self.request.budget
-            || self.request.cancel.load(Ordering::Relaxed)
+        !self.solutions.is_empty() || self.is_out_of_time()
+    }
+
+    fn is_out_of_time(&self) -> bool {
+        self.start.elapsed() >= self.request.budget || self.request.cancel.load(Ordering::Relaxed)
     }
 
     fn play(&mut self, cue: CueInputs, source: Source) {
-        let mut referee = Referee::default();
-        simulate(self.table, self.layout, &strike(self.table, &cue), &mut referee);
+        let mut hurried = Hurried { referee: Referee::default(), attempt: self };
+        watch(self.table, self.layout, &strike(self.table, &cue), &mut hurried);
+        let tally = hurried.referee.tally;
         self.simulations += 1;
-        let tally = referee.tally;
         let suggestion = Suggestion { cue, source };
         if tally.is_point(self.request.rule) {
             self.solutions.push(suggestion);
@@ -233,6 +236,24 @@ impl<'a> Attempt<'a> {
             simulations: self.simulations,
             elapsed: self.start.elapsed(),
         }
+    }
+}
+
+/// A referee who gives a shot up when time is up: one with a stiff contact can take seconds.
+struct Hurried<'a> {
+    referee: Referee,
+    attempt: &'a Attempt<'a>,
+}
+
+impl Observer for Hurried<'_> {
+    const ENDS: bool = Referee::ENDS;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.referee.event(event)
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        if self.attempt.is_out_of_time() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 

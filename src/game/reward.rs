@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Rule, Tally};
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, simulate, watch},
+    simulation::{Event, Observer, Patience, simulate, watch},
     table::{Layout, Table},
 };
 
@@ -162,13 +162,12 @@ fn distance_reward(table: &Table, layout: &Layout) -> f64 {
 /// it counts where the balls come to rest.
 struct Meetings<const ENOUGH: u8> {
     tally: Tally,
-    /// Steps of resting contacts that are still followed.
-    patience: u32,
+    patience: Patience,
 }
 
 impl<const ENOUGH: u8> Meetings<ENOUGH> {
-    fn new(patience: u32) -> Self {
-        Self { tally: Tally::default(), patience }
+    fn new(steps: u32) -> Self {
+        Self { tally: Tally::default(), patience: Patience(steps) }
     }
 }
 
@@ -183,11 +182,7 @@ impl<const ENOUGH: u8> Observer for Meetings<ENOUGH> {
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        if self.patience == 0 {
-            return ControlFlow::Break(());
-        }
-        self.patience -= 1;
-        ControlFlow::Continue(())
+        self.patience.step()
     }
 }
 

@@ -121,6 +121,23 @@ impl Serialize for Event {
     }
 }
 
+/// Steps of resting contacts that an observer is ready to follow: a stiff contact takes thousands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Patience(pub u32);
+
+impl Patience {
+    /// Takes one step's worth of it, for [`Observer::contact_step`]; `Break` where none is left.
+    pub const fn step(&mut self) -> ControlFlow<()> {
+        match self.0.checked_sub(1) {
+            Some(left) => {
+                self.0 = left;
+                ControlFlow::Continue(())
+            }
+            None => ControlFlow::Break(()),
+        }
+    }
+}
+
 /// What a scene wants to know of a shot; the engine computes nothing else.
 pub trait Observer {
     /// Whether [`Observer::segment`] wants to be called.
@@ -132,7 +149,7 @@ pub trait Observer {
     /// An event has happened. `Break` ends the simulation: the outcome is decided.
     fn event(&mut self, event: Event) -> ControlFlow<()>;
 
-    /// A resting contact is about to be followed for another step; a stiff one takes thousands. `Break` gives the shot up.
+    /// A resting contact is about to be followed for another step. `Break` gives the shot up.
     fn contact_step(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }

@@ -20,7 +20,7 @@ mod touches;
 
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
-pub use events::{Event, EventKind, Observer, Rail};
+pub use events::{Event, EventKind, Observer, Patience, Rail};
 pub use playback::{Recording, ShotError};
 pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};

@@ -14,7 +14,7 @@ use super::{
 use crate::{
     game::Reward,
     physics::strike,
-    simulation::{Event, EventKind, Observer, Segment, watch},
+    simulation::{Event, EventKind, Observer, Patience, Segment, watch},
     table::{Layout, Table},
 };
 
@@ -29,7 +29,7 @@ pub fn relabel(
     rng: &mut (impl Rng + ?Sized),
 ) -> Option<Experience> {
     let cue = cue_inputs(table, view, action);
-    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience };
+    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: Patience(patience) };
     watch(table, layout, &strike(table, &cue), &mut way);
     let (first, begin) = way.met?;
     // The ball that was not met is the one to move; the view must call it the second.
@@ -58,8 +58,7 @@ struct Way {
     last: f64,
     /// Pieces of the way and when they end, s.
     segments: Vec<(Segment, f64)>,
-    /// Steps of resting contacts that are still followed.
-    patience: u32,
+    patience: Patience,
 }
 
 impl Observer for Way {
@@ -82,11 +81,7 @@ impl Observer for Way {
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        if self.patience == 0 {
-            return ControlFlow::Break(());
-        }
-        self.patience -= 1;
-        ControlFlow::Continue(())
+        self.patience.step()
     }
 }
 

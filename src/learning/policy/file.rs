@@ -36,7 +36,7 @@ pub struct Origin {
     pub table: String,
     /// What it was rewarded for.
     pub reward: Reward,
-    /// What its actions mean ([`ActionSpace::meaning`](super::action::ActionSpace::meaning)).
+    /// What its actions mean ([`ActionSpace::meaning`](crate::learning::ddpg::action::ActionSpace::meaning)).
     pub actions: String,
     /// What its networks are told ([`FEATURE_VERSION`]).
     pub features: String,
