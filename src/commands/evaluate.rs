@@ -64,7 +64,9 @@ pub struct Args {
 #[derive(Debug, Serialize)]
 struct Report {
     player: &'static str,
-    policy: String,
+    /// Of players that have one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    policy: Option<String>,
     table: String,
     /// The reward or the rule.
     measure: &'static str,
@@ -160,7 +162,7 @@ fn measure(
     let count = args.layouts as usize;
     Report {
         player: name,
-        policy: args.policy.clone(),
+        policy: args.random_search.is_none().then(|| args.policy.clone()),
         table: table.name.clone(),
         measure: reward.name(),
         seed: args.seed,
@@ -174,17 +176,18 @@ fn measure(
 
 fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result<()> {
     let Report { player, policy, table, measure, .. } = report;
+    let policy = policy.as_ref().map_or_else(String::new, |policy| format!(" {policy}"));
     match report.success {
         Some(SuccessRate { rate, low, high, .. }) => writeln!(
             out,
-            "{player} {policy} on \"{table}\": {measure} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
+            "{player}{policy} on \"{table}\": {measure} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
             100.0 * rate,
             100.0 * low,
             100.0 * high
         )?,
         None => writeln!(
             out,
-            "{player} {policy} on \"{table}\": mean {measure} {:.4} over {layouts} layouts",
+            "{player}{policy} on \"{table}\": mean {measure} {:.4} over {layouts} layouts",
             report.mean_reward
         )?,
     }
