@@ -119,6 +119,11 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
 
 #[test]
 fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let cellar = folder.path().join("cellar.toml");
+    let table = include_str!("../src/table/match.toml").replace("name = \"match\"", "name = \"cellar\"");
+    std::fs::write(&cellar, table).unwrap();
+    let cellar = cellar.to_str().unwrap();
     let cases: [(&[&str], &[&str]); 10] = [
         (&["simulate", "--layout", "9,0 0,0 0.5,0.5", "--shot", SHOT], &["9.0000", "1.3892"]),
         (&["simulate", "--layout", "0,0 0,0.01 0.5,0.5", "--shot", SHOT], &["0.0100", "0.0615"]),
@@ -129,7 +134,7 @@ fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
         (&["simulate", "--shot", "0,0,0,0,-1"], &["V = -1", "above 0"]),
         (&["simulate", "--shot", SHOT, "--table", "snooker"], &["snooker", "match", "thesis"]),
         (&["simulate", "--shot", "0,0,0,1e6,1"], &["phi = ", "36000"]),
-        (&["recommend", "--table", "thesis", "--policy-only"], &["thesis", "--policy"]),
+        (&["recommend", "--table", cellar, "--policy-only"], &["cellar", "--policy"]),
     ];
     for (args, words) in cases {
         let (code, said) = refusal(&mut carom(args));

@@ -241,6 +241,7 @@ mod tests {
             target_rate: 0.02,
             critic_learning_rate: 3e-3,
             actor_learning_rate: 3e-3,
+            actions: ActionSpace::PhiV,
             ..Hyperparameters::default()
         };
         let space = hyper.actions;
