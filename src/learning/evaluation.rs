@@ -4,9 +4,9 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;
 
-use crate::learning::policy::Policy;
 use crate::{
     game::Reward,
+    learning::policy::Policy,
     table::{Layout, Table},
 };
 

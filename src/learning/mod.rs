@@ -1,9 +1,11 @@
 //! Agents that learn to play: what they see, what they do, and how they get better.
 //!
 //! [`ddpg`] is the agent that coaches, with its way of seeing the table; [`thesis`] holds the thesis' own three; both learn
-//! with what [`network`] has. A [`run`] on disk drives any [`learner`]. What comes out is a [`policy`], which
+//! with what [`network`] has. A [`run`] on disk drives any [`learner`] of the
+//! [`agents`]. What comes out is a [`policy`], which
 //! [`evaluation`] measures.
 
+pub mod agents;
 mod calendar;
 pub mod ddpg;
 pub mod evaluation;

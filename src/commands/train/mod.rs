@@ -25,7 +25,8 @@ use super::Failure;
 use crate::{
     game::Reward,
     learning::{
-        learner::{AGENTS, StartError},
+        agents::AGENTS,
+        learner::StartError,
         run::{Run, RunError, seeds::is_group},
     },
     storage::Places,

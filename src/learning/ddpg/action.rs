@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{dual::Dual, stroke::Stroke, view::View};
-use crate::{physics::CueInputs, table::Table};
+use super::dual::{ALONG, Dual};
+use crate::table::Table;
 
 /// Most numbers in an action.
-pub const ACTIONS: usize = 5;
+pub const ACTIONS: usize = ALONG;
 
 /// An action as a network gives it: aim, speed, tip to the left and up, elevation; each from -1 to 1. All noughts but the
 /// first two are the thesis' fixed choice a = b = 0, theta = 10°.
@@ -126,81 +126,9 @@ impl Meaning {
     }
 }
 
-/// The stroke that carries out `action` in `view`.
-pub fn cue_inputs(table: &Table, view: &View, action: Action) -> CueInputs {
-    let meaning = Meaning::of(table, action);
-    let line = view.lines(table).to_first;
-    let swerve = Stroke::of(table, &meaning, line.distance).swerve.value;
-    let aside = 2.0 * table.radius * meaning.offset.value - swerve;
-    let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
-    let direction = glam::DVec2::from_angle(turn).rotate(line.direction);
-    let [left, up] = meaning.tip;
-    CueInputs {
-        // Adding nought makes a negative nought positive, which people read better.
-        a: view.side_on_table(left.value) + 0.0,
-        b: up.value,
-        theta: meaning.theta.value,
-        phi: view.angle_on_table(direction),
-        speed: meaning.speed.value,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Layout;
-    use glam::DVec2;
-    use rand::{RngExt, SeedableRng};
-    use rand_xoshiro::Xoshiro256PlusPlus;
-
-    #[test]
-    fn the_aiming_line_passes_the_first_ball_at_the_offset_on_the_side_of_the_view() {
-        let table = Table::default();
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        for _ in 0..100 {
-            let layout = Layout::random(&table, &mut rng);
-            for (index, view) in View::all(&layout).iter().enumerate() {
-                let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 0.0, 0.0, 0.0];
-                let cue = cue_inputs(&table, view, action);
-                cue.validate().unwrap();
-                assert_eq!((cue.a, cue.b, cue.theta), (0.0, 0.0, 10_f64.to_radians()));
-                let to_ball = layout.balls[1 + (index & 1)] - layout.balls[0];
-                // Positive where the ball's centre lies on the right of the aiming line.
-                let passed = -DVec2::from_angle(cue.phi).perp_dot(to_ball) / (2.0 * table.radius);
-                let side = if index & 2 == 0 { 1.0 } else { -1.0 };
-                assert!((passed * side - Meaning::of(&table, action).offset.value).abs() < 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn no_action_oversteps_the_miscue_limit_and_what_is_no_number_still_gives_a_stroke() {
-        for name in crate::table::PRESETS {
-            let table = Table::preset(name).unwrap();
-            let view = View::new(&Layout::opening(&table), 0);
-            for input in [f32::NAN, f32::INFINITY, -7.0, 1.0, -1.0, 0.3] {
-                for action in [[input; ACTIONS], [0.0, 0.0, input, -input, 1.0], [0.0, 0.0, input, 0.0, 0.0]] {
-                    let cue = cue_inputs(&table, &view, action);
-                    cue.validate().unwrap();
-                    cue.validate_tip(table.miscue_limit).unwrap();
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_mirrored_view_gets_the_mirrored_stroke() {
-        let table = Table::default();
-        let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
-        let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
-        let action = [0.2, 0.5, 0.6, -0.3, 0.4];
-        let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, view)| {
-            let cue = cue_inputs(&table, &View::new(&layout, view), action);
-            (cue.a, cue.phi, cue.b, cue.theta, cue.speed)
-        });
-        assert!((one.1 + other.1).abs() < 1e-12 && one.0 > 0.2);
-        assert_eq!((one.0, one.2, one.3, one.4), (-other.0, other.2, other.3, other.4));
-    }
 
     #[test]
     fn offsets_and_actions_are_inverse() {

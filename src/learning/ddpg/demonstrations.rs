@@ -4,8 +4,9 @@
 use rand::{Rng, RngExt};
 
 use super::{
-    action::{ACTIONS, Action, ActionSpace, cue_inputs},
+    action::{ACTIONS, Action, ActionSpace},
     replay::Experience,
+    stroke::cue_inputs,
     view::{VIEWS, View},
 };
 use crate::{

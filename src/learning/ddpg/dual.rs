@@ -4,7 +4,8 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::DVec2;
 
-use super::action::ACTIONS;
+/// Numbers along which slopes are kept: as many as an action has.
+pub const ALONG: usize = 5;
 
 /// A value and its partial derivatives with respect to the numbers of an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,13 +13,13 @@ pub struct Dual {
     /// The value.
     pub value: f64,
     /// Its slope along each action.
-    pub slope: [f64; ACTIONS],
+    pub slope: [f64; ALONG],
 }
 
 impl Dual {
     /// A number that does not depend on the actions.
     pub const fn constant(value: f64) -> Self {
-        Self { value, slope: [0.0; ACTIONS] }
+        Self { value, slope: [0.0; ALONG] }
     }
 
     /// The action number `index` itself.

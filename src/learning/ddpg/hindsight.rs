@@ -6,11 +6,7 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{
-    action::{Action, cue_inputs},
-    replay::Experience,
-    view::View,
-};
+use super::{action::Action, replay::Experience, stroke::cue_inputs, view::View};
 use crate::{
     game::Reward,
     physics::strike,

@@ -4,12 +4,13 @@ use candle_core::Result;
 use rand::RngExt;
 
 use super::{
-    action::{Action, cue_inputs},
+    action::Action,
     demonstrations::demonstrate,
     hindsight::relabel,
     hyperparameters::Hyperparameters,
     replay::Experience,
     scenes::Scenes,
+    stroke::cue_inputs,
     trainer::Trainer,
     view::{VIEWS, View},
 };

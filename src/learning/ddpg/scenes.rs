@@ -10,8 +10,10 @@ use super::{
     features::{ACTION_FEATURES, STATE_FEATURES, push_action_features, push_state_features},
     view::View,
 };
-use crate::learning::network::tensors::{stored_values, values};
-use crate::table::Table;
+use crate::{
+    learning::network::tensors::{stored_values, values},
+    table::Table,
+};
 
 /// Inputs of the actor.
 pub const ACTOR_INPUTS: usize = STATE_FEATURES;

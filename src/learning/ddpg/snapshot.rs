@@ -16,15 +16,17 @@ use super::{
     trainer::{Task, Trainer},
     view::View,
 };
-use crate::learning::{
-    learner::note_of,
-    network::{
-        adam::Adam,
-        mlp::Mlp,
-        weights::{Reader, WeightsError, Writer},
+use crate::{
+    learning::{
+        learner::note_of,
+        network::{
+            adam::Adam,
+            mlp::Mlp,
+            weights::{Reader, WeightsError, Writer},
+        },
     },
+    table::Table,
 };
-use crate::table::Table;
 
 /// What a snapshot holds beside arrays.
 #[derive(Debug, Serialize, Deserialize)]

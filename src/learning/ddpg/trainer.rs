@@ -11,12 +11,15 @@ use super::{
     action::ActionSpace, agent::Ddpg, features::FEATURE_VERSION, hyperparameters::Hyperparameters,
     replay::ReplayBuffer, scenes::Scenes,
 };
-use crate::learning::{
-    calendar::today,
-    learner::Turn,
-    policy::{Policy, file::Origin},
+use crate::{
+    game::Reward,
+    learning::{
+        calendar::today,
+        learner::Turn,
+        policy::{Policy, file::Origin},
+    },
+    table::Table,
 };
-use crate::{game::Reward, table::Table};
 
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,17 +5,17 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::Policy;
-use crate::learning::{
-    ddpg::{
-        features::FEATURE_VERSION,
-        hyperparameters::Hyperparameters,
-        networks::Networks,
-        scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
-    },
-    network::weights::{Reader, WeightsError, Writer},
-};
 use crate::{
     game::{Reward, Rule},
+    learning::{
+        ddpg::{
+            features::FEATURE_VERSION,
+            hyperparameters::Hyperparameters,
+            networks::Networks,
+            scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+        },
+        network::weights::{Reader, WeightsError, Writer},
+    },
     storage::write_atomic,
 };
 

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use candle_core::Result;
 
 use self::file::Origin;
-use crate::learning::ddpg::{
-    action::cue_inputs,
-    networks::Networks,
-    scenes::Scenes,
-    view::{VIEWS, View},
-};
 use crate::{
+    learning::ddpg::{
+        networks::Networks,
+        scenes::Scenes,
+        stroke::cue_inputs,
+        view::{VIEWS, View},
+    },
     physics::CueInputs,
     table::{Layout, Table},
 };

@@ -3,11 +3,7 @@
 use std::path::Path;
 
 use super::checkpoint::Damage;
-use crate::learning::{
-    PolicyError,
-    learner::{StartError, UnknownAgent},
-    network::weights::WeightsError,
-};
+use crate::learning::{PolicyError, agents::UnknownAgent, learner::StartError, network::weights::WeightsError};
 
 /// Why a run cannot start, go on or be saved.
 #[derive(Debug, thiserror::Error)]

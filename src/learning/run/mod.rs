@@ -30,8 +30,10 @@ pub use self::{
     error::{OriginError, RunError},
     practice::{Ending, Watcher},
 };
-use crate::learning::{evaluation::Score, learner::Learner};
-use crate::storage::{Lock, remove_partial_files, write_atomic};
+use crate::{
+    learning::{evaluation::Score, learner::Learner},
+    storage::{Lock, remove_partial_files, write_atomic},
+};
 
 /// The metrics' file in a run's folder.
 pub const METRICS: &str = "metrics.jsonl";

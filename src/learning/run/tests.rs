@@ -7,8 +7,9 @@ use super::*;
 use crate::{
     game::Reward,
     learning::{
+        agents::AGENTS,
         ddpg::trainer::{Trainer, tests::small_task},
-        learner::{AGENTS, Plan},
+        learner::Plan,
         policy::Policy,
     },
     table::Table,

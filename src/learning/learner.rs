@@ -1,22 +1,18 @@
-//! What a training run needs of an agent, whichever it is, and the list of agents.
+//! What a training run needs of an agent, whichever it is.
 
 use std::fmt::Debug;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::learning::{
-    evaluation::Score,
-    network::weights::{Reader, WeightsError, Writer},
-    thesis::learner as thesis,
-};
 use crate::{
     game::Reward,
+    learning::{
+        evaluation::Score,
+        network::weights::{Reader, WeightsError, Writer},
+    },
     table::{Layout, Table},
 };
-
-/// The agents that can be trained. To add one: implement [`Learner`] and add its line here.
-pub const AGENTS: [Agent; 4] = [crate::learning::ddpg::learner::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
 
 /// Makes a beginner.
 pub type Start = fn(Plan, Table, Value) -> Result<Box<dyn Learner>, StartError>;
@@ -36,21 +32,6 @@ pub struct Agent {
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
 }
-
-impl Agent {
-    /// The agent called `name`.
-    ///
-    /// # Errors
-    /// [`UnknownAgent`], which lists them.
-    pub fn named(name: &str) -> Result<Self, UnknownAgent> {
-        AGENTS.into_iter().find(|agent| agent.name == name).ok_or_else(|| UnknownAgent(name.to_owned()))
-    }
-}
-
-/// An agent's name that is not known.
-#[derive(Debug, thiserror::Error, PartialEq)]
-#[error("there is no agent \"{0}\"; use {list}", list = AGENTS.map(|agent| agent.name).join(", "))]
-pub struct UnknownAgent(String);
 
 /// Why an agent cannot start.
 #[derive(Debug, thiserror::Error)]
@@ -158,18 +139,4 @@ pub trait Learner: Debug + Send {
 pub fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
     let text = serde_json::to_string(note).map_err(safetensors::SafeTensorError::from)?;
     Ok(serde_json::from_str(&text).map_err(safetensors::SafeTensorError::from)?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn agents_are_found_by_name_and_unknown_ones_are_told_the_names() {
-        for agent in AGENTS {
-            assert_eq!(Agent::named(agent.name).unwrap().name, agent.name);
-        }
-        let unknown = Agent::named("sarsa").unwrap_err().to_string();
-        assert!(unknown.contains("sarsa") && unknown.contains("ddpg"), "{unknown}");
-    }
 }

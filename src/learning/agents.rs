@@ -1,0 +1,35 @@
+//! The agents that can be trained, by name.
+
+use super::{ddpg::learner as ddpg, learner::Agent, thesis::learner as thesis};
+
+/// The agents that can be trained. To add one: implement [`Learner`](super::learner::Learner) and add its line here.
+pub const AGENTS: [Agent; 4] = [ddpg::AGENT, thesis::Q_LEARNING, thesis::DQN, thesis::DDPG];
+
+impl Agent {
+    /// The agent called `name`.
+    ///
+    /// # Errors
+    /// [`UnknownAgent`], which lists them.
+    pub fn named(name: &str) -> Result<Self, UnknownAgent> {
+        AGENTS.into_iter().find(|agent| agent.name == name).ok_or_else(|| UnknownAgent(name.to_owned()))
+    }
+}
+
+/// An agent's name that is not known.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no agent \"{0}\"; use {list}", list = AGENTS.map(|agent| agent.name).join(", "))]
+pub struct UnknownAgent(String);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn agents_are_found_by_name_and_unknown_ones_are_told_the_names() {
+        for agent in AGENTS {
+            assert_eq!(Agent::named(agent.name).unwrap().name, agent.name);
+        }
+        let unknown = Agent::named("sarsa").unwrap_err().to_string();
+        assert!(unknown.contains("sarsa") && unknown.contains("ddpg"), "{unknown}");
+    }
+}
