@@ -1,6 +1,6 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about three hours of one core.
+# with the same version. All of it takes about four hours of a shared core.
 set -eu
 folder=${1:-runs}
 carom=${2:-carom}

@@ -9,10 +9,10 @@ use super::{
     snapshot,
     trainer::{Task, Trainer},
 };
-use crate::learning::learner::{Agent, Learner, Plan, StartError, Turn, note_of};
 use crate::{
     learning::{
         evaluation::{Score, score},
+        learner::{Agent, Learner, Plan, StartError, Turn, note_of},
         network::weights::{Reader, WeightsError, Writer},
     },
     table::{Layout, Table},
