@@ -8,7 +8,7 @@ carom=${2:-carom}
 train() {
     name=$1
     shift
-    "$carom" train --run "$folder/$name" "$@"
+    "$carom" train --run "$folder/$name" --evaluate-every 384000 "$@"
 }
 
 train match-r3-first --table match --reward r3 --seed 1 --steps 5000000

@@ -47,10 +47,11 @@ pub struct Args {
     rule: Rule,
     /// With --policy-only, what is measured in place of the rule: r1, r1-difficulty, r2, r3 or r4. Where it is more than
     /// yes or no, the mean is given.
-    #[arg(long, requires = "policy_only", conflicts_with = "rule")]
+    #[arg(long, requires = "policy_only", conflicts_with_all = ["rule", "random_search", "budget_ms"])]
     reward: Option<Reward>,
     /// Measure a search of so many shots of random phi and V, which the simulator checks: the first that succeeds counts.
-    #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"])]
+    #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
+        value_parser = clap::value_parser!(u32).range(1..))]
     random_search: Option<u32>,
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
@@ -93,12 +94,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             random_search(&table, layout, args.rule, shots, &mut rng)
         })
     } else if args.policy_only {
-        let policy = policy_named(&args.policy, &table, args.rule)?;
+        let reward = args.reward.unwrap_or(rule_reward);
+        let policy = policy_named(
+            &args.policy,
+            &table,
+            Rule::ALL.into_iter().find(|rule| Reward::for_rule(*rule) == reward).unwrap_or_default(),
+        )?;
+        let origin = policy.origin();
+        if reward.is_point() && origin.reward != reward {
+            eprintln!("note: this policy was trained for {}, not for {reward}", origin.reward);
+        }
         let trained_on = &policy.origin().table;
         if *trained_on != table.name {
             eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
         }
-        let reward = args.reward.unwrap_or(rule_reward);
         measure(args, &table, "policy", reward, &mut |layout| policy.propose(&table, layout))
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
@@ -201,9 +210,10 @@ fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result
 /// The bundled policy for `rule` on `table`, or the one in the file.
 fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
     let policy = if name == "bundled" {
-        Policy::bundled(&table.name, rule).ok_or_else(|| {
+        let is_preset = Table::preset(&table.name).is_ok_and(|preset| preset == *table);
+        is_preset.then(|| Policy::bundled(&table.name, rule)).flatten().ok_or_else(|| {
             Failure::wrong_input(format_args!(
-                "no policy is bundled for the table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+                "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
                  `carom train`",
                 table.name
             ))

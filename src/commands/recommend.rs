@@ -136,6 +136,13 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Ans
                 policy.origin().reward
             );
         }
+        if policy.origin().table != coach.table().name {
+            eprintln!(
+                "note: this policy was trained on \"{}\", not on \"{}\"",
+                policy.origin().table,
+                coach.table().name
+            );
+        }
         let cue = policy.propose(coach.table(), layout);
         return Ok(Answer {
             cue,
@@ -155,7 +162,7 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Ans
 
 fn no_policy(table: &Table) -> Failure {
     Failure::wrong_input(format_args!(
-        "no policy is bundled for the table \"{}\"; leave out --policy-only, or give --policy FILE",
+        "no policy is bundled for this table \"{}\"; leave out --policy-only, or give --policy FILE",
         table.name
     ))
 }

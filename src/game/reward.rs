@@ -1,4 +1,4 @@
-//! The thesis' rewards r1 to r4 (its 4.1.5), and r1 with the difficulty of the shot.
+//! The thesis' rewards r1 to r4 (its 4.1.5), r1 with the difficulty of the shot, and points under the cushion rules.
 
 use std::{fmt, ops::ControlFlow, str::FromStr};
 

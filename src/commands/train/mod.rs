@@ -133,6 +133,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(seeds) = args.seeds {
         return several::start(read, seeds, args.jobs, &session);
     }
+    if args.jobs > 1 {
+        let jobs = args.jobs;
+        return Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; say how many by --seeds")));
+    }
     let order::Read { order, weights, folder } = read;
     train(order.start(&folder, order.plan.seed, weights.as_ref()).map_err(failure)?, &session)
 }

@@ -1,4 +1,4 @@
-//! Numbers that carry their slopes along the two actions (forward-mode differentiation).
+//! Numbers that carry their slopes along the numbers of an action (forward-mode differentiation).
 
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -7,12 +7,19 @@ use super::action::{Action, ActionSpace};
 
 /// How far the agent strays from its own choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Exploration {
     /// Standard deviations of the noise, in units of half an action's range; each shot draws one of them. Small ones
     /// show the critic the edges of a success window, large ones other windows.
     pub noise: Vec<f32>,
     /// Share of shots that are drawn uniformly from all actions.
     pub uniform: f64,
+}
+
+impl Default for Exploration {
+    fn default() -> Self {
+        Self { noise: vec![0.015, 0.05, 0.2], uniform: 0.1 }
+    }
 }
 
 impl Exploration {

@@ -1,5 +1,5 @@
-//! Hindsight experience replay (Andrychowicz et al. 2017; thesis 6.1.1): a shot that missed the second ball would have made
-//! the point had that ball lain on the cue ball's way. So it is put there, and the shot is remembered as a success.
+//! Hindsight experience replay (Andrychowicz et al. 2017; thesis 6.1.1): a shot that made no point would have made
+//! it had that ball lain on the cue ball's way. So it is put there, and the shot is remembered as a success.
 
 use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 

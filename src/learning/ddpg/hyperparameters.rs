@@ -37,8 +37,8 @@ pub struct Hyperparameters {
     /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
     /// left behind.
     pub replay: usize,
-    /// Share of the misses that are remembered a second time as the points that they would have been with the second ball
-    /// elsewhere (hindsight experience replay, thesis 6.1.1). For rewards of points only.
+    /// Share of the misses for which it is tried to remember them a second time, as the points that they would have been with
+    /// the second ball elsewhere (hindsight experience replay, thesis 6.1.1). For rewards of points only.
     pub hindsight: f64,
     /// Share of the shots of an update that are not the agent's own but a search's solutions (demonstrations, thesis
     /// 6.1.2). For rewards of points only.
@@ -69,7 +69,7 @@ impl Default for Hyperparameters {
             hindsight: 0.0,
             demonstrations: 0.0,
             logit_weight: 0.02,
-            exploration: Exploration { noise: vec![0.015, 0.05, 0.2], uniform: 0.1 },
+            exploration: Exploration::default(),
         }
     }
 }
@@ -102,9 +102,11 @@ impl Hyperparameters {
             }
         }
         check("heads", self.heads as f64, (1..=256).contains(&self.heads), "1 to 256")?;
-        count("batch", self.batch)?;
-        count("actor_batch", self.actor_batch)?;
-        count("shots_per_update", self.shots_per_update)?;
+        // Larger ones would ask for more memory than most machines have.
+        let batch = |name, value: usize| check(name, value as f64, (1..=1 << 16).contains(&value), "1 to 65536");
+        batch("batch", self.batch)?;
+        batch("actor_batch", self.actor_batch)?;
+        batch("shots_per_update", self.shots_per_update)?;
         count("replay", self.replay)?;
         positive("critic_learning_rate", self.critic_learning_rate)?;
         positive("actor_learning_rate", self.actor_learning_rate)?;

@@ -115,6 +115,10 @@ impl Trainer {
     pub fn turn(&mut self) -> Result<Turn> {
         let pace = self.pace();
         let mean_reward = self.play()?;
+        // An expert may have found nothing to show yet.
+        if self.replay.is_empty() {
+            return Ok(Turn { mean_reward, ..Turn::default() });
+        }
         let batch = self.replay.sample(self.task.hyperparameters.batch, &mut self.rng);
         let scenes = Scenes::new(&self.table, self.space(), batch.iter().map(|experience| experience.view).collect())?;
         let actions: Vec<_> = batch.iter().map(|experience| experience.action).collect();

@@ -18,11 +18,11 @@ mod tally;
 
 use std::path::{Path, PathBuf};
 
-use self::metrics::MetricsFile;
 use self::{
     checkpoint::{Checkpoints, Loaded},
     contents::State,
     error::file,
+    metrics::MetricsFile,
     tally::Tally,
 };
 pub use self::{
@@ -65,7 +65,9 @@ impl Run {
     ) -> Result<Self, RunError> {
         std::fs::create_dir_all(folder).map_err(file(folder))?;
         let lock = lock(folder)?;
-        if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists()) {
+        if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
+            || seeds::is_group(folder)
+        {
             return Err(RunError::Occupied(folder.display().to_string()));
         }
         let config = Config::of(learner.as_ref(), schedule, from.clone());
