@@ -33,6 +33,11 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert_eq!(states.len(), 7);
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
+
+    // A single run would hide the seeds.
+    let single = carom(here, &format!("{SHORT} --run whole"));
+    assert_eq!(single.code, Some(2));
+    assert!(single.err.contains("--resume"), "{}", single.err);
 }
 
 #[test]

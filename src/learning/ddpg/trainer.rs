@@ -171,6 +171,18 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
+    fn a_turn_that_leaves_nothing_to_remember_is_no_failure() {
+        let mut task = Task { reward: Reward::ThreeCushion, ..small_task() };
+        task.hyperparameters.demonstrations = 1.0;
+        task.hyperparameters.shots_per_update = 1;
+        let mut trainer = Trainer::new(task, Table::preset("thesis").unwrap()).unwrap();
+        for _ in 0..10 {
+            trainer.turn().unwrap();
+        }
+        assert!(trainer.shots() == 10 && trainer.updates() < 10);
+    }
+
+    #[test]
     fn the_learning_rate_falls_from_one_to_nothing() {
         let mut trainer = Trainer::new(small_task(), Table::default()).unwrap();
         assert_eq!(trainer.pace(), 1.0);
