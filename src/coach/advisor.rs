@@ -112,10 +112,8 @@ impl Coach {
     /// # Errors
     /// Where a bundled policy is damaged.
     pub fn new(table: Table) -> Result<Self, PolicyError> {
-        // A user's table of the same name is another table: the policy has never played on it.
-        let is_preset = Table::preset(&table.name).is_ok_and(|preset| preset == table);
-        let rules = if is_preset { Rule::ALL.as_slice() } else { &[] };
-        let policies = rules.iter().filter_map(|rule| Policy::bundled(&table.name, *rule)).collect::<Result<_, _>>()?;
+        let bundled = Rule::ALL.into_iter().filter_map(|rule| Policy::bundled(&table, rule));
+        let policies = bundled.collect::<Result<_, _>>()?;
         Ok(Self { table, policies })
     }
 

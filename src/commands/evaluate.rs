@@ -11,7 +11,11 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;
 
-use super::{Failure, input::table_named, recommend::coach_for};
+use super::{
+    Failure,
+    input::{note_doubts, table_named},
+    recommend::coach_for,
+};
 use crate::{
     coach::Request,
     game::{Reward, Rule, scores},
@@ -95,20 +99,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         })
     } else if args.policy_only {
         let reward = args.reward.unwrap_or(rule_reward);
-        let policy = policy_named(
-            &args.policy,
-            &table,
-            Rule::ALL.into_iter().find(|rule| Reward::for_rule(*rule) == reward).unwrap_or_default(),
-        )?;
-        let origin = policy.origin();
-        if reward.is_point() && origin.reward != reward {
-            eprintln!("note: this policy was trained for {}, not for {reward}", origin.reward);
-        }
-        let trained_on = &policy.origin().table;
-        if *trained_on != table.name {
-            eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
-        }
-        measure(args, &table, "policy", reward, &mut |layout| policy.propose(&table, layout))
+        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
+        note_doubts(&policy, &table, reward.rule());
+        measure(args, &table, POLICY, reward, &mut |layout| policy.propose(&table, layout))
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
         let budget = Duration::from_millis(args.budget_ms);
@@ -132,6 +125,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// Name of the networks alone as a player.
+const POLICY: &str = "policy";
 
 /// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
 const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
@@ -173,10 +169,10 @@ fn measure(
         player: name,
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         table: table.name.clone(),
-        measure: reward.name(),
+        measure: if name == POLICY { reward.name() } else { args.rule.name() },
         seed: args.seed,
         mean_reward: total / count as f64,
-        success: (reward == Reward::R1 || reward.is_point()).then(|| SuccessRate::new(successes, count)),
+        success: (reward == Reward::R1 || reward.rule().is_some()).then(|| SuccessRate::new(successes, count)),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * slowest,
         simulations_per_layout: None,
@@ -210,8 +206,7 @@ fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result
 /// The bundled policy for `rule` on `table`, or the one in the file.
 fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
     let policy = if name == "bundled" {
-        let is_preset = Table::preset(&table.name).is_ok_and(|preset| preset == *table);
-        is_preset.then(|| Policy::bundled(&table.name, rule)).flatten().ok_or_else(|| {
+        Policy::bundled(table, rule).ok_or_else(|| {
             Failure::wrong_input(format_args!(
                 "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
                  `carom train`",

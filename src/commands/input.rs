@@ -10,7 +10,11 @@ use std::{
 use serde::{Serialize, de::DeserializeOwned};
 
 use super::Failure;
-use crate::table::{Layout, Table, TableError};
+use crate::{
+    game::{Reward, Rule},
+    learning::{Policy, policy::file::Origin},
+    table::{Layout, Table, TableError},
+};
 
 /// A bundled table, or the one in the TOML file at the path `name`.
 pub fn table_named(name: &str) -> Result<Table, Failure> {
@@ -21,6 +25,17 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
             Table::from_toml(&text).map_err(Failure::wrong_input)
         }
         table => table.map_err(Failure::wrong_input),
+    }
+}
+
+/// Says what speaks against a policy on a table and, where it shall make points, under a rule.
+pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
+    let Origin { reward, table: trained_on, .. } = policy.origin();
+    if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
+        eprintln!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing");
+    }
+    if *trained_on != table.name {
+        eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
     }
 }
 

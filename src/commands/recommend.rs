@@ -10,12 +10,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure,
-    input::{ByTable, Scene, answer_lines},
+    input::{ByTable, Scene, answer_lines, note_doubts},
     output::impulse_words,
 };
 use crate::{
     coach::{Coach, Recommendation, Request, Skill, Source},
-    game::{Reward, Rule},
+    game::Rule,
     learning::Policy,
     physics::{CueInputs, strike},
     table::{Layout, Table},
@@ -130,19 +130,7 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Ans
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
         let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
-        if policy.origin().reward != Reward::for_rule(rule) {
-            eprintln!(
-                "note: this policy was trained for {}; of the rule \"{rule}\" it knows nothing",
-                policy.origin().reward
-            );
-        }
-        if policy.origin().table != coach.table().name {
-            eprintln!(
-                "note: this policy was trained on \"{}\", not on \"{}\"",
-                policy.origin().table,
-                coach.table().name
-            );
-        }
+        note_doubts(policy, coach.table(), Some(rule));
         let cue = policy.propose(coach.table(), layout);
         return Ok(Answer {
             cue,

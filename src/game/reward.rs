@@ -70,9 +70,14 @@ impl Reward {
         }
     }
 
-    /// Whether it says just whether a shot makes a point under some rule, 1 or 0.
-    pub const fn is_point(self) -> bool {
-        matches!(self, Self::R3 | Self::OneCushion | Self::ThreeCushion)
+    /// The rule under which it says just whether a shot makes a point, 1 or 0; `None` where it says something else.
+    pub const fn rule(self) -> Option<Rule> {
+        match self {
+            Self::R3 => Some(Rule::StraightRail),
+            Self::OneCushion => Some(Rule::OneCushion),
+            Self::ThreeCushion => Some(Rule::ThreeCushion),
+            _ => None,
+        }
     }
 
     /// The reward of a point under `rule`.

@@ -2,12 +2,6 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Today in UTC as `2026-11-20`; 1970-01-01 where the clock is wrong.
-pub fn today() -> String {
-    let (year, month, day) = date(seconds() / 86_400);
-    format!("{year:04}-{month:02}-{day:02}")
-}
-
 /// Now in UTC as `2026-11-20T14:30:05Z`.
 pub fn now() -> String {
     moment(SystemTime::now())
@@ -24,10 +18,6 @@ pub fn moment(time: SystemTime) -> String {
 /// Now in UTC as `20261120-143005`, which sorts by time and is a file name everywhere.
 pub fn timestamp() -> String {
     now().replace(['-', ':', 'Z'], "").replace('T', "-")
-}
-
-fn seconds() -> u64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
 }
 
 /// Year, month and day of the Gregorian calendar, `days` after 1970-01-01 (Hinnant, "chrono-compatible low-level date
@@ -55,7 +45,6 @@ mod tests {
         assert_eq!(date(11_017), (2000, 3, 1));
         assert_eq!(date(20_777), (2026, 11, 20));
         assert_eq!(date(47_541), (2100, 3, 1));
-        assert_eq!(today().len(), 10);
         assert_eq!(
             moment(UNIX_EPOCH + std::time::Duration::from_secs(11_016 * 86_400 + 3_661)),
             "2000-02-29T01:01:01Z"

@@ -13,6 +13,7 @@ pub mod learner;
 pub mod network;
 pub mod policy;
 pub mod run;
+pub mod settings;
 pub mod thesis;
 
 pub use calendar::timestamp;

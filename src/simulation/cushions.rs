@@ -151,8 +151,7 @@ fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
 mod tests {
     use glam::{DVec2, DVec3};
 
-    use super::super::savings::All;
-    use super::*;
+    use super::{super::savings::All, *};
     use crate::{physics::BallState, table::Table};
 
     /// The first cushion of a ball with some velocity and spin, and where the ball is then.

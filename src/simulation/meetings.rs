@@ -129,8 +129,7 @@ fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horiz
 
 #[cfg(test)]
 mod tests {
-    use super::super::savings::All;
-    use super::*;
+    use super::{super::savings::All, *};
     use crate::{physics::BallState, table::Table};
 
     #[test]

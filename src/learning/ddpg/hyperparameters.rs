@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{action::ActionSpace, exploration::Exploration};
+use crate::learning::settings::{
+    SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
+};
 
 /// What can be tuned. The defaults trained the bundled policies, but for what the model card says.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,53 +77,29 @@ impl Default for Hyperparameters {
     }
 }
 
-/// A setting outside its range.
-#[derive(Debug, thiserror::Error, PartialEq)]
-#[error("{name} = {value} is outside its range; accepted is {accepted}")]
-pub struct HyperparameterError {
-    name: &'static str,
-    value: f64,
-    accepted: &'static str,
-}
-
 impl Hyperparameters {
     /// Checks every setting.
     ///
     /// # Errors
     /// The first one that is outside its range.
-    pub fn validate(&self) -> Result<(), HyperparameterError> {
-        let check = |name, value: f64, accept: bool, accepted| {
-            if accept { Ok(()) } else { Err(HyperparameterError { name, value, accepted }) }
-        };
-        let count = |name, value: usize| check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216");
-        let share = |name, value: f64| check(name, value, (0.0..=1.0).contains(&value), "0 to 1");
-        let positive = |name, value: f64| check(name, value, value > 0.0 && value <= 1e3, "above 0 and at most 1000");
-        for (name, layers) in [("actor_layers", &self.actor_layers), ("critic_layers", &self.critic_layers)] {
-            check(name, layers.len() as f64, layers.len() <= 16, "at most 16 layers")?;
-            for units in layers {
-                check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer")?;
-            }
-        }
+    pub fn validate(&self) -> Result<(), SettingError> {
+        check_layers("actor_layers", &self.actor_layers)?;
+        check_layers("critic_layers", &self.critic_layers)?;
         check("heads", self.heads as f64, (1..=256).contains(&self.heads), "1 to 256")?;
-        // Larger ones would ask for more memory than most machines have.
-        let batch = |name, value: usize| check(name, value as f64, (1..=1 << 16).contains(&value), "1 to 65536");
-        batch("batch", self.batch)?;
-        batch("actor_batch", self.actor_batch)?;
-        batch("shots_per_update", self.shots_per_update)?;
-        count("replay", self.replay)?;
-        positive("critic_learning_rate", self.critic_learning_rate)?;
-        positive("actor_learning_rate", self.actor_learning_rate)?;
-        positive("gradient_clip", self.gradient_clip)?;
-        share("target_rate", self.target_rate)?;
-        share("critic_chooses", self.critic_chooses)?;
-        share("hindsight", self.hindsight)?;
-        share("demonstrations", self.demonstrations)?;
-        share("logit_weight", self.logit_weight)?;
-        share("exploration.uniform", self.exploration.uniform)?;
-        for scale in &self.exploration.noise {
-            share("exploration.noise", f64::from(*scale))?;
-        }
-        Ok(())
+        check_batch("batch", self.batch)?;
+        check_batch("actor_batch", self.actor_batch)?;
+        check_batch("shots_per_update", self.shots_per_update)?;
+        check_count("replay", self.replay)?;
+        check_positive("critic_learning_rate", self.critic_learning_rate)?;
+        check_positive("actor_learning_rate", self.actor_learning_rate)?;
+        check_positive("gradient_clip", self.gradient_clip)?;
+        check_share("target_rate", self.target_rate)?;
+        check_share("critic_chooses", self.critic_chooses)?;
+        check_share("hindsight", self.hindsight)?;
+        check_share("demonstrations", self.demonstrations)?;
+        check_share("logit_weight", self.logit_weight)?;
+        check_share("exploration.uniform", self.exploration.uniform)?;
+        self.exploration.noise.iter().try_for_each(|scale| check_share("exploration.noise", f64::from(*scale)))
     }
 }
 

@@ -28,7 +28,7 @@ pub const AGENT: Agent = Agent {
         hyperparameters.validate().map_err(|error| refuse(&error))?;
         let Plan { reward, seed, shots } = plan;
         let of_points = hyperparameters.hindsight > 0.0 || hyperparameters.demonstrations > 0.0;
-        if of_points && !reward.is_point() {
+        if of_points && reward.rule().is_none() {
             let reason =
                 "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
             return Err(refuse(&reason));
@@ -74,13 +74,11 @@ impl Learner for Trainer {
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
-        Ok(score(&self.policy(0.0)?, self.table(), self.task.reward, layouts))
+        Ok(score(&self.policy(0.0, "")?, self.table(), self.task.reward, layouts))
     }
 
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
-        let mut policy = self.policy(held_out_reward)?;
-        date.clone_into(&mut policy.origin.date);
-        policy.to_bytes().map(Some)
+        self.policy(held_out_reward, date)?.to_bytes().map(Some)
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {

@@ -14,7 +14,6 @@ use super::{
 use crate::{
     game::Reward,
     learning::{
-        calendar::today,
         learner::Turn,
         policy::{Policy, file::Origin},
     },
@@ -88,7 +87,7 @@ impl Trainer {
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn policy(&self, held_out_reward: f64) -> Result<Policy> {
+    pub fn policy(&self, held_out_reward: f64, date: &str) -> Result<Policy> {
         let origin = Origin {
             table: self.table.name.clone(),
             reward: self.task.reward,
@@ -96,7 +95,7 @@ impl Trainer {
             features: FEATURE_VERSION.to_owned(),
             seed: self.task.seed,
             shots: self.shots,
-            date: today(),
+            date: date.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             held_out_reward,
             hyperparameters: self.task.hyperparameters.clone(),
@@ -209,7 +208,8 @@ pub(in crate::learning) mod tests {
         let table = Table::default();
         let mut trainer = Trainer::new(task, table.clone()).unwrap();
         let layouts = held_out_layouts(&table, 400, HELD_OUT_SEED);
-        let reward = |trainer: &Trainer| score(&trainer.policy(0.0).unwrap(), &table, Reward::R3, &layouts).mean_reward;
+        let reward =
+            |trainer: &Trainer| score(&trainer.policy(0.0, "").unwrap(), &table, Reward::R3, &layouts).mean_reward;
         let before = reward(&trainer);
         while !trainer.is_finished() {
             trainer.turn().unwrap();

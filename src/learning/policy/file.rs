@@ -17,6 +17,7 @@ use crate::{
         network::weights::{Reader, WeightsError, Writer},
     },
     storage::write_atomic,
+    table::Table,
 };
 
 /// The bundled policies: the table's name, what was rewarded, and the file.
@@ -88,14 +89,17 @@ pub enum PolicyError {
 }
 
 impl Policy {
-    /// The policy that comes with the program for `rule` on the table called `table`, if there is one.
+    /// The policy that comes with the program for `rule` on `table`, if there is one. A user's table of the same name is
+    /// another table: no policy has ever played on it.
     ///
     /// # Errors
     /// Where the bundled file is damaged, which a test rules out.
-    pub fn bundled(table: &str, rule: Rule) -> Option<Result<Self, PolicyError>> {
+    pub fn bundled(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
+        Table::preset(&table.name).ok().filter(|preset| preset == table)?;
         let reward = Reward::for_rule(rule);
-        let (.., bytes) = BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (table, reward))?;
-        Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{table}\"")))
+        let (.., bytes) =
+            BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (table.name.as_str(), reward))?;
+        Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
     }
 
     /// Reads a policy from a file.
@@ -156,11 +160,11 @@ impl Policy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{Layout, Table};
+    use crate::table::Layout;
     use candle_core::{Device, Tensor};
 
     fn bundled() -> Policy {
-        Policy::bundled("match", Rule::StraightRail).unwrap().unwrap()
+        Policy::bundled(&Table::default(), Rule::StraightRail).unwrap().unwrap()
     }
 
     fn is_shared<T: Send + Sync>(_: &T) {}
@@ -168,13 +172,15 @@ mod tests {
     #[test]
     fn every_bundled_policy_reads_and_says_what_it_is_for() {
         for table in crate::table::PRESETS {
+            let preset = Table::preset(table).unwrap();
             for rule in Rule::ALL {
-                let policy = Policy::bundled(table, rule).unwrap().unwrap();
+                let policy = Policy::bundled(&preset, rule).unwrap().unwrap();
                 is_shared(&policy);
                 assert_eq!((policy.origin().table.as_str(), policy.origin().reward), (table, Reward::for_rule(rule)));
             }
         }
-        assert!(Policy::bundled("snooker", Rule::StraightRail).is_none());
+        let own = Table { sliding_friction: 0.3, ..Table::default() };
+        assert!(Policy::bundled(&own, Rule::StraightRail).is_none());
         let size: usize = BUNDLED.iter().map(|(.., bytes)| bytes.len()).sum();
         assert!(size <= 10_000_000, "{size} bytes of weights");
     }

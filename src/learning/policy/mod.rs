@@ -106,7 +106,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     fn bundled() -> Policy {
-        Policy::bundled("match", Rule::StraightRail).unwrap().unwrap()
+        Policy::bundled(&Table::default(), Rule::StraightRail).unwrap().unwrap()
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::{
     environment::{Action, Environment, Observation},
 };
 use crate::learning::network::weights::{Reader, WeightsError, Writer};
+use crate::learning::settings::SettingError;
 
 /// What an agent does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,42 +43,6 @@ pub struct Learnt {
     pub loss: f64,
     /// Mean value of the agent's own choices.
     pub value: f64,
-}
-
-/// A setting outside its range.
-#[derive(Debug, thiserror::Error, PartialEq)]
-#[error("{name} = {value} is outside its range; accepted is {accepted}")]
-pub struct SettingError {
-    name: &'static str,
-    value: f64,
-    accepted: &'static str,
-}
-
-/// Fails where `accept` is false.
-pub(super) fn check(name: &'static str, value: f64, accept: bool, accepted: &'static str) -> Result<(), SettingError> {
-    if accept { Ok(()) } else { Err(SettingError { name, value, accepted }) }
-}
-
-/// Checks that a share is one.
-pub(super) fn check_share(name: &'static str, value: f64) -> Result<(), SettingError> {
-    check(name, value, (0.0..=1.0).contains(&value), "0 to 1")
-}
-
-/// Checks a number that must be positive.
-pub(super) fn check_positive(name: &'static str, value: f64) -> Result<(), SettingError> {
-    check(name, value, value > 0.0 && value <= 1e3, "above 0 and at most 1000")
-}
-
-/// Checks a count.
-pub(super) fn check_count(name: &'static str, value: usize) -> Result<(), SettingError> {
-    check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216")
-}
-
-/// Checks hidden layers.
-pub(super) fn check_layers(name: &'static str, layers: &[usize]) -> Result<(), SettingError> {
-    check(name, layers.len() as f64, (1..=16).contains(&layers.len()), "1 to 16 layers")?;
-    let check_units = |units: &usize| check(name, *units as f64, (1..=8192).contains(units), "1 to 8192 units a layer");
-    layers.iter().try_for_each(check_units)
 }
 
 /// An agent's settings.

@@ -10,10 +10,7 @@ use serde_json::Value;
 
 use super::{
     actor_critic::ActorCritic,
-    agent::{
-        Agent, Choice, Experience, Learnt, SettingError, Settings, check, check_count, check_layers, check_positive,
-        check_share,
-    },
+    agent::{Agent, Choice, Experience, Learnt, Settings},
     carom::Episode,
     environment::{ACTIONS, Action, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
@@ -21,6 +18,9 @@ use super::{
     pass::Pass,
     q_learning::check_episode,
     update::{Batch, Rates, Sizes},
+};
+use crate::learning::settings::{
+    SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
 };
 use crate::learning::{
     learner::note_of,
@@ -95,7 +95,7 @@ impl Settings for PlainDdpgSettings {
         check_positive("gradient_clip", self.gradient_clip)?;
         check_count("memory", self.memory)?;
         check_share("discount", self.discount)?;
-        check_count("batch", self.batch)?;
+        check_batch("batch", self.batch)?;
         check_share("noise.dt", self.noise.dt)?;
         let kept = self.noise.theta * self.noise.dt;
         check("noise.theta", self.noise.theta, (0.0..2.0).contains(&kept), "0 to 2 / dt")?;

@@ -8,16 +8,14 @@ use serde_json::Value;
 
 use super::{
     actor_critic::glorot,
-    agent::{
-        Agent, Choice, Experience, Learnt, SettingError, Settings, check_count, check_layers, check_positive,
-        check_share,
-    },
+    agent::{Agent, Choice, Experience, Learnt, Settings},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
     exploration::Epsilon,
     memory::{Memory, Transition},
     q_learning::{check_episode, check_epsilon},
 };
+use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
     learner::note_of,
     network::{
@@ -84,7 +82,7 @@ impl Settings for DqnSettings {
         check_count("target_every", self.target_every as usize)?;
         check_count("memory", self.memory)?;
         check_share("discount", self.discount)?;
-        check_count("batch", self.batch)?;
+        check_batch("batch", self.batch)?;
         check_epsilon(&self.epsilon)
     }
 }

@@ -9,11 +9,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    agent::{Agent, Choice, Experience, Learnt, SettingError, Settings, check, check_positive, check_share},
+    agent::{Agent, Choice, Experience, Learnt, Settings},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, discrete_action},
     exploration::Epsilon,
 };
+use crate::learning::settings::{SettingError, check, check_positive, check_share};
 use crate::learning::{
     learner::note_of,
     network::weights::{Reader, WeightsError, Writer},

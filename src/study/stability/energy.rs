@@ -1,9 +1,6 @@
 //! Energy never grows: not at an event, and not on the way to the next.
 
-use crate::{
-    physics::BallState,
-    table::{BALLS, Table},
-};
+use crate::{physics::BallState, table::BALLS, table::Table};
 
 use super::{figures::Figures, trace::Trace};
 use crate::physics::Motion;
