@@ -93,6 +93,13 @@ pub trait Learner: Debug + Send {
     /// Learning rate now, of whatever judges actions.
     fn learning_rate(&self) -> f64;
 
+    /// How strongly it explores now: the probability of a shot that is not its own choice, or, for an agent that adds
+    /// noise to each, the noise's standard deviation in units of half an action's range.
+    fn exploration(&self) -> f64;
+
+    /// Share of its memory of shots that is filled, where it has one.
+    fn memory(&self) -> Option<f64>;
+
     /// Whether all shots of the plan have been played.
     fn is_finished(&self) -> bool {
         self.shots() >= self.plan().shots

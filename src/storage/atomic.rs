@@ -19,6 +19,18 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish()
 }
 
+/// Like [`write_atomic`] for what need not outlive a power cut: a reader sees the old content or the new one, and nobody
+/// waits for the disk.
+///
+/// # Errors
+/// Whatever the file system reports; the old file is then untouched.
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = readable_by_all(folder_of(path))?;
+    file.as_file_mut().write_all(bytes)?;
+    file.persist(path)?;
+    Ok(())
+}
+
 /// A file that is safe on the disk, under another name for now. Dropped without being published it is removed.
 #[derive(Debug)]
 pub struct Staged {

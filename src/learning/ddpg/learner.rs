@@ -69,6 +69,14 @@ impl Learner for Trainer {
         self.pace() * self.task.hyperparameters.critic_learning_rate
     }
 
+    fn exploration(&self) -> f64 {
+        self.task.hyperparameters.exploration.uniform
+    }
+
+    fn memory(&self) -> Option<f64> {
+        Some(self.replay.len() as f64 / self.task.hyperparameters.replay.max(1) as f64)
+    }
+
     fn turn(&mut self) -> candle_core::Result<Turn> {
         self.turn()
     }

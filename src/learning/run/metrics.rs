@@ -39,6 +39,12 @@ pub struct Record {
     /// Mean reward of the shots played, exploration included.
     #[serde(rename = "rollout/ep_rew_mean")]
     pub practice_reward: f64,
+    /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
+    #[serde(rename = "rollout/exploration_rate", default, skip_serializing_if = "Option::is_none")]
+    pub exploration: Option<f64>,
+    /// Share of the memory of shots that is filled, for agents that have one.
+    #[serde(rename = "train/replay_buffer_fill", default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<f64>,
     /// Mean reward of the averaged networks' first choice on held-out layouts, without exploration.
     #[serde(rename = "eval/mean_reward", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reward: Option<f64>,
@@ -158,6 +164,8 @@ mod tests {
             actor_loss: Some(-0.5),
             q_value: 0.5,
             practice_reward: 0.25,
+            exploration: None,
+            memory: None,
             held_out_reward: None,
             held_out_reach: None,
         }

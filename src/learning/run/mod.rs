@@ -9,11 +9,17 @@ mod checksum;
 mod config;
 mod contents;
 mod error;
+pub mod examples;
+pub mod follow;
+pub mod history;
 pub mod list;
 pub mod metrics;
 pub mod origin;
 mod practice;
+pub mod quantity;
+pub mod request;
 pub mod seeds;
+pub mod standing;
 mod tally;
 
 use std::path::{Path, PathBuf};

@@ -148,6 +148,8 @@ impl Clock {
             actor_loss: means.actor_loss,
             q_value: means.q_value,
             practice_reward: means.mean_reward,
+            exploration: Some(learner.exploration()),
+            memory: learner.memory(),
             held_out_reward: score.map(|score| score.mean_reward),
             held_out_reach: score.map(|score| score.reach),
         };

@@ -83,6 +83,12 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     /// Updates made so far.
     fn updates(&self) -> u64;
 
+    /// How strongly it explores now, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
+    fn exploration(&self) -> f64;
+
+    /// Share of its memory that is filled, where it has one.
+    fn memory(&self) -> Option<f64>;
+
     /// What it does while it learns.
     ///
     /// # Errors

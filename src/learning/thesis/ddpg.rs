@@ -179,6 +179,14 @@ impl Agent for PlainDdpg {
         u64::from(self.networks.updates())
     }
 
+    fn exploration(&self) -> f64 {
+        self.settings.noise.deviation(self.settings.noise_restarts)
+    }
+
+    fn memory(&self) -> Option<f64> {
+        Some(self.memory.fill())
+    }
+
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         self.noise = self.settings.noise.step(self.noise, rng);
         let mut choice = self.best(seen)?;

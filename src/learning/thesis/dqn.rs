@@ -190,6 +190,14 @@ impl Agent for Dqn {
         u64::from(self.updates)
     }
 
+    fn exploration(&self) -> f64 {
+        self.settings.epsilon.after(self.shots)
+    }
+
+    fn memory(&self) -> Option<f64> {
+        Some(self.memory.fill())
+    }
+
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         if rng.random_bool(self.settings.epsilon.after(self.shots)) {
             return Ok(choice(rng.random_range(0..DISCRETE_ACTIONS)));

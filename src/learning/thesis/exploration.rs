@@ -40,6 +40,14 @@ pub struct OrnsteinUhlenbeck {
 }
 
 impl OrnsteinUhlenbeck {
+    /// Standard deviation of the noise on a shot: of the first step where it begins anew with each, else in the long run.
+    pub fn deviation(&self, restarts: bool) -> f64 {
+        let pushed = self.sigma * self.dt.sqrt();
+        let kept = 1.0 - self.theta * self.dt;
+        // A process that keeps all of itself has no long run.
+        if restarts || kept.abs() >= 1.0 { pushed } else { pushed / (1.0 - kept * kept).sqrt() }
+    }
+
     /// The next value after `now`.
     pub fn step(&self, now: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
         let push = (self.sigma * self.dt.sqrt()) as f32;

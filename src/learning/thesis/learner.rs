@@ -149,6 +149,14 @@ impl<A: Agent> Learner for Student<A> {
         self.agent.settings().learning_rate()
     }
 
+    fn exploration(&self) -> f64 {
+        self.agent.exploration()
+    }
+
+    fn memory(&self) -> Option<f64> {
+        self.agent.memory()
+    }
+
     fn turn(&mut self) -> candle_core::Result<Turn> {
         let left = self.plan.shots.saturating_sub(self.shots);
         self.play(left.clamp(1, SHOTS_PER_TURN))

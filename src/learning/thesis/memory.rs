@@ -66,6 +66,11 @@ impl Memory {
         Self { held: Vec::new(), capacity: capacity.max(1), next: 0 }
     }
 
+    /// Share of the ring that is filled.
+    pub fn fill(&self) -> f64 {
+        self.held.len() as f64 / self.capacity as f64
+    }
+
     /// Adds a transition.
     pub fn push(&mut self, transition: Transition) {
         if self.held.len() < self.capacity {

@@ -133,6 +133,14 @@ impl Agent for QLearning {
         self.shots
     }
 
+    fn exploration(&self) -> f64 {
+        self.settings.epsilon.after(self.shots)
+    }
+
+    fn memory(&self) -> Option<f64> {
+        None
+    }
+
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         let any = rng.random_bool(self.settings.epsilon.after(self.shots));
         let index = if any { None } else { self.favourite(seen.cell).map(|(index, _)| index) };

@@ -1,0 +1,79 @@
+//! The quantities that a run reports, one by one, as charts show them.
+
+use super::metrics::Record;
+
+/// A quantity that a run reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Mean reward of the shots played, exploration included (the thesis' Figures 23 to 25, left).
+    Reward,
+    /// Mean value that the agent gives its own choices (the same figures, middle).
+    QValue,
+    /// Loss of whatever judges actions (the same figures, right).
+    CriticLoss,
+    /// Mean reward on held-out layouts, without exploration.
+    HeldOut,
+    /// Loss of the actor.
+    ActorLoss,
+    /// Share of the held-out layouts in which any proposal earns at least 1.
+    Reach,
+    /// Shots a second.
+    ShotSpeed,
+    /// Updates a second.
+    UpdateSpeed,
+    /// How strongly the agent explores.
+    Exploration,
+}
+
+impl Quantity {
+    /// How many there are.
+    pub const COUNT: usize = Self::ALL.len();
+
+    /// All of them, in the order of their keys; the first four are what a run is about.
+    pub const ALL: [Self; 9] = [
+        Self::Reward,
+        Self::QValue,
+        Self::CriticLoss,
+        Self::HeldOut,
+        Self::ActorLoss,
+        Self::Reach,
+        Self::ShotSpeed,
+        Self::UpdateSpeed,
+        Self::Exploration,
+    ];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Reward => "mean reward",
+            Self::QValue => "mean Q-value",
+            Self::CriticLoss => "critic loss",
+            Self::HeldOut => "held-out success",
+            Self::ActorLoss => "actor loss",
+            Self::Reach => "any proposal scores",
+            Self::ShotSpeed => "shots a second",
+            Self::UpdateSpeed => "updates a second",
+            Self::Exploration => "exploration",
+        }
+    }
+
+    /// Its value in a line of metrics; the speed of updates needs the line before. `None` where the line does not report
+    /// it, which is something else than a value that is not a number.
+    pub fn of(self, record: &Record, before: Option<&Record>) -> Option<f64> {
+        match self {
+            Self::Reward => Some(record.practice_reward),
+            Self::QValue => Some(record.q_value),
+            Self::CriticLoss => Some(record.critic_loss),
+            Self::HeldOut => record.held_out_reward,
+            Self::ActorLoss => record.actor_loss,
+            Self::Reach => record.held_out_reach,
+            Self::ShotSpeed => Some(record.shots_per_second),
+            Self::UpdateSpeed => {
+                let (updates, seconds) = before.map_or((0, 0.0), |before| (before.updates, before.seconds));
+                let passed = record.seconds - seconds;
+                (passed > 0.0).then(|| record.updates.saturating_sub(updates) as f64 / passed)
+            }
+            Self::Exploration => record.exploration,
+        }
+    }
+}

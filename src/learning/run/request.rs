@@ -1,0 +1,55 @@
+//! What a run at work is asked to do, by a word in a file of its folder: whoever may write there may steer it, from any
+//! terminal.
+
+use std::{fs, io, path::Path};
+
+use crate::storage::replace;
+
+/// The file's name.
+const FILE: &str = "request";
+
+/// A request to a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// Save and wait.
+    Pause,
+    /// Go on after a pause.
+    GoOn,
+    /// Measure, save and end.
+    Stop,
+    /// End at once and remove the run.
+    Abandon,
+}
+
+impl Request {
+    const ALL: [Self; 4] = [Self::Pause, Self::GoOn, Self::Stop, Self::Abandon];
+
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Pause => "pause",
+            Self::GoOn => "go on",
+            Self::Stop => "stop",
+            Self::Abandon => "abandon",
+        }
+    }
+
+    /// Asks the run in `folder`. The newest request replaces the one before.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn send(self, folder: &Path) -> io::Result<()> {
+        replace(&folder.join(FILE), self.word().as_bytes())
+    }
+
+    /// What the run in `folder` is asked to do; nothing where there is no request, or one that is not understood.
+    pub fn read(folder: &Path) -> Option<Self> {
+        let word = fs::read_to_string(folder.join(FILE)).ok()?;
+        Self::ALL.into_iter().find(|request| request.word() == word.trim())
+    }
+
+    /// Takes the request back, if there is one: it is done, or it was meant for a process that is gone.
+    pub fn clear(folder: &Path) {
+        // Where it stays it is done again, which changes nothing.
+        let _ = fs::remove_file(folder.join(FILE));
+    }
+}

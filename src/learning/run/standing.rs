@@ -1,0 +1,85 @@
+//! What a run says of itself while it works: a small file that is replaced about once a second, for whoever watches.
+//!
+//! It is no part of what a run goes on from. Whether its process still lives the lock tells, not this file.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+/// The file's name.
+pub const FILE: &str = "state.json";
+
+/// What a run is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Phase {
+    /// It plays and learns.
+    #[default]
+    Training,
+    /// It plays the held-out layouts.
+    Measuring,
+    /// It waits until it is told to go on.
+    Paused,
+    /// It has played all its shots.
+    Finished,
+    /// It was stopped and can go on.
+    Stopped,
+    /// It broke down.
+    Failed,
+}
+
+impl Phase {
+    /// In a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Training => "training",
+            Self::Measuring => "measuring",
+            Self::Paused => "paused",
+            Self::Finished => "finished",
+            Self::Stopped => "stopped",
+            Self::Failed => "failed",
+        }
+    }
+
+    /// Whether nothing more will come.
+    pub const fn is_over(self) -> bool {
+        matches!(self, Self::Finished | Self::Stopped | Self::Failed)
+    }
+}
+
+/// The content of `state.json`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Standing {
+    /// What the run is doing.
+    pub phase: Phase,
+    /// Shots played.
+    pub shots: u64,
+    /// Updates made.
+    pub updates: u64,
+    /// Seconds of training so far, evaluations included, pauses not.
+    pub seconds: f64,
+    /// Shots a second over the last seconds.
+    pub shots_per_second: f64,
+    /// Updates a second over the last seconds.
+    pub updates_per_second: f64,
+    /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
+    pub exploration: f64,
+    /// Share of the memory of shots that is filled, for agents that have one.
+    pub memory: Option<f64>,
+    /// The process that trains.
+    pub process: u32,
+    /// The last warning, if there was one.
+    pub warning: Option<String>,
+    /// Why it broke down, if it did.
+    pub reason: Option<String>,
+}
+
+impl Standing {
+    /// Reads that of the run in `folder`.
+    ///
+    /// # Errors
+    /// Where there is none, or something else.
+    pub fn read(folder: &Path) -> std::io::Result<Self> {
+        Ok(serde_json::from_slice(&std::fs::read(folder.join(FILE))?)?)
+    }
+}
