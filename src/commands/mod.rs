@@ -8,8 +8,10 @@ mod input;
 mod output;
 mod recommend;
 mod reproduce;
+mod runs;
 mod simulate;
 mod train;
+mod watch;
 
 use clap::{Parser, Subcommand};
 
@@ -31,6 +33,7 @@ enum Command {
     Simulate(simulate::Args),
     Recommend(recommend::Args),
     Train(train::Args),
+    Watch(watch::Args),
     Evaluate(evaluate::Args),
     Accuracy(accuracy::Args),
     Bench(bench::Args),
@@ -48,6 +51,7 @@ impl Cli {
             Some(Command::Simulate(args)) => simulate::run(&args),
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),
+            Some(Command::Watch(args)) => watch::run(&args),
             Some(Command::Evaluate(args)) => evaluate::run(&args),
             Some(Command::Accuracy(args)) => accuracy::run(&args),
             Some(Command::Bench(args)) => bench::run(&args),

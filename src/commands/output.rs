@@ -1,6 +1,17 @@
 //! What subcommands print alike.
 
+use std::{
+    fmt::Display,
+    io::{self, Write},
+};
+
 use crate::physics::Impulse;
+
+/// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
+/// nobody to tell any more, that is all.
+pub fn tell(sentence: impl Display) {
+    let _ = writeln!(io::stderr(), "{sentence}");
+}
 
 /// The equivalent ball impulse for people to read.
 pub fn impulse_words(impulse: &Impulse) -> String {

@@ -11,6 +11,7 @@ use crate::{
         evaluation::Score,
         network::weights::{Reader, WeightsError, Writer},
     },
+    physics::CueInputs,
     table::{Layout, Table},
 };
 
@@ -117,6 +118,12 @@ pub trait Learner: Debug + Send {
     /// # Errors
     /// Whatever candle reports.
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score>;
+
+    /// Its shots on the layouts, as [`Learner::score`] plays them.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
 
     /// The bytes of a policy file, for agents whose policy the coach can use. `held_out_reward` is what it has been
     /// measured to earn, `date` the day on which the run was started.

@@ -7,10 +7,6 @@ use std::{
     time::Duration,
 };
 
-/// The file that is locked. It stays when the lock is gone: what counts is the system's lock on it, which ends with the
-/// process that holds it, however that ends.
-const FILE: &str = "lock";
-
 /// Attempts to take the lock, and the pause between them: whoever asks [`Lock::is_held`] holds it for an instant.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
@@ -23,12 +19,16 @@ pub struct Lock {
 }
 
 impl Lock {
+    /// The file that is locked. It stays when the lock is gone: what counts is the system's lock on it, which ends with the
+    /// process that holds it, however that ends.
+    pub const FILE: &str = "lock";
+
     /// Takes the lock of a folder; `None` if another process has it.
     ///
     /// # Errors
     /// Whatever the file system reports. One that knows no locks is taken at its word: then nothing is locked.
     pub fn take(folder: &Path) -> io::Result<Option<Self>> {
-        let file = OpenOptions::new().create(true).truncate(false).write(true).open(folder.join(FILE))?;
+        let file = OpenOptions::new().create(true).truncate(false).write(true).open(folder.join(Self::FILE))?;
         for attempt in 0..ATTEMPTS {
             if attempt > 0 {
                 std::thread::sleep(PAUSE);
@@ -47,7 +47,7 @@ impl Lock {
 
     /// Whether a process has the lock of a folder.
     pub fn is_held(folder: &Path) -> bool {
-        let Ok(file) = File::open(folder.join(FILE)) else { return false };
+        let Ok(file) = File::open(folder.join(Self::FILE)) else { return false };
         matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
     }
 }

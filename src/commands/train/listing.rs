@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    commands::Failure,
+    commands::{Failure, output::tell},
     learning::run::list::{Summary, runs_in},
     storage::Places,
 };
@@ -30,7 +30,7 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
         return Ok(());
     }
     if runs.is_empty() {
-        eprintln!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display());
+        tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
         return Ok(());
     }
     for row in table(&runs) {

@@ -6,6 +6,7 @@ mod screen;
 mod several;
 
 use std::{
+    io::{self, Write},
     path::{Path, PathBuf},
     sync::{
         Arc,
@@ -16,20 +17,21 @@ use std::{
 
 use clap::value_parser;
 use signal_hook::{
-    consts::{SIGINT, SIGTERM},
+    consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ},
     flag,
 };
 
 use self::screen::Screen;
-use super::Failure;
+pub(super) use self::{listing::print as print_runs, screen::line};
+use super::{Failure, output::tell, runs::run_named};
 use crate::{
     game::Reward,
     learning::{
         agents::AGENTS,
+        evaluation::Score,
         learner::StartError,
-        run::{Run, RunError, seeds::is_group},
+        run::{Ending, Limits, Run, RunError, discard, seeds::is_group},
     },
-    storage::Places,
 };
 
 /// Train an agent without a screen. The run's folder holds its configuration (config.json), its metrics as JSON Lines
@@ -111,6 +113,13 @@ struct Session<'a> {
     json: bool,
 }
 
+impl Session<'_> {
+    /// The limits of one run that may take so long.
+    fn limits(&self, time: Option<Duration>) -> Limits<'_> {
+        Limits { time, stop: self.stop }
+    }
+}
+
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.list {
         return listing::print(folder.as_deref(), args.json);
@@ -122,9 +131,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
         flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
     }
-    #[cfg(unix)]
-    // A write beyond the limit on file sizes shall fail and be reported, not end the program.
-    flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
+    // A write beyond the limit on file sizes shall fail and be reported, not end the program; and a terminal that is hung
+    // up, as when an ssh connection breaks, is no reason to stop: the run can be watched and stopped from the next one.
+    for signal in [SIGXFSZ, SIGHUP] {
+        flag::register(signal, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
+    }
     let session = Session { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json };
     if let Some(name) = &args.resume {
         return resume(&run_named(name), args.jobs, &session);
@@ -148,7 +159,7 @@ fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure
     }
     let (run, notices) = Run::resume(folder).map_err(failure)?;
     for notice in notices {
-        eprintln!("warning: {notice}");
+        tell(format_args!("warning: {notice}"));
     }
     train(run, session)
 }
@@ -157,44 +168,54 @@ fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure
 fn train(mut run: Run, session: &Session<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
-        eprintln!(
+        tell(format_args!(
             "{} is finished: all its {} shots have been played; start a new run with its weights by --from",
             run.folder().display(),
             learner.plan().shots
-        );
+        ));
     }
     let mut screen = Screen::new(&run, session.json, None);
-    let ending = run.practise(session.limit, session.stop, &mut screen);
+    let ending = run.practise(&session.limits(session.limit), &mut screen);
     screen.close();
-    let ending = ending.map_err(failure)?;
+    match ending.map_err(failure)? {
+        Ending::Finished(score) => say_result(&run, score, session.json)?,
+        Ending::Stopped(score) => {
+            say_result(&run, score, session.json)?;
+            tell(how_to_go_on(run.folder()));
+        }
+        Ending::Abandoned => abandon(run).map_err(failure)?,
+    }
+    Ok(())
+}
+
+fn say_result(run: &Run, score: Score, json: bool) -> io::Result<()> {
     let learner = run.learner();
     let result = if run.policy_path().exists() { run.policy_path() } else { run.folder().to_owned() };
-    if !session.json {
-        println!(
-            "{}: mean {} {:.4} on held-out layouts after {} shots",
-            result.display(),
-            learner.plan().reward,
-            ending.score.mean_reward,
-            learner.shots()
-        );
+    if json {
+        return Ok(());
     }
-    if !ending.finished {
-        eprintln!("{}", how_to_go_on(run.folder()));
-    }
+    writeln!(
+        io::stdout(),
+        "{}: mean {} {:.4} on held-out layouts after {} shots",
+        result.display(),
+        learner.plan().reward,
+        score.mean_reward,
+        learner.shots()
+    )
+}
+
+/// Removes a run that somebody has given up.
+fn abandon(run: Run) -> Result<(), RunError> {
+    let folder = run.folder().to_owned();
+    // It holds the lock.
+    drop(run);
+    discard(&folder)?;
+    tell(format_args!("{}: given up and removed, as was asked", folder.display()));
     Ok(())
 }
 
 fn how_to_go_on(folder: &Path) -> String {
     format!("stopped early; go on with: carom train --resume \"{}\"", folder.display())
-}
-
-/// The folder `name`, or the one called so among the user's runs.
-fn run_named(name: &Path) -> PathBuf {
-    if name.exists() {
-        return name.to_owned();
-    }
-    let known = Places::of_this_user().runs.join(name);
-    if known.exists() { known } else { name.to_owned() }
 }
 
 fn minutes(value: f64) -> Result<Duration, Failure> {

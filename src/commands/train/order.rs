@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::{Args, failure, run_named};
+use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named},
+    commands::{Failure, input::table_named, runs::run_named},
     learning::{
         learner::Plan,
         run::{Schedule, origin::Weights, seeds::Order},

@@ -1,14 +1,14 @@
 //! What the user sees while training: a bar on a terminal, else a line for every measurement.
 
-use std::{
-    fmt::Write as _,
-    io::{IsTerminal, Write as _},
-};
+use std::io::{IsTerminal, Write as _};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use crate::learning::run::{Run, Watcher, metrics::Record};
+use crate::{
+    commands::output::tell,
+    learning::run::{Run, Watcher, metrics::Record},
+};
 
 /// The progress of one run.
 pub struct Screen {
@@ -38,14 +38,15 @@ impl Screen {
             ProgressBar::hidden()
         };
         if !learner.is_finished() {
-            eprintln!(
-                "training {} for {} on \"{}\" with seed {} in {}",
+            tell(format_args!(
+                "training {} for {} on \"{}\" with seed {} in {}; from any terminal: carom watch \"{}\"",
                 learner.agent(),
                 plan.reward,
                 learner.table().name,
                 plan.seed,
+                run.folder().display(),
                 run.folder().display()
-            );
+            ));
         }
         let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left  {msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
@@ -62,6 +63,17 @@ impl Screen {
     }
 }
 
+/// A measurement in a line; nothing where the record has none.
+pub fn line(record: &Record) -> Option<String> {
+    let Record { seconds, shots, shots_per_second, .. } = record;
+    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {shots_per_second:.0}/s, {summary}"))
+}
+
+fn summary(record: &Record) -> Option<String> {
+    let reward = record.held_out_reward?;
+    Some(format!("loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
+}
+
 impl Watcher for Screen {
     fn line(&mut self, record: &Record) {
         if self.json
@@ -71,20 +83,16 @@ impl Watcher for Screen {
             let _ = writeln!(std::io::stdout(), "{line}");
         }
         self.bar.set_position(record.shots);
-        let Some(reward) = record.held_out_reward else { return };
-        let mut summary = format!("loss {:.4}, held-out reward {reward:.4}", record.critic_loss);
-        self.bar.set_message(summary.clone());
-        if self.bar.is_hidden() {
-            if let Some(seed) = self.seed {
-                // Writing to a string cannot fail.
-                let _ = write!(summary, ", seed {seed}");
-            }
-            eprintln!("{:.0} s, {} shots, {:.0}/s, {summary}", record.seconds, record.shots, record.shots_per_second);
+        let Some(summary) = summary(record) else { return };
+        self.bar.set_message(summary);
+        if let Some(line) = line(record).filter(|_| self.bar.is_hidden()) {
+            let whose = self.seed.map(|seed| format!(", seed {seed}")).unwrap_or_default();
+            tell(format_args!("{line}{whose}"));
         }
     }
 
     fn warn(&mut self, sentence: &str) {
         let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
-        self.bar.suspend(|| eprintln!("warning: {whose}{sentence}"));
+        self.bar.suspend(|| tell(format_args!("warning: {whose}{sentence}")));
     }
 }

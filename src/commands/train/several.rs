@@ -1,15 +1,16 @@
 //! Several seeds: one after the other or side by side, and the spread between them.
 
 use std::{
+    io::{self, Write},
     path::Path,
     sync::atomic::{AtomicUsize, Ordering},
     time::{Duration, Instant},
 };
 
-use super::{Session, failure, how_to_go_on, order::Read, screen::Screen};
+use super::{Session, abandon, failure, how_to_go_on, order::Read, screen::Screen};
 use crate::{
-    commands::Failure,
-    learning::run::{RunError, seeds::Group},
+    commands::{Failure, output::tell},
+    learning::run::{Ending, RunError, seeds::Group},
 };
 
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
@@ -50,7 +51,8 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
     let spread = group.write_spread().map_err(failure)?;
     if let Some(spread) = spread.filter(|_| !session.json) {
         let sd = spread.sd.map(|sd| format!(", standard deviation {sd:.4}")).unwrap_or_default();
-        println!(
+        writeln!(
+            io::stdout(),
             "{}: mean {:.4}{sd}, {:.4} to {:.4} on held-out layouts, seeds: {}, after {} shots",
             group.folder().display(),
             spread.mean,
@@ -58,7 +60,7 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
             spread.max,
             spread.seeds,
             spread.shots
-        );
+        )?;
     }
     let (mut errors, mut finished) = (Vec::new(), true);
     for outcome in outcomes {
@@ -74,7 +76,7 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
         return Err(Failure::failed(errors.join("; ")));
     }
     if !finished {
-        eprintln!("{}", how_to_go_on(group.folder()));
+        tell(how_to_go_on(group.folder()));
     }
     Ok(())
 }
@@ -83,11 +85,15 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
 fn train_one(group: &Group, seed: u64, limit: Option<Duration>, session: &Session<'_>) -> Result<bool, RunError> {
     let (mut run, notices) = group.run(seed)?;
     for notice in notices {
-        eprintln!("warning: seed {seed}: {notice}");
+        tell(format_args!("warning: seed {seed}: {notice}"));
     }
     if run.learner().is_finished() {
         return Ok(true);
     }
     let mut screen = Screen::new(&run, session.json, Some(seed));
-    Ok(run.practise(limit, session.stop, &mut screen)?.finished)
+    match run.practise(&session.limits(limit), &mut screen)? {
+        Ending::Finished(_) => Ok(true),
+        Ending::Stopped(_) => Ok(false),
+        Ending::Abandoned => abandon(run).map(|()| false),
+    }
 }

@@ -15,6 +15,7 @@ use crate::{
         learner::{Agent, Learner, Plan, StartError, Turn, note_of},
         network::weights::{Reader, WeightsError, Writer},
     },
+    physics::CueInputs,
     table::{Layout, Table},
 };
 
@@ -83,6 +84,11 @@ impl Learner for Trainer {
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
         Ok(score(&self.policy(0.0, "")?, self.table(), self.task.reward, layouts))
+    }
+
+    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
+        let policy = self.policy(0.0, "")?;
+        Ok(layouts.iter().map(|layout| policy.propose(self.table(), layout)).collect())
     }
 
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// This carom.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// What `git describe` says of its source, where it was built from a checkout.
 const SOURCE: Option<&str> = option_env!("CAROM_SOURCE");
@@ -40,18 +40,21 @@ pub struct Schedule {
 /// Fewest shots between two measurements by default: with fewer, a short run would do little but measure itself.
 const FEWEST_SHOTS: u64 = 10_000;
 
+/// Lines of metrics for each measurement: whoever watches a run of an hour sees news every one or two seconds.
+const LINES: u64 = 50;
+
 /// Layouts of a measurement by default: enough for a standard error of half a percent near 0.95.
 const LAYOUTS: usize = 2_000;
 
 impl Schedule {
-    /// What suits a run of so many shots: 50 measurements, and five lines for each.
+    /// What suits a run of so many shots: 50 measurements.
     pub fn for_shots(shots: u64) -> Self {
         Self::new((shots / 50).max(FEWEST_SHOTS), LAYOUTS)
     }
 
     /// Measures every so many shots on so many layouts.
     pub fn new(evaluate_every: u64, evaluation_layouts: usize) -> Self {
-        Self { log_every: (evaluate_every / 5).max(1), evaluate_every: evaluate_every.max(1), evaluation_layouts }
+        Self { log_every: (evaluate_every / LINES).max(1), evaluate_every: evaluate_every.max(1), evaluation_layouts }
     }
 }
 
@@ -130,6 +133,11 @@ impl Config {
         write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))
     }
 
+    /// The version of the carom that started the run, where it is newer than this one.
+    pub fn newer_version(&self) -> Option<&str> {
+        (numbers(&self.version) > numbers(VERSION)).then_some(self.version.as_str())
+    }
+
     /// A sentence where this is not the carom that started the run.
     pub fn other_program(&self) -> Option<String> {
         let name =
@@ -144,4 +152,15 @@ impl Config {
     pub fn day(&self) -> &str {
         self.started.get(..10).unwrap_or(&self.started)
     }
+}
+
+/// The version of carom that the configuration in `folder` names, even where this one cannot read the rest.
+pub fn version_in(folder: &Path) -> Option<String> {
+    let config: Value = serde_json::from_slice(&std::fs::read(folder.join(FILE)).ok()?).ok()?;
+    Some(config.get("version")?.as_str()?.to_owned())
+}
+
+/// The numbers of a version, to be compared.
+fn numbers(version: &str) -> Vec<u64> {
+    version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
 }

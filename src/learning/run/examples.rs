@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{physics::CueInputs, table::Layout};
+use crate::{learning::learner::Learner, physics::CueInputs, storage::replace, table::Layout};
 
 /// The file's name.
 pub const FILE: &str = "shots.json";
@@ -33,6 +33,26 @@ pub struct Examples {
 }
 
 impl Examples {
+    /// Those of a measurement of `learner` on `layouts`.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn of(learner: &dyn Learner, layouts: &[Layout]) -> candle_core::Result<Self> {
+        let layouts = &layouts[..layouts.len().min(COUNT)];
+        let (reward, table) = (learner.plan().reward, learner.table());
+        let shots = learner.shots_on(layouts)?.into_iter().zip(layouts);
+        let shots = shots.map(|(cue, &layout)| Example { layout, cue, reward: reward.of(table, &layout, &cue) });
+        Ok(Self { after: learner.shots(), shots: shots.collect() })
+    }
+
+    /// Writes them for the run in `folder`.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn write(&self, folder: &Path) -> std::io::Result<()> {
+        replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+    }
+
     /// Reads those of the run in `folder`.
     ///
     /// # Errors

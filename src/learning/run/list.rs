@@ -3,12 +3,18 @@
 use std::{
     io,
     path::{Path, PathBuf},
+    time::SystemTime,
 };
 
 use serde::Serialize;
 
 use super::metrics;
-use super::{METRICS, checkpoint::shots_in, config::Config, holds_checkpoints};
+use super::{
+    METRICS,
+    checkpoint::shots_in,
+    config::{self, Config},
+    holds_checkpoints, standing,
+};
 use crate::{game::Reward, learning::calendar::moment, storage::Lock};
 
 /// Whether a run is at work.
@@ -82,6 +88,20 @@ pub fn runs_in(folder: &Path) -> io::Result<Vec<Summary>> {
         runs.extend(members.iter().filter_map(|member| summary(member, &format!("{name}/{}", name_of(member)))));
     }
     Ok(runs)
+}
+
+/// The folder of the run in `folder`, groups of seeds included, that was the last to write something.
+pub fn latest_in(folder: &Path) -> Option<PathBuf> {
+    let inner = |folder: &Path| folders_in(folder).unwrap_or_default();
+    let (runs, others): (Vec<_>, Vec<_>) = inner(folder).into_iter().partition(|path| holds_checkpoints(path));
+    let members = others.iter().flat_map(|group| inner(group)).filter(|path| holds_checkpoints(path));
+    runs.into_iter().chain(members).max_by_key(|run| last_written(run))
+}
+
+/// When the run in `folder` last wrote one of its files.
+fn last_written(folder: &Path) -> Option<SystemTime> {
+    let written = |name: &str| std::fs::metadata(folder.join(name)).and_then(|data| data.modified()).ok();
+    [standing::FILE, METRICS, config::FILE].into_iter().filter_map(written).max()
 }
 
 fn folders_in(folder: &Path) -> io::Result<Vec<PathBuf>> {

@@ -8,48 +8,61 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-/// One line of a run's metrics. Means are over the updates since the line before.
+use super::number;
+
+/// One line of a run's metrics. Means are over the updates since the line before. Numbers that are not finite stand in the
+/// file by their names.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Shots played so far.
     #[serde(rename = "time/total_timesteps")]
     pub shots: u64,
     /// Seconds of training so far, evaluations included.
-    #[serde(rename = "time/time_elapsed")]
+    #[serde(rename = "time/time_elapsed", with = "number")]
     pub seconds: f64,
     /// Shots a second since the line before.
-    #[serde(rename = "time/fps")]
+    #[serde(rename = "time/fps", with = "number")]
     pub shots_per_second: f64,
     /// Updates made so far.
     #[serde(rename = "train/n_updates")]
     pub updates: u64,
     /// The critic's learning rate now.
-    #[serde(rename = "train/learning_rate")]
+    #[serde(rename = "train/learning_rate", with = "number")]
     pub learning_rate: f64,
     /// Loss of whatever judges actions: the mean cross entropy of a critic of successes, nats, or a squared error.
-    #[serde(rename = "train/critic_loss")]
+    #[serde(rename = "train/critic_loss", with = "number")]
     pub critic_loss: f64,
     /// Loss of the actor, for agents that have one.
-    #[serde(rename = "train/actor_loss", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "train/actor_loss", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub actor_loss: Option<f64>,
     /// Mean value that the agent gives its own choices. `Stable-Baselines3` logs none; `CleanRL` logs it as
     /// `losses/qf1_values` beside its losses, whose group is called `train` here.
-    #[serde(rename = "train/q_value")]
+    #[serde(rename = "train/q_value", with = "number")]
     pub q_value: f64,
     /// Mean reward of the shots played, exploration included.
-    #[serde(rename = "rollout/ep_rew_mean")]
+    #[serde(rename = "rollout/ep_rew_mean", with = "number")]
     pub practice_reward: f64,
     /// How strongly the agent explores, see [`Learner::exploration`](crate::learning::learner::Learner::exploration).
-    #[serde(rename = "rollout/exploration_rate", default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        rename = "rollout/exploration_rate",
+        with = "number::option",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
     pub exploration: Option<f64>,
     /// Share of the memory of shots that is filled, for agents that have one.
-    #[serde(rename = "train/replay_buffer_fill", default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        rename = "train/replay_buffer_fill",
+        with = "number::option",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
     pub memory: Option<f64>,
     /// Mean reward of the averaged networks' first choice on held-out layouts, without exploration.
-    #[serde(rename = "eval/mean_reward", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "eval/mean_reward", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reward: Option<f64>,
     /// Share of those layouts in which any head earns at least 1: what a perfect choice among them would reach.
-    #[serde(rename = "eval/any_head", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "eval/any_head", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reach: Option<f64>,
 }
 

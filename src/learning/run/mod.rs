@@ -6,16 +6,20 @@
 
 mod checkpoint;
 mod checksum;
+mod clock;
 mod config;
 mod contents;
+mod discard;
 mod error;
 pub mod examples;
 pub mod follow;
 pub mod history;
 pub mod list;
 pub mod metrics;
+mod number;
 pub mod origin;
 mod practice;
+mod pulse;
 pub mod quantity;
 pub mod request;
 pub mod seeds;
@@ -33,8 +37,9 @@ use self::{
 };
 pub use self::{
     config::{Config, Schedule, Start},
+    discard::discard,
     error::{OriginError, RunError},
-    practice::{Ending, Watcher},
+    practice::{Ending, Limits, Watcher},
 };
 use crate::{
     learning::{evaluation::Score, learner::Learner},
@@ -46,6 +51,19 @@ pub const METRICS: &str = "metrics.jsonl";
 
 /// The policy's file in a run's folder.
 pub const POLICY: &str = "policy.safetensors";
+
+/// All that a run writes into its folder, the lock last.
+const FILES: [&str; 9] = [
+    config::FILE,
+    METRICS,
+    POLICY,
+    checkpoint::CURRENT,
+    checkpoint::PREVIOUS,
+    examples::FILE,
+    standing::FILE,
+    request::FILE,
+    Lock::FILE,
+];
 
 /// A run and its folder, which is this process' own as long as the run lives.
 #[derive(Debug)]

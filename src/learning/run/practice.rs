@@ -1,14 +1,22 @@
 //! The loop that fills a run's folder.
 
-use std::time::{Duration, Instant};
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
 
-use super::metrics::{MetricsFile, Record};
-use super::{METRICS, Run, RunError, Schedule, error::file};
+use super::{
+    METRICS, Run, RunError, Schedule,
+    clock::Clock,
+    error::file,
+    examples::Examples,
+    metrics::{MetricsFile, Record},
+    pulse::Pulse,
+    request::Request,
+    standing::Phase,
+};
 use crate::{
-    learning::{
-        evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
-        learner::{Learner, Turn},
-    },
+    learning::evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
     table::Layout,
 };
 
@@ -16,7 +24,10 @@ use crate::{
 /// when a checkpoint is written.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
-/// Who follows a run.
+/// Time between two looks at whether a pause is over.
+const NAP: Duration = Duration::from_millis(100);
+
+/// Who is told what a run does, where it does it. Others follow its folder ([`super::follow`]).
 pub trait Watcher {
     /// A line of metrics.
     fn line(&mut self, record: &Record);
@@ -25,91 +36,157 @@ pub trait Watcher {
     fn warn(&mut self, sentence: &str);
 }
 
-/// How a run ended.
+/// How a run ended, with what it earns on the held-out layouts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ending {
-    /// What it earns on the held-out layouts.
-    pub score: Score,
-    /// Whether all shots have been played.
-    pub finished: bool,
+pub enum Ending {
+    /// All shots have been played.
+    Finished(Score),
+    /// It was stopped and can go on.
+    Stopped(Score),
+    /// It was given up: nothing was saved, and the run is to be discarded.
+    Abandoned,
+}
+
+/// When a session ends before the plan is finished.
+pub struct Limits<'a> {
+    /// Longest time to train, pauses left out.
+    pub time: Option<Duration>,
+    /// Asked between two turns whether to stop.
+    pub stop: &'a dyn Fn() -> bool,
+}
+
+/// What a session works with.
+struct Session<'a> {
+    metrics: MetricsFile,
+    clock: Clock,
+    pulse: &'a mut Pulse,
+    layouts: Vec<Layout>,
+    watcher: &'a mut dyn Watcher,
 }
 
 impl Run {
-    /// Trains until the plan is finished, `limit` has passed or `stop` says so. The folder then holds a checkpoint from
-    /// which the run can go on. A checkpoint on the way that cannot be written is told to the watcher, and the next one
-    /// tried.
+    /// Trains until the plan is finished, a limit is reached or a [`Request`] in the folder says so. The folder then holds
+    /// a checkpoint from which the run can go on. A checkpoint on the way that cannot be written is told to the watcher,
+    /// and the next one tried.
     ///
     /// # Errors
     /// Where training breaks down, or where the last checkpoint cannot be written.
-    pub fn practise(
-        &mut self,
-        limit: Option<Duration>,
-        stop: &dyn Fn() -> bool,
-        watcher: &mut dyn Watcher,
-    ) -> Result<Ending, RunError> {
+    pub fn practise(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
+        let mut pulse = Pulse::new(&self.folder);
+        let ending = self.train(limits, &mut pulse, watcher);
+        let (phase, reason) = match &ending {
+            Ok(Ending::Finished(_)) => (Phase::Finished, None),
+            Ok(Ending::Stopped(_) | Ending::Abandoned) => (Phase::Stopped, None),
+            Err(error) => (Phase::Failed, Some(error.to_string())),
+        };
+        pulse.end(phase, self.learner.as_ref(), reason);
+        ending
+    }
+
+    fn train(&mut self, limits: &Limits<'_>, pulse: &mut Pulse, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
-        let (mut metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
+        let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
+        let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
+        let mut session = Session { metrics, clock, pulse, layouts, watcher };
         if self.learner.is_finished() {
-            let score = self.learner.score(&layouts)?;
+            let score = self.measure(&mut session)?;
             if !self.policy_path().exists() {
                 self.write_policy(score)?;
             }
-            return Ok(Ending { score, finished: true });
+            return Ok(Ending::Finished(score));
         }
-        let mut clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
         let mut saved = Instant::now();
         loop {
-            if stop() || limit.is_some_and(|limit| clock.start.elapsed() >= limit) {
-                let score = self.learner.score(&layouts)?;
-                self.save(&mut metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
-                return Ok(Ending { score, finished: false });
+            session.pulse.beat(Phase::Training, self.learner.as_ref(), session.clock.seconds());
+            let is_over = || (limits.stop)() || limits.time.is_some_and(|limit| session.clock.session() >= limit);
+            let mut stops = is_over();
+            match session.pulse.request() {
+                Some(Request::Pause) => match self.pause(&mut session, limits.stop) {
+                    Request::Abandon => return Ok(Ending::Abandoned),
+                    request => stops |= request == Request::Stop,
+                },
+                Some(Request::Stop) => stops = true,
+                Some(Request::Abandon) => return Ok(Ending::Abandoned),
+                Some(Request::GoOn) | None => {}
             }
-            let finished = self.turn(&mut metrics, &mut clock, &layouts, watcher)?;
-            let score = finished.score;
+            if stops {
+                let score = self.measure(&mut session)?;
+                self.save(&mut session.metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
+                return Ok(Ending::Stopped(score));
+            }
+            let Reached { score, all } = self.turn(&mut session)?;
             if score.is_some() || saved.elapsed() >= CHECKPOINT_INTERVAL {
-                let done = self.save(&mut metrics, score);
+                let done = self.save(&mut session.metrics, score);
                 saved = Instant::now();
-                match (done, score.filter(|_| finished.all)) {
-                    (Ok(()), Some(score)) => return Ok(Ending { score, finished: true }),
+                match (done, score.filter(|_| all)) {
+                    (Ok(()), Some(score)) => return Ok(Ending::Finished(score)),
                     (Ok(()), None) => {}
                     (Err(reason), Some(_)) => return Err(self.unsaved(reason)),
-                    (Err(reason), None) => watcher.warn(&format!(
-                        "the checkpoint after {} shots could not be written: {reason}; the one before is whole, and \
-                         training goes on to the next",
-                        self.learner.shots()
-                    )),
+                    (Err(reason), None) => session.warn_of_checkpoint(&reason, self.learner.shots()),
                 }
             }
         }
     }
 
+    /// Saves and waits for the next request, which is never another pause.
+    fn pause(&mut self, session: &mut Session<'_>, stop: &dyn Fn() -> bool) -> Request {
+        let begin = Instant::now();
+        if let Err(reason) = self.save(&mut session.metrics, None) {
+            session.warn_of_checkpoint(&reason, self.learner.shots());
+        }
+        let seconds = session.clock.seconds();
+        let request = loop {
+            session.pulse.beat(Phase::Paused, self.learner.as_ref(), seconds);
+            match session.pulse.request() {
+                Some(Request::Pause) | None if stop() => break Request::Stop,
+                Some(Request::Pause) | None => thread::sleep(NAP),
+                Some(request) => break request,
+            }
+        };
+        session.clock.leave_out(begin);
+        request
+    }
+
+    /// Plays the held-out layouts.
+    fn measure(&self, session: &mut Session<'_>) -> Result<Score, RunError> {
+        let learner = self.learner.as_ref();
+        session.pulse.beat(Phase::Measuring, learner, session.clock.seconds());
+        let score = learner.score(&session.layouts)?;
+        // They are for looking at: where they cannot be written, nothing is lost.
+        let _ = Examples::of(learner, &session.layouts)?.write(&self.folder);
+        Ok(score)
+    }
+
     /// One turn, and the line of metrics that is due after it.
-    fn turn(
-        &mut self,
-        metrics: &mut MetricsFile,
-        clock: &mut Clock,
-        layouts: &[Layout],
-        watcher: &mut dyn Watcher,
-    ) -> Result<Reached, RunError> {
+    fn turn(&mut self, session: &mut Session<'_>) -> Result<Reached, RunError> {
         let Schedule { log_every, evaluate_every, .. } = self.state.schedule;
         let before = self.learner.shots();
         let turn = self.learner.turn()?;
         let shots = self.learner.shots();
-        if !self.state.tally.add(&turn) {
-            return Err(RunError::NotFinite { shots });
-        }
+        let is_finite = self.state.tally.add(&turn);
         let all = self.learner.is_finished();
         let passed = |every: u64| before / every != shots / every;
-        let score = if all || passed(evaluate_every) { Some(self.learner.score(layouts)?) } else { None };
-        if score.is_some() || passed(log_every) {
-            let record = clock.record(self.learner.as_ref(), self.state.tally.take(), score);
-            metrics.push(&record);
-            watcher.line(&record);
+        let score = if is_finite && (all || passed(evaluate_every)) { Some(self.measure(session)?) } else { None };
+        if !is_finite || score.is_some() || passed(log_every) {
+            let record = session.clock.record(self.learner.as_ref(), self.state.tally.take(), score);
+            session.metrics.push(&record);
+            session.watcher.line(&record);
             // Until there is room it waits in memory. No checkpoint is written before it is.
-            let _ = metrics.flush();
+            let _ = session.metrics.flush();
         }
-        Ok(Reached { score, all })
+        if is_finite { Ok(Reached { score, all }) } else { Err(RunError::NotFinite { shots }) }
+    }
+}
+
+impl Session<'_> {
+    fn warn_of_checkpoint(&mut self, reason: &RunError, shots: u64) {
+        let sentence = format!(
+            "the checkpoint after {shots} shots could not be written: {reason}; the one before is whole, and training \
+             goes on to the next"
+        );
+        self.watcher.warn(&sentence);
+        self.pulse.warn(&sentence);
     }
 }
 
@@ -119,41 +196,4 @@ struct Reached {
     score: Option<Score>,
     /// Whether all shots have been played.
     all: bool,
-}
-
-/// The time that training takes.
-struct Clock {
-    start: Instant,
-    /// Seconds of the sessions before.
-    before: f64,
-    /// Seconds and shots of the last line, or of the start.
-    last: (f64, u64),
-}
-
-impl Clock {
-    fn new(shots: u64, before: f64) -> Self {
-        Self { start: Instant::now(), before, last: (before, shots) }
-    }
-
-    fn record(&mut self, learner: &dyn Learner, means: Turn, score: Option<Score>) -> Record {
-        let seconds = self.before + self.start.elapsed().as_secs_f64();
-        let shots = learner.shots();
-        let record = Record {
-            shots,
-            seconds,
-            shots_per_second: (shots - self.last.1) as f64 / (seconds - self.last.0).max(1e-9),
-            updates: learner.updates(),
-            learning_rate: learner.learning_rate(),
-            critic_loss: means.critic_loss,
-            actor_loss: means.actor_loss,
-            q_value: means.q_value,
-            practice_reward: means.mean_reward,
-            exploration: Some(learner.exploration()),
-            memory: learner.memory(),
-            held_out_reward: score.map(|score| score.mean_reward),
-            held_out_reach: score.map(|score| score.reach),
-        };
-        self.last = (seconds, shots);
-        record
-    }
 }

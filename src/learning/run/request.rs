@@ -6,7 +6,7 @@ use std::{fs, io, path::Path};
 use crate::storage::replace;
 
 /// The file's name.
-const FILE: &str = "request";
+pub const FILE: &str = "request";
 
 /// A request to a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::storage::replace;
+
 /// The file's name.
 pub const FILE: &str = "state.json";
 
@@ -75,6 +77,14 @@ pub struct Standing {
 }
 
 impl Standing {
+    /// Writes it for the run in `folder`.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn write(&self, folder: &Path) -> std::io::Result<()> {
+        replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+    }
+
     /// Reads that of the run in `folder`.
     ///
     /// # Errors

@@ -17,8 +17,8 @@ use crate::{
 
 /// What a run told its watcher.
 #[derive(Default)]
-struct Told {
-    lines: Vec<Record>,
+pub struct Told {
+    pub lines: Vec<Record>,
     warnings: Vec<String>,
 }
 
@@ -33,15 +33,21 @@ impl Watcher for Told {
 }
 
 /// A run of ten turns, a line after every other one and a measurement after every fourth.
-fn small_run(folder: &Path) -> Run {
+pub fn small_run(folder: &Path) -> Run {
     let learner = Trainer::new(small_task(), Table::default()).unwrap();
     let schedule = Schedule { log_every: 32, evaluate_every: 64, evaluation_layouts: 20 };
     Run::create(folder, Box::new(learner), schedule, None).unwrap()
 }
 
+pub const FOREVER: Limits<'_> = Limits { time: None, stop: &|| false };
+
+fn is_finished(ending: Ending) -> bool {
+    matches!(ending, Ending::Finished(_))
+}
+
 fn finish(run: &mut Run) -> (Ending, Told) {
     let mut told = Told::default();
-    (run.practise(None, &|| false, &mut told).unwrap(), told)
+    (run.practise(&FOREVER, &mut told).unwrap(), told)
 }
 
 #[test]
@@ -49,11 +55,11 @@ fn a_run_leaves_its_configuration_metrics_checkpoint_and_policy() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     let (ending, told) = finish(&mut run);
-    assert!(ending.finished && told.warnings.is_empty());
+    assert!(is_finished(ending) && told.warnings.is_empty());
     let shots: Vec<_> = told.lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
     assert_eq!(shots, [(32, false), (64, true), (96, false), (128, true), (160, true)]);
     let policy = Policy::load(&run.policy_path()).unwrap();
-    assert_eq!(policy.origin().held_out_reward, ending.score.mean_reward);
+    assert!(matches!(ending, Ending::Finished(score) if score.mean_reward == policy.origin().held_out_reward));
     let config = Config::read(folder.path()).unwrap();
     assert_eq!((config.agent.as_str(), config.plan.seed, config.settings["batch"].as_u64()), ("ddpg", 5, Some(32)));
     drop(run);
@@ -74,11 +80,12 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
     for after in stops {
         let asked = Cell::new(0);
         let stop = || asked.replace(asked.get() + 1) == *after;
-        assert!(!run.practise(None, &stop, &mut Told::default()).unwrap().finished);
+        let ending = run.practise(&Limits { time: None, stop: &stop }, &mut Told::default()).unwrap();
+        assert!(matches!(ending, Ending::Stopped(_)));
         drop(run);
         run = Run::resume(folder.path()).unwrap().0;
     }
-    assert!(finish(&mut run).0.finished);
+    assert!(is_finished(finish(&mut run).0));
     let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
     let lines = lines.into_iter().map(|line| Record { seconds: 0.0, shots_per_second: 0.0, ..line }).collect();
     let read = |name| fs::read(folder.path().join(name));
@@ -117,7 +124,7 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_training_goes_on_to_the_next(
     fs::write(in_the_way.join("inside"), b"").unwrap();
     let before = fs::read(folder.path().join(checkpoint::CURRENT)).unwrap();
     let mut told = Told::default();
-    let error = run.practise(None, &|| false, &mut told).unwrap_err().to_string();
+    let error = run.practise(&FOREVER, &mut told).unwrap_err().to_string();
     assert_eq!(told.warnings.len(), 2, "{:?}", told.warnings);
     assert!(told.warnings[0].contains("after 64 shots") && told.warnings[0].contains(POLICY), "{:?}", told.warnings);
     assert!(error.contains("160 shots") && error.contains("--resume"), "{error}");
@@ -127,7 +134,7 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_training_goes_on_to_the_next(
     fs::remove_dir_all(in_the_way).unwrap();
     drop(run);
     let (ending, told) = finish(&mut Run::resume(folder.path()).unwrap().0);
-    assert!(ending.finished && told.lines.len() == 5);
+    assert!(is_finished(ending) && told.lines.len() == 5);
     assert_eq!(fs::read_to_string(folder.path().join(METRICS)).unwrap().lines().count(), 5);
 }
 

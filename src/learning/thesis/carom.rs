@@ -118,7 +118,7 @@ impl Environment for Carom {
 }
 
 /// A shot without spin (4.1.3).
-fn cue_inputs(action: Action) -> CueInputs {
+pub fn cue_inputs(action: Action) -> CueInputs {
     let [phi, speed] = direction_and_speed(action);
     CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed }
 }

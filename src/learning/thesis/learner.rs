@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::{
     agent::{Agent, Progress, Settings},
-    carom::Carom,
+    carom::{Carom, cue_inputs},
     ddpg::PlainDdpg,
     dqn::Dqn,
     q_learning::QLearning,
@@ -18,6 +18,7 @@ use crate::{
         learner::{self, Learner, Plan, StartError, Turn, note_of},
         network::weights::{Reader, WeightsError, Writer},
     },
+    physics::CueInputs,
     table::{Layout, Table},
 };
 
@@ -164,6 +165,11 @@ impl<A: Agent> Learner for Student<A> {
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
         self.examine(layouts)
+    }
+
+    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
+        let shot = |layout| self.agent.best(&self.game.observation(layout)).map(|choice| cue_inputs(choice.action));
+        layouts.iter().map(shot).collect()
     }
 
     fn policy(&self, _held_out_reward: f64, _date: &str) -> Result<Option<Vec<u8>>, WeightsError> {

@@ -1,11 +1,20 @@
 //! Following a run from outside, by its files alone: while it is at work, after it has ended, and whatever befalls them.
 
 mod condition;
+mod follower;
+mod stamp;
+mod tail;
 
 use std::path::{Path, PathBuf};
 
-pub use self::condition::Condition;
-use super::{config::Config, examples::Examples, history::History, metrics::Record, standing::Standing};
+pub use self::{condition::Condition, follower::Follower};
+use super::{
+    config::Config,
+    examples::Examples,
+    history::History,
+    metrics::Record,
+    standing::{Phase, Standing},
+};
 
 /// What is known of a run.
 #[derive(Clone, Debug)]
@@ -45,6 +54,19 @@ pub struct Update {
     pub notices: Option<Vec<String>>,
 }
 
+impl Update {
+    /// Whether nothing has changed.
+    pub const fn is_empty(&self) -> bool {
+        self.config.is_none()
+            && self.history.is_none()
+            && self.records.is_empty()
+            && self.standing.is_none()
+            && self.condition.is_none()
+            && self.examples.is_none()
+            && self.notices.is_none()
+    }
+}
+
 impl Followed {
     /// A run of which nothing is known yet.
     pub fn new(folder: &Path) -> Self {
@@ -56,6 +78,33 @@ impl Followed {
             condition: Condition::Unknown,
             examples: None,
             notices: Vec::new(),
+        }
+    }
+
+    /// How it is, in a sentence that says what to do.
+    pub fn sentence(&self) -> String {
+        let folder = self.folder.display();
+        let after = self.history.last().map_or_else(String::new, |record| format!(" after {} shots", record.shots));
+        let go_on = format!("go on with: carom train --resume \"{folder}\"");
+        match self.condition {
+            Condition::Unknown => format!("looking at {folder}"),
+            Condition::Missing => format!("{folder} holds no run yet"),
+            Condition::Is(Phase::Failed) => {
+                let reason = self.standing.as_ref().and_then(|standing| standing.reason.as_deref());
+                format!("the run has failed{after}: {}", reason.unwrap_or("no reason was given"))
+            }
+            Condition::Is(Phase::Stopped) => format!("the run was stopped{after}; {go_on}"),
+            Condition::Is(phase) => format!("the run is {}{after}", phase.name()),
+            Condition::Stalled(time) => format!(
+                "the run is stalled{after}: its process is there and has written nothing for {} s; it may have been \
+                 suspended, or its disk may be slow",
+                time.as_secs()
+            ),
+            Condition::Died => {
+                format!("the run died{after}: its process is gone without a word, killed or with the machine; {go_on}")
+            }
+            Condition::Interrupted => format!("the run was interrupted{after}; {go_on}"),
+            Condition::Removed => format!("{folder} has been removed"),
         }
     }
 
@@ -75,24 +124,5 @@ impl Followed {
         self.condition = condition.unwrap_or(self.condition);
         self.examples = examples.or(self.examples.take());
         self.notices = notices.unwrap_or(std::mem::take(&mut self.notices));
-    }
-}
-
-/// Looks at a run's files again and again.
-#[derive(Debug)]
-pub struct Follower {
-    folder: PathBuf,
-}
-
-impl Follower {
-    /// A follower of the run in `folder`, which need not be there yet.
-    pub fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned() }
-    }
-
-    /// Looks once; `None` where nothing has changed. Never fails: what is wrong becomes a notice.
-    pub fn look(&mut self) -> Option<Update> {
-        let _ = &self.folder;
-        None
     }
 }

@@ -1,0 +1,40 @@
+//! Runs by the names that people call them.
+
+use std::path::{Path, PathBuf};
+
+use super::Failure;
+use crate::{learning::run::list::latest_in, storage::Places};
+
+/// The word for the run that was last at work.
+const LATEST: &str = "latest";
+
+/// The folder `name`, or the one called so among the user's runs.
+pub fn run_named(name: &Path) -> PathBuf {
+    if name.exists() {
+        return name.to_owned();
+    }
+    let known = Places::of_this_user().runs.join(name);
+    if known.exists() { known } else { name.to_owned() }
+}
+
+/// The folder of the run to look at: as [`run_named`], or the user's latest for `latest`.
+///
+/// # Errors
+/// Where there is no such folder.
+pub fn run_to_watch(name: &Path) -> Result<PathBuf, Failure> {
+    let folder = run_named(name);
+    if folder.exists() {
+        return Ok(folder);
+    }
+    let runs = Places::of_this_user().runs;
+    if name == Path::new(LATEST) {
+        return latest_in(&runs).ok_or_else(|| {
+            Failure::failed(format_args!("there are no runs in {} yet; start one with carom train", runs.display()))
+        });
+    }
+    Err(Failure::failed(format_args!(
+        "there is no run {}, neither here nor in {}; carom watch lists the runs there are",
+        name.display(),
+        runs.display()
+    )))
+}

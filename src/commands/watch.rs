@@ -1,0 +1,120 @@
+//! `carom watch`: look at a run that trains here or elsewhere.
+
+use std::{
+    io::{self, Write},
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+    time::Duration,
+};
+
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    flag,
+};
+
+use super::{
+    Failure,
+    output::tell,
+    runs::run_to_watch,
+    train::{line, print_runs},
+};
+use crate::{
+    learning::run::{
+        follow::{Condition, Followed, Follower},
+        holds_checkpoints,
+        metrics::Record,
+        standing::Phase,
+    },
+    terminal,
+};
+
+/// Time between two looks at the run.
+const INTERVAL: Duration = Duration::from_millis(200);
+
+/// Watch a run, live while it trains and also after its end: the training screen on a terminal, elsewhere a line for every
+/// measurement until the run has ended. Watching only reads the run's files; leaving never disturbs it.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The run: its folder, its name among the user's runs, or "latest". Left out, or a folder of several runs: a list to
+    /// choose from.
+    run: Option<PathBuf>,
+    /// Plain lines, on a terminal too.
+    #[arg(long)]
+    plain: bool,
+    /// Every line of metrics as JSON on standard output, from the first on.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let folder = args.run.as_deref().map(run_to_watch).transpose()?;
+    let is_run = folder.as_deref().is_some_and(holds_checkpoints);
+    if !args.plain && !args.json && terminal::is_there() {
+        return terminal::watch(folder.as_deref().filter(|_| is_run), folder.as_deref().filter(|_| !is_run))
+            .map_err(Failure::wrong_input);
+    }
+    match folder {
+        Some(folder) if is_run => follow(&folder, args.json),
+        folder => {
+            print_runs(folder.as_deref(), args.json)?;
+            tell("choose one of them: carom watch NAME, or carom watch latest");
+            Ok(())
+        }
+    }
+}
+
+/// Prints what the run does until it has ended.
+fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
+    }
+    let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
+    let mut before = Condition::Unknown;
+    while !stop.load(Ordering::Relaxed) {
+        let mut written = Ok(());
+        let update = follower.look_at_lines(&mut |record| {
+            if written.is_ok() {
+                written = print(record, json);
+            }
+        });
+        written?;
+        if let Some(update) = update {
+            for notice in update.notices.iter().flatten() {
+                tell(format_args!("note: {notice}"));
+            }
+            followed.apply(update);
+        }
+        if !followed.condition.is_like(before) {
+            before = followed.condition;
+            tell(followed.sentence());
+        }
+        if followed.condition.is_over() {
+            break;
+        }
+        thread::sleep(INTERVAL);
+    }
+    match followed.condition {
+        Condition::Died | Condition::Removed | Condition::Is(Phase::Failed) => {
+            Err(Failure::failed(format_args!("the run has not ended well: {}", followed.condition)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A line of metrics: all of them as JSON, those with a measurement for people.
+fn print(record: &Record, json: bool) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    if json {
+        serde_json::to_writer(&mut out, record)?;
+        return writeln!(out);
+    }
+    match line(record) {
+        Some(line) => writeln!(out, "{line}"),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,66 @@
+//! The time that training takes, pauses left out.
+
+use std::time::{Duration, Instant};
+
+use super::metrics::Record;
+use crate::learning::{
+    evaluation::Score,
+    learner::{Learner, Turn},
+};
+
+/// The time that training takes.
+#[derive(Debug)]
+pub struct Clock {
+    start: Instant,
+    /// Seconds of the sessions before.
+    before: f64,
+    /// Time that passed in pauses.
+    paused: Duration,
+    /// Seconds and shots of the last line, or of the start.
+    last: (f64, u64),
+}
+
+impl Clock {
+    /// Starts now, for a run that has played so many shots in so many seconds.
+    pub fn new(shots: u64, before: f64) -> Self {
+        Self { start: Instant::now(), before, paused: Duration::ZERO, last: (before, shots) }
+    }
+
+    /// Time since the start.
+    pub fn session(&self) -> Duration {
+        self.start.elapsed().saturating_sub(self.paused)
+    }
+
+    /// Seconds of training in all.
+    pub fn seconds(&self) -> f64 {
+        self.before + self.session().as_secs_f64()
+    }
+
+    /// Leaves a pause out that began at `begin` and ends now.
+    pub fn leave_out(&mut self, begin: Instant) {
+        self.paused += begin.elapsed();
+    }
+
+    /// The line that is due now.
+    pub fn record(&mut self, learner: &dyn Learner, means: Turn, score: Option<Score>) -> Record {
+        let seconds = self.seconds();
+        let shots = learner.shots();
+        let record = Record {
+            shots,
+            seconds,
+            shots_per_second: (shots - self.last.1) as f64 / (seconds - self.last.0).max(1e-9),
+            updates: learner.updates(),
+            learning_rate: learner.learning_rate(),
+            critic_loss: means.critic_loss,
+            actor_loss: means.actor_loss,
+            q_value: means.q_value,
+            practice_reward: means.mean_reward,
+            exploration: Some(learner.exploration()),
+            memory: learner.memory(),
+            held_out_reward: score.map(|score| score.mean_reward),
+            held_out_reach: score.map(|score| score.reach),
+        };
+        self.last = (seconds, shots);
+        record
+    }
+}

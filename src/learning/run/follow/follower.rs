@@ -1,0 +1,203 @@
+//! Looks at a run's files again and again, and tells what has changed.
+
+use std::{
+    path::{Path, PathBuf},
+    time::{Duration, Instant, SystemTime},
+};
+
+use super::{
+    Condition, Update,
+    condition::{Signs, condition},
+    stamp::Stamp,
+    tail::{Look, Tail, Taken},
+};
+use crate::{
+    learning::run::{
+        METRICS,
+        config::{self, Config},
+        examples::{self, Examples},
+        history::History,
+        metrics::Record,
+        standing::{self, Standing},
+    },
+    storage::Lock,
+};
+
+/// Time between two looks at what changes seldom, and at the lock: each look at the lock holds it for an instant.
+const SELDOM: Duration = Duration::from_secs(1);
+
+/// Looks at a run's files. It only reads them, so any number may follow one run.
+#[derive(Debug)]
+pub struct Follower {
+    folder: PathBuf,
+    tail: Tail,
+    seldom: Option<Instant>,
+    config: Option<Stamp>,
+    standing: Option<Stamp>,
+    examples: Option<Stamp>,
+    /// When what the run says of itself last changed.
+    heard: Instant,
+    /// Lines of metrics read.
+    lines: u64,
+    signs: Signs,
+    condition: Condition,
+    /// What is wrong with each file, in the order in which it is told.
+    troubles: [Option<String>; 3],
+    told: Vec<String>,
+}
+
+impl Follower {
+    /// A follower of the run in `folder`, which need not be there yet.
+    pub fn new(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            tail: Tail::new(&folder.join(METRICS)),
+            seldom: None,
+            config: None,
+            standing: None,
+            examples: None,
+            heard: Instant::now(),
+            lines: 0,
+            signs: Signs::default(),
+            condition: Condition::Unknown,
+            troubles: [const { None }; 3],
+            told: Vec::new(),
+        }
+    }
+
+    /// Looks once; `None` where nothing has changed. Never fails: what is wrong becomes a notice.
+    pub fn look(&mut self) -> Option<Update> {
+        self.look_at_lines(&mut |_| ())
+    }
+
+    /// [`Follower::look`], with every line of metrics handed to `see` as well, from the first one on.
+    pub fn look_at_lines(&mut self, see: &mut dyn FnMut(&Record)) -> Option<Update> {
+        let mut update = Update::default();
+        if self.seldom.is_none_or(|last| last.elapsed() >= SELDOM) {
+            self.seldom = Some(Instant::now());
+            self.look_seldom(&mut update);
+        }
+        self.look_at_standing(&mut update);
+        self.look_at_metrics(&mut update, see);
+        self.signs.silent = self.heard.elapsed();
+        let now = condition(&self.signs);
+        if now != self.condition {
+            self.condition = now;
+            update.condition = Some(now);
+        }
+        let notices: Vec<String> = self.troubles.iter().flatten().cloned().collect();
+        if notices != self.told {
+            self.told.clone_from(&notices);
+            update.notices = Some(notices);
+        }
+        (!update.is_empty()).then_some(update)
+    }
+
+    /// What changes once a minute or never.
+    fn look_seldom(&mut self, update: &mut Update) {
+        self.signs.is_held = Lock::is_held(&self.folder);
+        self.signs.is_there = self.folder.is_dir();
+        self.signs.was_there |= self.signs.is_there;
+        let stamp = Stamp::of(&self.folder.join(config::FILE));
+        if stamp != self.config {
+            self.config = stamp;
+            match Config::read(&self.folder) {
+                Ok(config) => {
+                    self.signs.planned = Some(config.plan.shots);
+                    self.troubles[0] = config.newer_version().map(|version| {
+                        format!(
+                            "the run is of carom {version}, which is newer than this one: not all of it may be shown"
+                        )
+                    });
+                    update.config = Some(Box::new(config));
+                }
+                // Nobody reads what is not there.
+                Err(_) if stamp.is_none() => self.troubles[0] = None,
+                Err(error) => self.troubles[0] = Some(self.unreadable_config(&error)),
+            }
+        }
+        let stamp = Stamp::of(&self.folder.join(examples::FILE));
+        if stamp != self.examples {
+            self.examples = stamp;
+            update.examples = Examples::read(&self.folder).ok();
+        }
+    }
+
+    fn unreadable_config(&self, error: &std::io::Error) -> String {
+        let file = config::FILE;
+        match config::version_in(&self.folder) {
+            Some(version) => format!(
+                "{file} is of carom {version} and cannot be read by carom {} ({error}); the charts are shown without it",
+                config::VERSION
+            ),
+            None => format!("{file} cannot be read ({error}); the charts are shown without it"),
+        }
+    }
+
+    fn look_at_standing(&mut self, update: &mut Update) {
+        let stamp = Stamp::of(&self.folder.join(standing::FILE));
+        if stamp == self.standing {
+            return;
+        }
+        let is_first = self.standing.is_none();
+        self.standing = stamp;
+        // A look at a run that has said nothing for an hour finds it an hour silent.
+        let age = stamp.and_then(|stamp| SystemTime::now().duration_since(stamp.modified()?).ok());
+        let age = if is_first { age.unwrap_or_default() } else { Duration::ZERO };
+        self.heard = Instant::now().checked_sub(age).unwrap_or_else(Instant::now);
+        match Standing::read(&self.folder) {
+            Ok(standing) => {
+                self.signs.phase = Some(standing.phase);
+                self.troubles[1] = None;
+                update.standing = Some(standing);
+            }
+            Err(_) if stamp.is_none() => {
+                self.signs.phase = None;
+                self.troubles[1] = None;
+            }
+            Err(error) => self.troubles[1] = Some(format!("{} cannot be read: {error}", standing::FILE)),
+        }
+    }
+
+    fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) {
+        // Millions of lines become a history at once; only those that come later are handed on one by one.
+        let mut lines = self.lines;
+        let mut history = (lines == 0).then(Box::<History>::default);
+        let (mut records, mut last) = (Vec::new(), None);
+        let look = self.tail.look(|taken| match taken {
+            Taken::Afresh => {
+                history = Some(Box::default());
+                records.clear();
+                lines = 0;
+            }
+            Taken::Line(record) => {
+                see(&record);
+                last = Some(record.shots);
+                lines += 1;
+                match &mut history {
+                    Some(history) => history.push(&record),
+                    None => records.push(record),
+                }
+            }
+        });
+        let read = last.is_some() || matches!(look, Ok(Look::Afresh));
+        update.history = history.filter(|_| read);
+        self.lines = lines;
+        self.signs.shots = last.or(self.signs.shots);
+        update.records = records;
+        self.troubles[2] = match look {
+            Err(error) => Some(format!("{METRICS} cannot be read: {error}; what was read before is still shown")),
+            Ok(Look::Missing) if lines > 0 => {
+                Some(format!("{METRICS} has been removed; what was read before is still shown"))
+            }
+            Ok(_) => match self.tail.unreadable() {
+                0 if self.condition.is_over() && self.tail.is_torn() => {
+                    Some(format!("the last line of {METRICS} is cut off and is left out"))
+                }
+                0 => None,
+                1 => Some(format!("1 line of {METRICS} cannot be read by this version and is left out")),
+                lines => Some(format!("{lines} lines of {METRICS} cannot be read by this version and are left out")),
+            },
+        };
+    }
+}

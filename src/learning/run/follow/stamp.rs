@@ -1,0 +1,40 @@
+//! Whether a file has changed, told without reading it.
+
+use std::{fs::Metadata, path::Path, time::SystemTime};
+
+/// What tells one state of a file from the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stamp {
+    modified: Option<SystemTime>,
+    length: u64,
+    #[cfg(unix)]
+    inode: u64,
+}
+
+impl Stamp {
+    /// That of the file at `path`; none where there is no file.
+    pub fn of(path: &Path) -> Option<Self> {
+        std::fs::metadata(path).ok().map(|data| Self::from(&data))
+    }
+
+    /// Bytes of the file.
+    pub const fn length(&self) -> u64 {
+        self.length
+    }
+
+    /// When the file was written last, if the system tells.
+    pub const fn modified(&self) -> Option<SystemTime> {
+        self.modified
+    }
+}
+
+impl From<&Metadata> for Stamp {
+    fn from(data: &Metadata) -> Self {
+        Self {
+            modified: data.modified().ok(),
+            length: data.len(),
+            #[cfg(unix)]
+            inode: std::os::unix::fs::MetadataExt::ino(data),
+        }
+    }
+}

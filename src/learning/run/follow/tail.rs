@@ -1,0 +1,219 @@
+//! The end of a file of metrics that somebody else writes: only whole lines, each once, whatever happens to the file.
+
+use std::{
+    fs::File,
+    io::{self, ErrorKind, Read, Seek, SeekFrom},
+    path::{Path, PathBuf},
+};
+
+use super::stamp::Stamp;
+use crate::learning::run::metrics::Record;
+
+/// Bytes that are read at a time; no line of ours is longer than a thousandth of it.
+const CHUNK: usize = 1 << 20;
+
+/// Bytes before the place that has been read up to which are compared before more is read: a file that was cut off and has
+/// grown again would be taken for the same otherwise.
+const MARK: usize = 256;
+
+/// What a look at the file has brought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Nothing new.
+    Same,
+    /// New lines.
+    More,
+    /// The file is another one than before: it was read from its beginning.
+    Afresh,
+    /// There is no file.
+    Missing,
+}
+
+/// Reads a file that grows.
+#[derive(Debug)]
+pub struct Tail {
+    path: PathBuf,
+    /// Bytes of whole lines read.
+    offset: u64,
+    /// The last of these bytes.
+    mark: Vec<u8>,
+    /// The file as it was last read.
+    stamp: Option<Stamp>,
+    /// Lines that are no records of this version.
+    unreadable: u64,
+}
+
+impl Tail {
+    /// Of the file at `path`, from its beginning.
+    pub fn new(path: &Path) -> Self {
+        Self { path: path.to_owned(), offset: 0, mark: Vec::new(), stamp: None, unreadable: 0 }
+    }
+
+    /// Lines that are no records of this version.
+    pub const fn unreadable(&self) -> u64 {
+        self.unreadable
+    }
+
+    /// Whether the file ends in the middle of a line.
+    pub fn is_torn(&self) -> bool {
+        self.stamp.is_some_and(|stamp| self.offset < stamp.length())
+    }
+
+    /// Reads what is new and hands it to `take`.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn look(&mut self, mut take: impl FnMut(Taken)) -> io::Result<Look> {
+        let stamp = Stamp::of(&self.path);
+        if stamp == self.stamp {
+            return Ok(if stamp.is_some() { Look::Same } else { Look::Missing });
+        }
+        let mut file = match File::open(&self.path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                self.stamp = None;
+                return Ok(Look::Missing);
+            }
+            file => file?,
+        };
+        // Taken from the file that is read: another may stand in its place by now.
+        let stamp = Stamp::from(&file.metadata()?);
+        let afresh = !self.is_the_same(&mut file, stamp.length())?;
+        if afresh {
+            *self = Self::new(&self.path);
+            take(Taken::Afresh);
+        }
+        self.stamp = Some(stamp);
+        let before = self.offset;
+        self.read(&mut file, &mut take)?;
+        Ok(match () {
+            () if afresh => Look::Afresh,
+            () if self.offset > before => Look::More,
+            () => Look::Same,
+        })
+    }
+
+    /// Whether the file still begins with what has been read of it.
+    fn is_the_same(&self, file: &mut File, length: u64) -> io::Result<bool> {
+        if length < self.offset {
+            return Ok(false);
+        }
+        let mut found = vec![0; self.mark.len()];
+        file.seek(SeekFrom::Start(self.offset - found.len() as u64))?;
+        file.read_exact(&mut found)?;
+        Ok(found == self.mark)
+    }
+
+    fn read(&mut self, file: &mut File, take: &mut impl FnMut(Taken)) -> io::Result<()> {
+        file.seek(SeekFrom::Start(self.offset))?;
+        let mut buffer = Vec::new();
+        loop {
+            let start = buffer.len();
+            if file.take(CHUNK as u64).read_to_end(&mut buffer)? == 0 {
+                return Ok(());
+            }
+            let end = match buffer[start..].iter().rposition(|byte| *byte == b'\n') {
+                Some(end) => start + end + 1,
+                // A line without an end is waited for, but not for ever: nothing of ours is so long.
+                None if buffer.len() >= 4 * CHUNK => buffer.len(),
+                None => continue,
+            };
+            for line in buffer[..end].split_inclusive(|byte| *byte == b'\n') {
+                match serde_json::from_slice(line) {
+                    Ok(record) => take(Taken::Line(record)),
+                    Err(_) if line.trim_ascii().is_empty() => {}
+                    Err(_) => self.unreadable += 1,
+                }
+            }
+            self.offset += end as u64;
+            self.mark.extend_from_slice(&buffer[..end]);
+            self.mark.drain(..self.mark.len().saturating_sub(MARK));
+            buffer.drain(..end);
+        }
+    }
+}
+
+/// What [`Tail::look`] hands over.
+#[derive(Debug)]
+pub enum Taken {
+    /// What came before counts no more: all lines follow.
+    Afresh,
+    /// A line.
+    Line(Record),
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    fn line(shots: u64) -> String {
+        format!(
+            "{{\"time/total_timesteps\":{shots},\"time/time_elapsed\":1.5,\"time/fps\":2.0,\"train/n_updates\":3,\
+             \"train/learning_rate\":0.001,\"train/critic_loss\":\"NaN\",\"train/q_value\":0.5,\
+             \"rollout/ep_rew_mean\":0.25}}\n"
+        )
+    }
+
+    fn look(tail: &mut Tail) -> (Look, Vec<u64>) {
+        let mut shots = Vec::new();
+        let look = tail.look(|taken| match taken {
+            Taken::Afresh => shots.clear(),
+            Taken::Line(record) => shots.push(record.shots),
+        });
+        (look.unwrap(), shots)
+    }
+
+    #[test]
+    fn only_whole_lines_are_taken_and_each_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let mut tail = Tail::new(&path);
+        assert_eq!(look(&mut tail), (Look::Missing, vec![]));
+        let (first, second) = (line(1), line(2));
+        let (half, rest) = second.split_at(30);
+        fs::write(&path, first.clone() + half).unwrap();
+        assert_eq!(look(&mut tail), (Look::More, vec![1]));
+        assert!(tail.is_torn());
+        assert_eq!(look(&mut tail), (Look::Same, vec![]));
+        fs::write(&path, first + half + rest + "no line of ours\n\n" + &line(3)).unwrap();
+        assert_eq!(look(&mut tail), (Look::More, vec![2, 3]));
+        assert_eq!((tail.is_torn(), tail.unreadable()), (false, 1));
+    }
+
+    #[test]
+    fn a_file_that_was_cut_off_or_removed_is_read_afresh() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let mut tail = Tail::new(&path);
+        fs::write(&path, line(1) + &line(2) + &line(3)).unwrap();
+        assert_eq!(look(&mut tail), (Look::More, vec![1, 2, 3]));
+        fs::write(&path, line(1)).unwrap();
+        assert_eq!(look(&mut tail), (Look::Afresh, vec![1]));
+        // Cut off and grown again between two looks: longer than before, and yet another file.
+        fs::write(&path, line(7) + &line(8)).unwrap();
+        assert_eq!(look(&mut tail), (Look::Afresh, vec![7, 8]));
+        fs::remove_file(&path).unwrap();
+        assert_eq!(look(&mut tail), (Look::Missing, vec![]));
+        fs::write(&path, line(7) + &line(8) + &line(9)).unwrap();
+        assert_eq!(look(&mut tail), (Look::More, vec![9]));
+        fs::remove_file(&path).unwrap();
+        look(&mut tail);
+        fs::write(&path, line(1)).unwrap();
+        assert_eq!(look(&mut tail), (Look::Afresh, vec![1]));
+    }
+
+    #[test]
+    fn files_longer_than_a_chunk_and_lines_without_end_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let many: String = (1..=10_000).map(line).collect();
+        assert!(many.len() > CHUNK + CHUNK / 2);
+        fs::write(&path, many).unwrap();
+        let mut tail = Tail::new(&path);
+        assert_eq!(look(&mut tail).1, (1..=10_000).collect::<Vec<_>>());
+        fs::write(&path, vec![b'x'; 9 * CHUNK]).unwrap();
+        assert_eq!(look(&mut tail), (Look::Afresh, vec![]));
+        assert_eq!(tail.unreadable(), 2);
+    }
+}

@@ -1,0 +1,130 @@
+//! Numbers in files of JSON, those that are not finite by their names: JSON has no sign for them, and a run that breaks
+//! down is to be seen breaking down.
+
+use std::fmt;
+
+use serde::{Deserialize, Deserializer, Serializer, de};
+
+/// The names, as protobuf's JSON writes them too.
+const NAN: &str = "NaN";
+const ABOVE: &str = "Infinity";
+const BELOW: &str = "-Infinity";
+
+/// Writes a number, or its name.
+///
+/// # Errors
+/// Whatever the serializer reports.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
+pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    match *number {
+        number if number.is_finite() => serializer.serialize_f64(number),
+        number if number.is_nan() => serializer.serialize_str(NAN),
+        number => serializer.serialize_str(if number > 0.0 { ABOVE } else { BELOW }),
+    }
+}
+
+/// Reads a number, or its name; `null`, which many programs write for what is no number, is one that is none.
+///
+/// # Errors
+/// Anything else.
+pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    deserializer.deserialize_any(Number)
+}
+
+struct Number;
+
+impl de::Visitor<'_> for Number {
+    type Value = f64;
+
+    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "a number, \"{NAN}\", \"{ABOVE}\" or \"{BELOW}\"")
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<f64, E> {
+        Ok(value)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<f64, E> {
+        Ok(value as f64)
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<f64, E> {
+        Ok(value as f64)
+    }
+
+    fn visit_unit<E: de::Error>(self) -> Result<f64, E> {
+        Ok(f64::NAN)
+    }
+
+    fn visit_str<E: de::Error>(self, name: &str) -> Result<f64, E> {
+        match name {
+            NAN => Ok(f64::NAN),
+            ABOVE => Ok(f64::INFINITY),
+            BELOW => Ok(f64::NEG_INFINITY),
+            _ => Err(E::invalid_value(de::Unexpected::Str(name), &self)),
+        }
+    }
+}
+
+/// The same for numbers that may be missing: those are left out of the file.
+pub mod option {
+    use super::{Deserialize, Deserializer, Serializer};
+
+    #[derive(Deserialize)]
+    struct Present(#[serde(with = "super")] f64);
+
+    /// Writes the number that is there.
+    ///
+    /// # Errors
+    /// Whatever the serializer reports.
+    #[expect(clippy::ref_option, reason = "serde calls it with a reference")]
+    pub fn serialize<S: Serializer>(number: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+        match number {
+            Some(number) => super::serialize(number, serializer),
+            None => serializer.serialize_none(),
+        }
+    }
+
+    /// Reads a number, or its name, or nothing.
+    ///
+    /// # Errors
+    /// Anything else.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+        Ok(Option::<Present>::deserialize(deserializer)?.map(|Present(number)| number))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Serialize;
+
+    use super::*;
+
+    #[derive(Serialize, Deserialize)]
+    struct Pair {
+        #[serde(with = "super")]
+        one: f64,
+        #[serde(with = "super::option", default, skip_serializing_if = "Option::is_none")]
+        other: Option<f64>,
+    }
+
+    #[test]
+    fn every_number_survives_a_file() {
+        for number in [0.1, -3.0, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let text = serde_json::to_string(&Pair { one: number, other: Some(number) }).unwrap();
+            let again: Pair = serde_json::from_str(&text).unwrap();
+            assert_eq!(again.one.to_bits(), number.to_bits(), "{text}");
+            assert_eq!(again.other.unwrap().to_bits(), number.to_bits(), "{text}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_and_null_are_read_and_other_words_refused() {
+        let read = |text: &str| serde_json::from_str::<Pair>(text);
+        assert_eq!(read("{\"one\": -2}").unwrap().one, -2.0);
+        let none = read("{\"one\": null, \"other\": null}").unwrap();
+        assert!(none.one.is_nan() && none.other.is_none());
+        assert!(read("{\"one\": \"many\"}").is_err_and(|error| error.to_string().contains("many")));
+        assert_eq!(serde_json::to_string(&Pair { one: 1.0, other: None }).unwrap(), "{\"one\":1.0}");
+    }
+}

@@ -1,0 +1,202 @@
+//! The pulse of a run at work: about once a second it tells what it is doing, and it listens to what it is asked.
+
+use std::{
+    collections::VecDeque,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+use super::{
+    request::Request,
+    standing::{Phase, Standing},
+};
+use crate::learning::learner::Learner;
+
+/// Time between two beats. Whoever watches takes a run that misses many for stalled.
+pub const BEAT: Duration = Duration::from_secs(1);
+
+/// Time between two looks for a request.
+const EAR: Duration = Duration::from_millis(200);
+
+/// Beats over which speeds are taken.
+const SPEED_BEATS: usize = 6;
+
+/// What a run tells those who watch it. Nothing of it is needed to go on, so what cannot be written is not told.
+#[derive(Debug)]
+pub struct Pulse {
+    folder: PathBuf,
+    standing: Standing,
+    beaten: Option<Instant>,
+    listened: Instant,
+    /// Seconds of training, shots and updates at the last beats, for the speeds.
+    track: VecDeque<(f64, u64, u64)>,
+}
+
+impl Pulse {
+    /// That of the run in `folder`, which begins to work now: an earlier request was not meant for it.
+    pub fn new(folder: &Path) -> Self {
+        Request::clear(folder);
+        let standing = Standing { process: std::process::id(), ..Standing::default() };
+        let track = VecDeque::with_capacity(SPEED_BEATS);
+        Self { folder: folder.to_owned(), standing, beaten: None, listened: Instant::now(), track }
+    }
+
+    /// Tells what the run is doing, `seconds` into its training, if a second has passed or it does something else now.
+    pub fn beat(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
+        let is_due = self.beaten.is_none_or(|beaten| beaten.elapsed() >= BEAT);
+        if is_due || phase != self.standing.phase {
+            self.tell(phase, learner, seconds);
+        }
+    }
+
+    /// Tells how the run has ended.
+    pub fn end(&mut self, phase: Phase, learner: &dyn Learner, reason: Option<String>) {
+        self.standing.reason = reason;
+        Request::clear(&self.folder);
+        self.tell(phase, learner, self.standing.seconds);
+    }
+
+    /// Keeps a sentence for those who watch.
+    pub fn warn(&mut self, sentence: &str) {
+        self.standing.warning = Some(sentence.to_owned());
+    }
+
+    /// What the run is asked to do.
+    pub fn request(&mut self) -> Option<Request> {
+        if self.listened.elapsed() < EAR {
+            return None;
+        }
+        self.listened = Instant::now();
+        let request = Request::read(&self.folder)?;
+        Request::clear(&self.folder);
+        Some(request)
+    }
+
+    fn tell(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
+        let (shots, updates) = (learner.shots(), learner.updates());
+        if self.track.len() == SPEED_BEATS {
+            self.track.pop_front();
+        }
+        self.track.push_back((seconds, shots, updates));
+        if let (Some(first), Some(last)) = (self.track.front(), self.track.back())
+            && last.0 > first.0
+        {
+            let a_second = |from: u64, to: u64| to.saturating_sub(from) as f64 / (last.0 - first.0);
+            self.standing.shots_per_second = a_second(first.1, last.1);
+            self.standing.updates_per_second = a_second(first.2, last.2);
+        }
+        self.standing.phase = phase;
+        (self.standing.shots, self.standing.updates, self.standing.seconds) = (shots, updates, seconds);
+        (self.standing.exploration, self.standing.memory) = (learner.exploration(), learner.memory());
+        // Nobody has to watch: a full disk stops checkpoints, and says so, but not this.
+        let _ = self.standing.write(&self.folder);
+        self.beaten = Some(Instant::now());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{thread, time::Duration};
+
+    use super::*;
+    use crate::learning::run::{
+        Ending, Limits, Run, discard,
+        examples::{self, Examples},
+        follow::{Condition, Followed, Follower},
+        tests::{FOREVER, Told, small_run},
+    };
+
+    /// Asks the run in `folder` from another thread as soon as it is in `phase`.
+    fn ask(folder: &Path, phase: Phase, request: Request) -> thread::JoinHandle<()> {
+        let folder = folder.to_owned();
+        thread::spawn(move || {
+            while Standing::read(&folder).map(|standing| standing.phase).ok() != Some(phase) {
+                thread::sleep(Duration::from_millis(5));
+            }
+            request.send(&folder).unwrap();
+        })
+    }
+
+    /// Holds the run up between two turns, so that it does not end before it is asked.
+    const SLOW: Limits<'_> = Limits { time: None, stop: &|| thread::sleep(Duration::from_millis(60)) != () };
+
+    #[test]
+    fn a_run_tells_what_it_does_and_shows_its_shots() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = small_run(folder.path());
+        run.practise(&FOREVER, &mut Told::default()).unwrap();
+        let standing = Standing::read(folder.path()).unwrap();
+        assert_eq!((standing.phase, standing.shots, standing.process), (Phase::Finished, 160, std::process::id()));
+        assert!(standing.updates > 0 && standing.memory == Some(1.0) && standing.exploration > 0.0, "{standing:?}");
+        let Examples { after, shots } = Examples::read(folder.path()).unwrap();
+        assert_eq!((after, shots.len()), (160, examples::COUNT));
+        let (reward, table) = (run.learner().plan().reward, run.learner().table());
+        assert!(shots.iter().all(|shot| shot.reward == reward.of(table, &shot.layout, &shot.cue)));
+    }
+
+    #[test]
+    fn a_run_waits_goes_on_and_stops_as_it_is_asked_and_ends_in_the_same_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut run = small_run(folder.path());
+        // What was asked of an earlier process is not done.
+        Request::Abandon.send(folder.path()).unwrap();
+        let asking =
+            [ask(folder.path(), Phase::Training, Request::Pause), ask(folder.path(), Phase::Paused, Request::Stop)];
+        let ending = run.practise(&SLOW, &mut Told::default()).unwrap();
+        asking.into_iter().for_each(|thread| thread.join().unwrap());
+        assert!(matches!(ending, Ending::Stopped(_)));
+        assert_eq!(Standing::read(folder.path()).unwrap().phase, Phase::Stopped);
+        drop(run);
+        let mut run = Run::resume(folder.path()).unwrap().0;
+        let asking =
+            [ask(folder.path(), Phase::Training, Request::Pause), ask(folder.path(), Phase::Paused, Request::GoOn)];
+        assert!(matches!(run.practise(&SLOW, &mut Told::default()).unwrap(), Ending::Finished(_)));
+        asking.into_iter().for_each(|thread| thread.join().unwrap());
+        assert_eq!(Request::read(folder.path()), None);
+        let (whole, other) = (folder.path().join("checkpoint.safetensors"), tempfile::tempdir().unwrap());
+        small_run(other.path()).practise(&FOREVER, &mut Told::default()).unwrap();
+        assert!(std::fs::read(whole).unwrap() == std::fs::read(other.path().join("checkpoint.safetensors")).unwrap());
+    }
+
+    #[test]
+    fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let runs = ["kept", "gone"].map(|name| folder.path().join(name));
+        std::fs::create_dir(&runs[0]).unwrap();
+        std::fs::write(runs[0].join("notes.txt"), "mine").unwrap();
+        for path in &runs {
+            let mut run = small_run(path);
+            let asking = ask(path, Phase::Training, Request::Abandon);
+            assert_eq!(run.practise(&SLOW, &mut Told::default()).unwrap(), Ending::Abandoned);
+            asking.join().unwrap();
+            assert!(discard(path).unwrap_err().to_string().contains("another process"));
+            drop(run);
+            discard(path).unwrap();
+        }
+        let left: Vec<_> = std::fs::read_dir(&runs[0]).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left, ["notes.txt"]);
+        assert!(!runs[1].exists());
+    }
+
+    #[test]
+    fn whoever_follows_sees_a_run_begin_work_and_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run");
+        let (mut follower, mut followed) = (Follower::new(&path), Followed::new(&path));
+        followed.apply(follower.look().unwrap());
+        assert_eq!(followed.condition, Condition::Missing);
+        assert!(follower.look().is_none(), "nothing has changed");
+        let mut run = small_run(&path);
+        run.practise(&FOREVER, &mut Told::default()).unwrap();
+        drop(run);
+        let mut follower = Follower::new(&path);
+        let mut lines = Vec::new();
+        followed.apply(follower.look_at_lines(&mut |record| lines.push(record.shots)).unwrap());
+        assert_eq!((followed.condition, lines.len()), (Condition::Is(Phase::Finished), 5));
+        assert_eq!(followed.config.as_ref().unwrap().plan.shots, 160);
+        assert!(followed.examples.is_some() && followed.notices.is_empty());
+        std::fs::remove_file(path.join("metrics.jsonl")).unwrap();
+        followed.apply(follower.look().unwrap());
+        assert!(followed.notices[0].contains("metrics.jsonl has been removed"), "{:?}", followed.notices);
+    }
+}
