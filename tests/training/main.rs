@@ -5,3 +5,4 @@ mod common;
 mod kills;
 mod many;
 mod trouble;
+mod watching;

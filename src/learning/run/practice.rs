@@ -59,7 +59,7 @@ pub struct Limits<'a> {
 struct Session<'a> {
     metrics: MetricsFile,
     clock: Clock,
-    pulse: &'a mut Pulse,
+    pulse: Pulse,
     layouts: Vec<Layout>,
     watcher: &'a mut dyn Watcher,
 }
@@ -72,25 +72,24 @@ impl Run {
     /// # Errors
     /// Where training breaks down, or where the last checkpoint cannot be written.
     pub fn practise(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
-        let mut pulse = Pulse::new(&self.folder);
-        let ending = self.train(limits, &mut pulse, watcher);
+        let path = self.folder.join(METRICS);
+        let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
+        let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
+        let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
+        let mut session = Session { metrics, clock, pulse: Pulse::new(&self.folder), layouts, watcher };
+        let ending = self.train(limits, &mut session);
         let (phase, reason) = match &ending {
             Ok(Ending::Finished(_)) => (Phase::Finished, None),
             Ok(Ending::Stopped(_) | Ending::Abandoned) => (Phase::Stopped, None),
             Err(error) => (Phase::Failed, Some(error.to_string())),
         };
-        pulse.end(phase, self.learner.as_ref(), reason);
+        session.pulse.end(phase, self.learner.as_ref(), session.clock.seconds(), reason);
         ending
     }
 
-    fn train(&mut self, limits: &Limits<'_>, pulse: &mut Pulse, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
-        let path = self.folder.join(METRICS);
-        let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
-        let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
-        let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
-        let mut session = Session { metrics, clock, pulse, layouts, watcher };
+    fn train(&mut self, limits: &Limits<'_>, session: &mut Session<'_>) -> Result<Ending, RunError> {
         if self.learner.is_finished() {
-            let score = self.measure(&mut session)?;
+            let score = self.measure(session)?;
             if !self.policy_path().exists() {
                 self.write_policy(score)?;
             }
@@ -102,7 +101,7 @@ impl Run {
             let is_over = || (limits.stop)() || limits.time.is_some_and(|limit| session.clock.session() >= limit);
             let mut stops = is_over();
             match session.pulse.request() {
-                Some(Request::Pause) => match self.pause(&mut session, limits.stop) {
+                Some(Request::Pause) => match self.pause(session, limits.stop) {
                     Request::Abandon => return Ok(Ending::Abandoned),
                     request => stops |= request == Request::Stop,
                 },
@@ -111,11 +110,11 @@ impl Run {
                 Some(Request::GoOn) | None => {}
             }
             if stops {
-                let score = self.measure(&mut session)?;
+                let score = self.measure(session)?;
                 self.save(&mut session.metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
                 return Ok(Ending::Stopped(score));
             }
-            let Reached { score, all } = self.turn(&mut session)?;
+            let Reached { score, all } = self.turn(session)?;
             if score.is_some() || saved.elapsed() >= CHECKPOINT_INTERVAL {
                 let done = self.save(&mut session.metrics, score);
                 saved = Instant::now();

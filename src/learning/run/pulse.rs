@@ -50,10 +50,10 @@ impl Pulse {
     }
 
     /// Tells how the run has ended.
-    pub fn end(&mut self, phase: Phase, learner: &dyn Learner, reason: Option<String>) {
+    pub fn end(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64, reason: Option<String>) {
         self.standing.reason = reason;
         Request::clear(&self.folder);
-        self.tell(phase, learner, self.standing.seconds);
+        self.tell(phase, learner, seconds);
     }
 
     /// Keeps a sentence for those who watch.
@@ -74,16 +74,18 @@ impl Pulse {
 
     fn tell(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
         let (shots, updates) = (learner.shots(), learner.updates());
+        if phase == Phase::Paused {
+            self.track.clear();
+            (self.standing.shots_per_second, self.standing.updates_per_second) = (0.0, 0.0);
+        }
         if self.track.len() == SPEED_BEATS {
             self.track.pop_front();
         }
         self.track.push_back((seconds, shots, updates));
-        if let (Some(first), Some(last)) = (self.track.front(), self.track.back())
-            && last.0 > first.0
-        {
-            let a_second = |from: u64, to: u64| to.saturating_sub(from) as f64 / (last.0 - first.0);
-            self.standing.shots_per_second = a_second(first.1, last.1);
-            self.standing.updates_per_second = a_second(first.2, last.2);
+        let (first, passed) = (self.track[0], seconds - self.track[0].0);
+        if passed > 0.0 {
+            self.standing.shots_per_second = (shots - first.1) as f64 / passed;
+            self.standing.updates_per_second = (updates - first.2) as f64 / passed;
         }
         self.standing.phase = phase;
         (self.standing.shots, self.standing.updates, self.standing.seconds) = (shots, updates, seconds);

@@ -9,7 +9,7 @@ use crate::{
     learning::{
         agents::AGENTS,
         ddpg::trainer::{Trainer, tests::small_task},
-        learner::Plan,
+        learner::{Plan, Turn},
         policy::Policy,
     },
     table::Table,
@@ -149,4 +149,23 @@ fn a_folder_belongs_to_one_run_at_a_time() {
     let (run, notices) = Run::resume(folder.path()).unwrap();
     assert_eq!((notices.len(), run.config().agent.as_str()), (0, "ddpg"));
     assert!(folder.path().join(config::FILE).exists());
+}
+
+#[test]
+fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = small_run(folder.path());
+    let odd = Turn { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Turn::default() };
+    assert!(!run.state.tally.add(&odd));
+    let mut told = Told::default();
+    let error = run.practise(&FOREVER, &mut told).unwrap_err().to_string();
+    assert!(error.contains("after 16 shots"), "{error}");
+    let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
+    assert!(lines[0].critic_loss.is_nan() && lines[0].actor_loss == Some(f64::NEG_INFINITY), "{lines:?}");
+    let standing = standing::Standing::read(folder.path()).unwrap();
+    assert_eq!((standing.phase, standing.reason), (standing::Phase::Failed, Some(error)));
+    drop(run);
+    let (ending, told) = finish(&mut Run::resume(folder.path()).unwrap().0);
+    assert!(is_finished(ending) && told.lines.len() == 5);
+    assert!(metrics::read(&folder.path().join(METRICS)).unwrap().iter().all(|line| line.critic_loss.is_finite()));
 }

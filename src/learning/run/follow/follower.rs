@@ -1,6 +1,7 @@
 //! Looks at a run's files again and again, and tells what has changed.
 
 use std::{
+    io,
     path::{Path, PathBuf},
     time::{Duration, Instant, SystemTime},
 };
@@ -78,13 +79,14 @@ impl Follower {
             self.look_seldom(&mut update);
         }
         self.look_at_standing(&mut update);
-        self.look_at_metrics(&mut update, see);
+        let look = self.look_at_metrics(&mut update, see);
         self.signs.silent = self.heard.elapsed();
         let now = condition(&self.signs);
         if now != self.condition {
             self.condition = now;
             update.condition = Some(now);
         }
+        self.troubles[2] = self.trouble_of_metrics(look);
         let notices: Vec<String> = self.troubles.iter().flatten().cloned().collect();
         if notices != self.told {
             self.told.clone_from(&notices);
@@ -123,7 +125,7 @@ impl Follower {
         }
     }
 
-    fn unreadable_config(&self, error: &std::io::Error) -> String {
+    fn unreadable_config(&self, error: &io::Error) -> String {
         let file = config::FILE;
         match config::version_in(&self.folder) {
             Some(version) => format!(
@@ -159,7 +161,7 @@ impl Follower {
         }
     }
 
-    fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) {
+    fn look_at_metrics(&mut self, update: &mut Update, see: &mut dyn FnMut(&Record)) -> io::Result<Look> {
         // Millions of lines become a history at once; only those that come later are handed on one by one.
         let mut lines = self.lines;
         let mut history = (lines == 0).then(Box::<History>::default);
@@ -185,9 +187,13 @@ impl Follower {
         self.lines = lines;
         self.signs.shots = last.or(self.signs.shots);
         update.records = records;
-        self.troubles[2] = match look {
+        look
+    }
+
+    fn trouble_of_metrics(&self, look: io::Result<Look>) -> Option<String> {
+        match look {
             Err(error) => Some(format!("{METRICS} cannot be read: {error}; what was read before is still shown")),
-            Ok(Look::Missing) if lines > 0 => {
+            Ok(Look::Missing) if self.lines > 0 => {
                 Some(format!("{METRICS} has been removed; what was read before is still shown"))
             }
             Ok(_) => match self.tail.unreadable() {
@@ -198,6 +204,6 @@ impl Follower {
                 1 => Some(format!("1 line of {METRICS} cannot be read by this version and is left out")),
                 lines => Some(format!("{lines} lines of {METRICS} cannot be read by this version and are left out")),
             },
-        };
+        }
     }
 }
