@@ -120,7 +120,12 @@ mod tests {
     }
 
     /// Holds the run up between two turns, so that it does not end before it is asked.
-    const SLOW: Limits<'_> = Limits { time: None, stop: &|| thread::sleep(Duration::from_millis(60)) != () };
+    const SLOW: Limits<'_> = Limits { time: None, stop: &linger };
+
+    fn linger() -> bool {
+        thread::sleep(Duration::from_millis(60));
+        false
+    }
 
     #[test]
     fn a_run_tells_what_it_does_and_shows_its_shots() {
@@ -145,7 +150,9 @@ mod tests {
         let asking =
             [ask(folder.path(), Phase::Training, Request::Pause), ask(folder.path(), Phase::Paused, Request::Stop)];
         let ending = run.practise(&SLOW, &mut Told::default()).unwrap();
-        asking.into_iter().for_each(|thread| thread.join().unwrap());
+        for thread in asking {
+            thread.join().unwrap();
+        }
         assert!(matches!(ending, Ending::Stopped(_)));
         assert_eq!(Standing::read(folder.path()).unwrap().phase, Phase::Stopped);
         drop(run);
@@ -153,7 +160,9 @@ mod tests {
         let asking =
             [ask(folder.path(), Phase::Training, Request::Pause), ask(folder.path(), Phase::Paused, Request::GoOn)];
         assert!(matches!(run.practise(&SLOW, &mut Told::default()).unwrap(), Ending::Finished(_)));
-        asking.into_iter().for_each(|thread| thread.join().unwrap());
+        for thread in asking {
+            thread.join().unwrap();
+        }
         assert_eq!(Request::read(folder.path()), None);
         let (whole, other) = (folder.path().join("checkpoint.safetensors"), tempfile::tempdir().unwrap());
         small_run(other.path()).practise(&FOREVER, &mut Told::default()).unwrap();
