@@ -89,7 +89,9 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
             }
             followed.apply(update);
         }
-        if !followed.condition.is_like(before) {
+        // A measurement is told by its line.
+        let is_measuring = followed.condition == Condition::Is(Phase::Measuring);
+        if !is_measuring && !followed.condition.is_like(before) {
             before = followed.condition;
             tell(followed.sentence());
         }

@@ -65,8 +65,9 @@ impl Screen {
 
 /// A measurement in a line; nothing where the record has none.
 pub fn line(record: &Record) -> Option<String> {
-    let Record { seconds, shots, shots_per_second, .. } = record;
-    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {shots_per_second:.0}/s, {summary}"))
+    let Record { seconds, shots, .. } = record;
+    let speed = *shots as f64 / seconds.max(1e-9);
+    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0}/s, {summary}"))
 }
 
 fn summary(record: &Record) -> Option<String> {

@@ -41,14 +41,15 @@ impl Clock {
         self.paused += begin.elapsed();
     }
 
-    /// The line that is due now.
-    pub fn record(&mut self, learner: &dyn Learner, means: Turn, score: Option<Score>) -> Record {
+    /// The line that is due now, `measuring` seconds after the last shot: a speed that fell with each measurement would say
+    /// nothing of either.
+    pub fn record(&mut self, learner: &dyn Learner, means: Turn, score: Option<Score>, measuring: f64) -> Record {
         let seconds = self.seconds();
         let shots = learner.shots();
         let record = Record {
             shots,
             seconds,
-            shots_per_second: (shots - self.last.1) as f64 / (seconds - self.last.0).max(1e-9),
+            shots_per_second: (shots - self.last.1) as f64 / (seconds - measuring - self.last.0).max(1e-9),
             updates: learner.updates(),
             learning_rate: learner.learning_rate(),
             critic_loss: means.critic_loss,

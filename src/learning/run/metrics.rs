@@ -20,7 +20,7 @@ pub struct Record {
     /// Seconds of training so far, evaluations included.
     #[serde(rename = "time/time_elapsed", with = "number")]
     pub seconds: f64,
-    /// Shots a second since the line before.
+    /// Shots a second since the line before, measurements left out.
     #[serde(rename = "time/fps", with = "number")]
     pub shots_per_second: f64,
     /// Updates made so far.

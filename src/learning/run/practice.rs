@@ -166,9 +166,11 @@ impl Run {
         let is_finite = self.state.tally.add(&turn);
         let all = self.learner.is_finished();
         let passed = |every: u64| before / every != shots / every;
+        let practised = session.clock.seconds();
         let score = if is_finite && (all || passed(evaluate_every)) { Some(self.measure(session)?) } else { None };
         if !is_finite || score.is_some() || passed(log_every) {
-            let record = session.clock.record(self.learner.as_ref(), self.state.tally.take(), score);
+            let measuring = session.clock.seconds() - practised;
+            let record = session.clock.record(self.learner.as_ref(), self.state.tally.take(), score, measuring);
             session.metrics.push(&record);
             session.watcher.line(&record);
             // Until there is room it waits in memory. No checkpoint is written before it is.

@@ -87,6 +87,10 @@ impl Pulse {
             self.standing.shots_per_second = (shots - first.1) as f64 / passed;
             self.standing.updates_per_second = (updates - first.2) as f64 / passed;
         }
+        if phase == Phase::Measuring {
+            // A measurement is no part of the speed: it begins anew afterwards.
+            self.track.clear();
+        }
         self.standing.phase = phase;
         (self.standing.shots, self.standing.updates, self.standing.seconds) = (shots, updates, seconds);
         (self.standing.exploration, self.standing.memory) = (learner.exploration(), learner.memory());

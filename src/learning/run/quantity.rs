@@ -17,9 +17,9 @@ pub enum Quantity {
     ActorLoss,
     /// Share of the held-out layouts in which any proposal earns at least 1.
     Reach,
-    /// Shots a second.
+    /// Shots a second, measurements left out.
     ShotSpeed,
-    /// Updates a second.
+    /// Updates a second, measurements left out.
     UpdateSpeed,
     /// How strongly the agent explores.
     Exploration,
@@ -69,9 +69,10 @@ impl Quantity {
             Self::Reach => record.held_out_reach,
             Self::ShotSpeed => Some(record.shots_per_second),
             Self::UpdateSpeed => {
-                let (updates, seconds) = before.map_or((0, 0.0), |before| (before.updates, before.seconds));
-                let passed = record.seconds - seconds;
-                (passed > 0.0).then(|| record.updates.saturating_sub(updates) as f64 / passed)
+                let (updates, shots) = before.map_or((0, 0), |before| (before.updates, before.shots));
+                let played = record.shots.saturating_sub(shots);
+                let a_shot = record.updates.saturating_sub(updates) as f64 / played as f64;
+                (played > 0).then(|| a_shot * record.shots_per_second)
             }
             Self::Exploration => record.exploration,
         }

@@ -5,7 +5,10 @@ mod follower;
 mod stamp;
 mod tail;
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 pub use self::{condition::Condition, follower::Follower};
 use super::{
@@ -79,6 +82,19 @@ impl Followed {
             examples: None,
             notices: Vec::new(),
         }
+    }
+
+    /// Shots played, as far as is known.
+    pub fn shots(&self) -> u64 {
+        let told = self.standing.as_ref().map_or(0, |standing| standing.shots);
+        self.history.last().map_or(told, |record| record.shots.max(told))
+    }
+
+    /// Time until all shots have been played, if it goes on as on average so far; none where nobody trains.
+    pub fn time_left(&self) -> Option<Duration> {
+        let standing = self.standing.as_ref().filter(|_| !self.condition.is_over())?;
+        let left = self.config.as_ref()?.plan.shots.saturating_sub(standing.shots);
+        Duration::try_from_secs_f64(left as f64 * standing.seconds / standing.shots as f64).ok()
     }
 
     /// How it is, in a sentence that says what to do.
