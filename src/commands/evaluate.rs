@@ -3,7 +3,6 @@
 use std::{
     f64::consts::PI,
     io::Write,
-    path::Path,
     time::{Duration, Instant},
 };
 
@@ -14,6 +13,7 @@ use serde::Serialize;
 use super::{
     Failure,
     input::{note_doubts, table_named},
+    named::policy_called,
     recommend::coach_for,
 };
 use crate::{
@@ -40,7 +40,7 @@ pub struct Args {
     /// The table: "match", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
-    /// The policy: "bundled" or the path of a file that `carom train` wrote.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
     /// Play the networks' own shot: one pass, no simulator call.
@@ -214,7 +214,7 @@ fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure
             ))
         })?
     } else {
-        Policy::load(Path::new(name))
+        policy_called(name)
     };
     policy.map_err(|error: PolicyError| Failure::failed(error))
 }

@@ -2,7 +2,6 @@
 
 use std::{
     io::{self, Write},
-    path::Path,
     time::{Duration, Instant},
 };
 
@@ -11,12 +10,12 @@ use serde::{Deserialize, Serialize};
 use super::{
     Failure,
     input::{ByTable, Scene, answer_lines, note_doubts},
+    named::policy_called,
     output::impulse_words,
 };
 use crate::{
     coach::{Coach, Recommendation, Request, Skill, Source},
     game::Rule,
-    learning::Policy,
     physics::{CueInputs, strike},
     table::{Layout, Table},
 };
@@ -44,7 +43,7 @@ pub struct Args {
     /// Give the networks' own shot, without any simulation.
     #[arg(long)]
     policy_only: bool,
-    /// The policy: "bundled" or the path of a file that `carom train` wrote.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
     /// Seed of the search: while time does not run out, the same seed finds the same shot.
@@ -122,7 +121,7 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     if policy == "bundled" {
         return Ok(coach);
     }
-    Ok(coach.with_policy(Policy::load(Path::new(policy)).map_err(Failure::failed)?))
+    Ok(coach.with_policy(policy_called(policy).map_err(Failure::failed)?))
 }
 
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {

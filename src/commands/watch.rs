@@ -18,8 +18,8 @@ use signal_hook::{
 
 use super::{
     Failure,
+    named::run_to_watch,
     output::tell,
-    runs::run_to_watch,
     train::{line, print_runs},
 };
 use crate::{

@@ -23,7 +23,7 @@ use signal_hook::{
 
 use self::screen::Screen;
 pub(super) use self::{listing::print as print_runs, screen::line};
-use super::{Failure, output::tell, runs::run_named};
+use super::{Failure, named::run_named, output::tell};
 use crate::{
     game::Reward,
     learning::{

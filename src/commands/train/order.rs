@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named, runs::run_named},
+    commands::{Failure, input::table_named, named::run_named},
     learning::{
         learner::Plan,
         run::{Schedule, origin::Weights, seeds::Order},

@@ -1,6 +1,7 @@
 //! A trained agent as a player: shots for a layout out of one pass through its networks, without the simulator.
 
 pub mod file;
+pub mod kept;
 
 use std::sync::Arc;
 

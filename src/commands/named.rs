@@ -1,4 +1,4 @@
-//! Runs by the names that people call them.
+//! Runs and policies by the names that people call them.
 
 use std::path::{Path, PathBuf};
 
@@ -37,4 +37,12 @@ pub fn run_to_watch(name: &Path) -> Result<PathBuf, Failure> {
         name.display(),
         runs.display()
     )))
+}
+
+/// The policy in the file `name`, or the one that the user has kept under this name.
+///
+/// # Errors
+/// Where there is none, or none that can be used.
+pub fn policy_called(name: &str) -> Result<Policy, PolicyError> {
+    Policy::load(&kept::find(&Places::of_this_user().policies, name))
 }

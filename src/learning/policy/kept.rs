@@ -1,0 +1,104 @@
+//! The policies that a user has kept, by their names.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use super::{Policy, file::PolicyError};
+use crate::storage::write_atomic;
+
+/// What the files are called after their names.
+const EXTENSION: &str = "safetensors";
+
+/// Longest name; file systems take some more.
+const LONGEST_NAME: usize = 100;
+
+/// Why a policy cannot be kept.
+#[derive(Debug, thiserror::Error)]
+pub enum KeepError {
+    /// No file could be called so.
+    #[error("\"{0}\" is no name for a policy; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
+    Name(String),
+    /// There is one of that name.
+    #[error("there is a policy \"{0}\" already")]
+    Taken(String),
+    /// It is no policy that can be used.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
+    /// The file cannot be written.
+    #[error("{path}: {reason}")]
+    File {
+        /// The file.
+        path: String,
+        /// What the system says.
+        reason: io::Error,
+    },
+}
+
+/// The policy file called `name`: a path, or else the one kept under this name in `folder`.
+pub fn find(folder: &Path, name: &str) -> PathBuf {
+    let path = PathBuf::from(name);
+    let kept = file(folder, name);
+    if !path.exists() && is_name(name) && kept.exists() { kept } else { path }
+}
+
+/// Keeps the policy in the file `policy` under `name` in `folder`, and returns where. One of the same name is replaced only
+/// if `replaces` says so.
+///
+/// # Errors
+/// [`KeepError`]; what was kept before is then untouched.
+pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, KeepError> {
+    if !is_name(name) {
+        return Err(KeepError::Name(name.to_owned()));
+    }
+    let kept = file(folder, name);
+    if kept.exists() && !replaces {
+        return Err(KeepError::Taken(name.to_owned()));
+    }
+    Policy::load(policy)?;
+    let copy = || write_atomic(&kept, &std::fs::read(policy)?);
+    copy().map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
+    Ok(kept)
+}
+
+fn file(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.{EXTENSION}"))
+}
+
+fn is_name(name: &str) -> bool {
+    let is_sign = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
+    (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_sign)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_policy_is_kept_found_and_replaced_only_on_demand() {
+        let folder = tempfile::tempdir().unwrap();
+        let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+        let [first, second] = ["match-r3", "thesis-r3"].map(|name| models.join(name).with_extension(EXTENSION));
+        let kept = keep(folder.path(), &first, "mine", false).unwrap();
+        assert_eq!(find(folder.path(), "mine"), kept);
+        assert_eq!(std::fs::read(&kept).unwrap(), std::fs::read(&first).unwrap());
+        assert!(matches!(keep(folder.path(), &second, "mine", false), Err(KeepError::Taken(_))));
+        keep(folder.path(), &second, "mine", true).unwrap();
+        assert_eq!(std::fs::read(&kept).unwrap(), std::fs::read(&second).unwrap());
+        assert_eq!(find(folder.path(), "other"), PathBuf::from("other"));
+    }
+
+    #[test]
+    fn other_names_and_other_files_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["", "a/b", "..", "../up", ".hidden", "with blank", &"x".repeat(101)] {
+            let error = keep(folder.path(), Path::new("nowhere"), name, true).unwrap_err().to_string();
+            assert!(error.contains("no name for a policy"), "{name}: {error}");
+        }
+        let note = folder.path().join("note");
+        std::fs::write(&note, "no policy").unwrap();
+        assert!(matches!(keep(folder.path(), &note, "note", false), Err(KeepError::Policy(_))));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}
