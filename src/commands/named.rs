@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::Failure;
-use crate::{learning::run::list::latest_in, storage::Places};
+use crate::{
+    learning::{Policy, PolicyError, policy::kept, run::list::latest_in},
+    storage::Places,
+};
 
 /// The word for the run that was last at work.
 const LATEST: &str = "latest";
