@@ -1,5 +1,11 @@
-//! What a run has reported, in bounded memory: the recent lines exactly, all of it thinned without losing peaks.
+//! What a run has reported, in bounded memory: the recent lines exactly, all before them thinned without losing peaks.
 
+mod stretch;
+mod thinned;
+
+use std::collections::VecDeque;
+
+use self::{stretch::Summary, thinned::Thinned};
 use super::{metrics::Record, quantity::Quantity};
 
 /// Lines that are kept as they are.
@@ -25,6 +31,8 @@ pub struct Span {
     pub mean: f64,
     /// The largest.
     pub max: f64,
+    /// How many of them are not above zero, so that a logarithmic scale cannot show them.
+    pub not_positive: u64,
 }
 
 /// How many values were not finite.
@@ -38,41 +46,99 @@ pub struct Odd {
     pub below: u64,
 }
 
-/// A run's lines.
+/// A run's lines, at most a megabyte and a quarter of them.
 #[derive(Clone, Debug, Default)]
-pub struct History {}
+pub struct History {
+    /// The lines before the recent ones: a line is in one of both, never in both.
+    thinned: Thinned,
+    recent: VecDeque<Line>,
+    last: Option<Record>,
+    lines: u64,
+    best: Option<f64>,
+    odd: [Odd; Quantity::COUNT],
+}
+
+/// A line's values in the order of [`Quantity::ALL`]; `None` is what it does not report.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    shots: u64,
+    values: [Option<f64>; Quantity::COUNT],
+}
 
 impl History {
-    /// Adds a line.
+    /// Adds a line, in constant time on average. A line with fewer shots than the last one begins the history anew: the
+    /// run has gone on from an earlier checkpoint, and what was thinned cannot be taken apart again.
     pub fn push(&mut self, record: &Record) {
-        let _ = record;
+        if self.last.as_ref().is_some_and(|last| record.shots < last.shots) {
+            *self = Self::default();
+        }
+        let values = Quantity::ALL.map(|quantity| quantity.of(record, self.last.as_ref()));
+        for (total, value) in self.odd.iter_mut().zip(values) {
+            let odd = value.map_or(Odd::default(), |value| Summary::of(value).odd());
+            total.nan += odd.nan;
+            total.above += odd.above;
+            total.below += odd.below;
+        }
+        if let Some(value) = record.held_out_reward.filter(|value| value.is_finite()) {
+            self.best = Some(self.best.map_or(value, |best| best.max(value)));
+        }
+        if self.recent.len() == RECENT
+            && let Some(oldest) = self.recent.pop_front()
+        {
+            self.thinned.push(&oldest);
+        }
+        self.recent.push_back(Line { shots: record.shots, values });
+        self.lines += 1;
+        self.last = Some(record.clone());
     }
 
     /// The last line.
     pub fn last(&self) -> Option<&Record> {
-        None
+        self.last.as_ref()
     }
 
     /// Lines added.
     pub fn lines(&self) -> u64 {
-        0
+        self.lines
     }
 
     /// The largest held-out reward so far.
     pub fn best(&self) -> Option<f64> {
-        None
+        self.best
     }
 
-    /// The points of a quantity between two numbers of shots, in order: exact where the lines are recent. Stretches that
-    /// do not report it are left out.
+    /// The points of a quantity between two numbers of shots and the next one beyond either end, in order: exact where
+    /// the lines are recent. Stretches that do not report it are left out.
     pub fn points(&self, quantity: Quantity, shots: std::ops::RangeInclusive<f64>) -> Vec<Point> {
-        let _ = (quantity, shots);
-        Vec::new()
+        let recent = self.recent.iter().filter_map(|line| line.point(quantity));
+        let all = self.thinned.stretches().iter().filter_map(|stretch| stretch.point(quantity)).chain(recent);
+        let (mut points, mut before) = (Vec::new(), None);
+        for point in all {
+            if (point.shots.1 as f64) < *shots.start() {
+                before = Some(point);
+                continue;
+            }
+            points.extend(before.take());
+            points.push(point);
+            if point.shots.0 as f64 > *shots.end() {
+                break;
+            }
+        }
+        points.extend(before);
+        points
     }
 
     /// All values of a quantity that were not finite.
     pub fn odd(&self, quantity: Quantity) -> Odd {
-        let _ = quantity;
-        Odd::default()
+        self.odd[quantity as usize]
     }
 }
+
+impl Line {
+    fn point(&self, quantity: Quantity) -> Option<Point> {
+        Summary::of(self.values[quantity as usize]?).point((self.shots, self.shots))
+    }
+}
+
+#[cfg(test)]
+mod tests;
