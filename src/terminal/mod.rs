@@ -5,6 +5,8 @@
 
 mod app;
 mod canvas;
+#[cfg_attr(not(test), expect(dead_code, reason = "the training screen draws with it"))]
+mod chart;
 mod chord;
 mod geometry;
 mod history;

@@ -42,6 +42,12 @@ pub struct Theme {
     pub miscue: Color,
     /// The tip's contact.
     pub tip: Color,
+    /// The curves of a run and of the one that it is compared with.
+    pub curves: [Color; 2],
+    /// All values of the two, behind their smoothed curves.
+    pub bands: [Color; 2],
+    /// The lines behind the curves.
+    pub grid: Color,
 }
 
 impl Theme {
@@ -74,6 +80,9 @@ impl Theme {
             face: ink(0x00f7_f3e8, 255, Color::White),
             miscue: ink(0x00c3_c4be, 251, Color::Gray),
             tip: ink(0x001f_63c8, 26, Color::Blue),
+            curves: [ink(0x0062_c8e8, 80, Color::LightCyan), ink(0x00d8_9a5a, 173, Color::Yellow)],
+            bands: [ink(0x0027_5b6e, 24, Color::Blue), ink(0x0059_4530, 58, Color::DarkGray)],
+            grid: ink(0x0036_3f48, 237, Color::DarkGray),
         }
     }
 
