@@ -150,6 +150,17 @@ mod tests {
     }
 
     #[test]
+    fn curves_and_what_lies_behind_them_differ_at_every_depth_with_colours() {
+        for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
+            let theme = Theme::new(depth);
+            let all = [theme.curves[0], theme.curves[1], theme.bands[0], theme.bands[1], theme.background];
+            for (n, colour) in all.iter().enumerate() {
+                assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
+            }
+        }
+    }
+
+    #[test]
     fn monochrome_never_names_a_colour() {
         let theme = Theme::new(Depth::Mono);
         assert_eq!(theme.ball(2).fg, Some(Color::Reset));

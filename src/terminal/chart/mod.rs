@@ -72,6 +72,12 @@ impl Chart<'_> {
         of(Whose::Other).chain(of(Whose::Own))
     }
 
+    /// Over how many shots the curves are smoothed, if they are.
+    fn length(&self) -> Option<f64> {
+        let length = self.smoothing * (self.shots.1 - self.shots.0);
+        (length > 0.0 && length.is_finite()).then_some(length)
+    }
+
     /// Whether a point reaches into the range of shots.
     fn shows(&self, point: &Point) -> bool {
         point.shots.1 as f64 >= self.shots.0 && point.shots.0 as f64 <= self.shots.1
@@ -118,8 +124,8 @@ pub fn draw_chart(chart: &Chart, area: Rect, theme: &Theme, look: Look, buffer: 
         return;
     }
     buffer.set_style(area, theme.text());
-    title::draw_title(chart, area, theme, look, buffer);
     let chart = &Chart { shots: sound(chart.shots), ..*chart };
+    title::draw_title(chart, area, theme, look, buffer);
     let below = Rect { y: area.y + 1, height: area.height - 1, ..area };
     let labelled = below.width >= LEFT + LEAST_PLOT;
     let left = if labelled { LEFT } else { 0 };
@@ -163,15 +169,14 @@ fn sound(shots: (f64, f64)) -> (f64, f64) {
 
 fn draw_curves(chart: &Chart, scale: Scale, grid: &mut Grid) {
     let frame = Frame { shots: chart.shots, scale };
-    let length = chart.smoothing * (chart.shots.1 - chart.shots.0);
-    let smoothed = length > 0.0 && length.is_finite();
     for curve in chart.ordered() {
         let (line, band) = match curve.whose {
             Whose::Own => (Layer::Own, Layer::OwnBand),
             Whose::Other => (Layer::Other, Layer::OtherBand),
         };
-        frame.draw_values(curve.points, if smoothed { band } else { line }, grid);
-        if smoothed {
+        let length = chart.length();
+        frame.draw_values(curve.points, if length.is_some() { band } else { line }, grid);
+        if let Some(length) = length {
             frame.draw_smoothed(curve.points, length, line, grid);
         }
     }

@@ -83,8 +83,8 @@ fn left(chart: &Chart, theme: &Theme, look: Look) -> Vec<Part> {
     if chart.log {
         add(Need::Log, "log");
     }
-    if chart.smoothing > 0.0 {
-        add(Need::Smoothing, &format!("smooth {}%", 100.0 * chart.smoothing));
+    if chart.length().is_some() {
+        add(Need::Smoothing, &format!("smooth {}%", (1000.0 * chart.smoothing).round() / 10.0));
     }
     if let Some(note) = chart.note {
         add(Need::Note, note);

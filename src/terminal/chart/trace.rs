@@ -112,6 +112,8 @@ fn join(from: (f64, f64), to: (f64, f64), layer: Layer, grid: &mut Grid) {
 
 /// The whole dot; numbers far outside stay outside.
 fn dot(place: f64) -> i32 {
-    const FAR: f64 = 1e6;
-    place.round().clamp(-FAR, FAR) as i32
+    const FAR: i32 = 1_000_000;
+    let far = f64::from(FAR);
+    // Cutting off a positive number rounds without a call of the mathematics library, which there would be thousands of.
+    (place.clamp(-far, far) + far + 0.5) as i32 - FAR
 }
