@@ -5,6 +5,7 @@
 
 mod app;
 mod canvas;
+mod chart;
 mod chord;
 mod geometry;
 mod history;

@@ -42,6 +42,12 @@ pub struct Theme {
     pub miscue: Color,
     /// The tip's contact.
     pub tip: Color,
+    /// The curves of a run and of the one that it is compared with.
+    pub curves: [Color; 2],
+    /// All values of the two, behind their smoothed curves.
+    pub bands: [Color; 2],
+    /// The lines behind the curves.
+    pub grid: Color,
 }
 
 impl Theme {
@@ -74,6 +80,9 @@ impl Theme {
             face: ink(0x00f7_f3e8, 255, Color::White),
             miscue: ink(0x00c3_c4be, 251, Color::Gray),
             tip: ink(0x001f_63c8, 26, Color::Blue),
+            curves: [ink(0x0062_c8e8, 80, Color::LightCyan), ink(0x00d8_9a5a, 173, Color::Yellow)],
+            bands: [ink(0x0027_5b6e, 24, Color::Blue), ink(0x0059_4530, 58, Color::DarkGray)],
+            grid: ink(0x0036_3f48, 237, Color::DarkGray),
         }
     }
 
@@ -134,6 +143,17 @@ mod tests {
         for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
             let theme = Theme::new(depth);
             let all = [theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth];
+            for (n, colour) in all.iter().enumerate() {
+                assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
+            }
+        }
+    }
+
+    #[test]
+    fn curves_and_what_lies_behind_them_differ_at_every_depth_with_colours() {
+        for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
+            let theme = Theme::new(depth);
+            let all = [theme.curves[0], theme.curves[1], theme.bands[0], theme.bands[1], theme.background];
             for (n, colour) in all.iter().enumerate() {
                 assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
             }

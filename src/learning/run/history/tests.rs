@@ -1,5 +1,5 @@
 use proptest::prelude::*;
-use rand::{RngExt as _, SeedableRng as _};
+use rand::{RngExt, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
@@ -41,6 +41,14 @@ fn lines(seed: u64, count: usize) -> Vec<Record> {
         record(shots, reward, held_out)
     };
     (0..count).map(|_| one()).collect()
+}
+
+fn history_of(records: &[Record]) -> History {
+    let mut history = History::default();
+    for record in records {
+        history.push(record);
+    }
+    history
 }
 
 /// The point that `lines` make, worked out the long way.
@@ -85,8 +93,7 @@ proptest! {
     #[test]
     fn every_line_is_in_exactly_one_point_which_knows_its_peaks(seed: u64, count in 0_usize..12_000) {
         let records = lines(seed, count);
-        let mut history = History::default();
-        records.iter().for_each(|record| history.push(record));
+        let history = history_of(&records);
         prop_assert_eq!(history.lines(), count as u64);
         for quantity in [Quantity::Reward, Quantity::HeldOut] {
             let lines: Vec<_> =
@@ -110,8 +117,7 @@ proptest! {
 
     #[test]
     fn a_part_is_what_touches_it_and_one_point_beyond_either_end(seed: u64, ends in (0_u64..150_000, 0_u64..150_000)) {
-        let mut history = History::default();
-        lines(seed, 6_000).iter().for_each(|record| history.push(record));
+        let history = history_of(&lines(seed, 6_000));
         let all = history.points(Quantity::HeldOut, f64::NEG_INFINITY..=f64::INFINITY);
         let (start, end) = (ends.0.min(ends.1), ends.0.max(ends.1));
         let first = all.iter().position(|point| point.shots.1 >= start).unwrap_or(all.len());
@@ -124,8 +130,7 @@ proptest! {
 #[test]
 fn the_recent_lines_are_exact() {
     let records = lines(7, 9_000);
-    let mut history = History::default();
-    records.iter().for_each(|record| history.push(record));
+    let history = history_of(&records);
     let recent = &records[records.len() - RECENT..];
     let points = history.points(Quantity::QValue, recent[0].shots as f64..=f64::INFINITY);
     assert_eq!(points.len(), RECENT + 1);
