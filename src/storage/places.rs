@@ -9,6 +9,8 @@ use directories::ProjectDirs;
 pub struct Places {
     /// Training runs, one folder each.
     pub runs: PathBuf,
+    /// Policies that were kept under a name, one file each.
+    pub policies: PathBuf,
 }
 
 impl Places {
@@ -16,6 +18,6 @@ impl Places {
     pub fn of_this_user() -> Self {
         let data = ProjectDirs::from("", "", "carom")
             .map_or_else(|| PathBuf::from("carom-data"), |dirs| dirs.data_dir().to_owned());
-        Self { runs: data.join("runs") }
+        Self { runs: data.join("runs"), policies: data.join("policies") }
     }
 }

@@ -5,7 +5,10 @@
 
 mod app;
 mod canvas;
+mod chart;
 mod chord;
+mod coach;
+mod errands;
 mod geometry;
 mod history;
 mod inbox;
@@ -23,19 +26,21 @@ mod shot;
 mod sprites;
 mod status;
 mod theme;
+mod training;
 mod widgets;
 mod words;
 
-use std::{io, time::SystemTime};
+use std::{io, path::PathBuf, time::SystemTime};
 
 use crate::table::{Layout, LayoutError, Table};
 
-pub use app::{App, Effect, Mode};
+pub use app::{App, Effect, Mode, Screen};
 pub use geometry::Mapping;
-pub use keymap::{Action, When};
+pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, TrainingWhen, When};
 pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, Effort, Job, Office};
+pub use recommender::{Answer, Effort, Job, Office, Tutor};
 pub use shot::Shot;
+pub use training::{Keeping, Kept, Launch, Report, Slot, Wanted};
 
 /// Why the terminal program cannot run.
 #[derive(Debug, thiserror::Error)]
@@ -68,4 +73,16 @@ pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
     // Any number does: it only makes random layouts differ from one start to the next.
     let seed = SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64);
     Ok(runner::run(App::new(table, layout, look, seed)?)?)
+}
+
+/// Opens the training screen until the player quits: with the run in `folder`, or with the list of this user's runs.
+///
+/// # Errors
+/// [`TerminalError`]: no terminal, or one that fails.
+pub fn watch(folder: Option<PathBuf>) -> Result<(), TerminalError> {
+    if !session::has_terminal() {
+        return Err(TerminalError::NoTerminal);
+    }
+    let look = Look::detect(|name| std::env::var(name).ok());
+    Ok(runner::run(App::watching(look, folder)?)?)
 }
