@@ -125,6 +125,7 @@ impl CoachScreen {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
         match when {
+            CoachWhen::Anytime => None,
             CoachWhen::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
             _ if thinking.is_some() => thinking,
             CoachWhen::Placing => {

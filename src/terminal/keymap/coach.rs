@@ -59,6 +59,8 @@ pub enum CoachAction {
 /// When a binding of the coach may be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoachWhen {
+    /// Whatever the coach does.
+    Anytime,
     /// While the coach is not thinking.
     Idle,
     /// While balls are placed.
@@ -143,6 +145,6 @@ pub const COACH: &[Binding] = &[
         "make it again"),
     bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots"),
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
-    entry(Program, When::Always, &[(Chord::char('t'), Action::OpenTraining)], Some(("train", 1)),
+    bind(Program, W::Anytime, &[(Chord::char('t'), Action::OpenTraining)], Some(("train", 1)),
         "train agents and watch them learn"),
 ];

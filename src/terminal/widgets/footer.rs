@@ -10,7 +10,7 @@ use ratatui::{
 use crate::terminal::{
     app::App,
     chord::keys_text,
-    keymap::{Binding, Section, bindings},
+    keymap::{Binding, Section, When, bindings},
     status::{Message, Tone},
     theme::Theme,
 };
@@ -60,15 +60,17 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Draws the keys that may be used now, as many as fit.
 pub fn draw_hints(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme();
-    let mut hints: Vec<(Section, Line)> = bindings(app.place())
+    let mut hints: Vec<(&Binding, Line)> = bindings(app.place())
         .filter(|binding| app.refusal(binding.when).is_none())
-        .filter_map(|binding| Some((binding.section, hint(app, binding)?)))
+        .filter_map(|binding| Some((binding, hint(app, binding)?)))
         .collect();
     let room = usize::from(area.width.saturating_sub(1));
-    let width = |hints: &[(Section, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
-    // The keys of the program itself stay to the last; the others go from the end.
+    let width = |hints: &[(&Binding, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
+    // The keys of the program itself stay to the last, but for the way from the coach to another screen; the others go
+    // from the end.
+    let stays = |binding: &Binding| binding.section == Section::Program && !matches!(binding.when, When::Coach(_));
     while width(&hints) > room + GAP {
-        let last = hints.iter().rposition(|(section, _)| *section != Section::Program);
+        let last = hints.iter().rposition(|(binding, _)| !stays(binding));
         hints.remove(last.unwrap_or(hints.len() - 1));
     }
     let mut x = area.x + 1;

@@ -14,6 +14,8 @@ const NUMBERS: (u16, u16) = (44, 72);
 const LEAST_CHART: u16 = 26;
 /// How many times as many columns as rows a chart has at its best.
 const BEST_ASPECT: f64 = 5.0;
+/// What a chart that is missing in the last row counts against that.
+const UNEVEN: f64 = 0.3;
 
 /// The areas of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +61,8 @@ pub fn grid(count: usize, area: Rect) -> Vec<(Rect, bool)> {
     let rows_of = |columns: u16| count.div_ceil(columns);
     let off = |columns: u16| {
         let (width, height) = (area.width / columns, (plots / rows_of(columns)).max(1));
-        (f64::from(width) / f64::from(height) / BEST_ASPECT).ln().abs()
+        let lone = columns * rows_of(columns) - count;
+        (f64::from(width) / f64::from(height) / BEST_ASPECT).ln().abs() + UNEVEN * f64::from(lone)
     };
     let fits = |columns: &u16| *columns == 1 || area.width / columns >= LEAST_CHART;
     let columns = (1..=count).filter(fits).min_by(|&one, &other| off(one).total_cmp(&off(other))).unwrap_or(1);
