@@ -417,18 +417,18 @@ fn a_policy_is_kept_under_a_name() {
     }
     let player = player.press("Enter");
     player.says("a name is needed");
-    let player = player.press(". / q Enter");
-    player.says("\"./q\" is no name for a file");
-    let mut player = player.press("Backspace Backspace Backspace q ? Enter");
+    let player = player.press("a / q Enter");
+    player.says("\"a/q\" is no name for a policy");
+    let mut player = player.press("Backspace Backspace q Enter");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    assert_eq!(keeping.to, Path::new("/policies/q?.safetensors"));
+    assert_eq!(keeping.to, Path::new("/policies/aq.safetensors"));
     assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
     let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
-    player.says("there is a policy called q? already; replace it?");
+    player.says("there is a policy called aq already; replace it?");
     let mut player = player.press("y");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert!(keeping.replace);
-    player.report(Report::Kept(*keeping, Ok(Kept::Done))).says("kept; use it by: carom recommend --policy 'q?'");
+    player.report(Report::Kept(*keeping, Ok(Kept::Done))).says("kept; use it by: carom recommend --policy aq");
 }
 
 #[test]
@@ -460,7 +460,7 @@ fn escape_goes_back_page_by_page_to_the_coach_or_to_the_shell() {
     assert_eq!(player.app.wanted().followed, [None, None], "nobody watches any more");
     let player = player.press("Esc");
     assert_eq!((player.app.place(), player.app.wanted().runs), (Place::Coach, None));
-    let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(NAME))).unwrap();
+    let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(NAME)), None).unwrap();
     assert_eq!(alone.place(), Place::Watch);
     let escape = KeyEvent::from(KeyCode::Esc);
     assert!(alone.handle(&escape).is_none());

@@ -9,7 +9,7 @@ use directories::ProjectDirs;
 pub struct Places {
     /// Training runs, one folder each.
     pub runs: PathBuf,
-    /// Policies that were kept under a name, one file each.
+    /// Policies that the user has kept under a name.
     pub policies: PathBuf,
 }
 

@@ -30,7 +30,7 @@ mod training;
 mod widgets;
 mod words;
 
-use std::{io, path::PathBuf, time::SystemTime};
+use std::{io, path::Path, time::SystemTime};
 
 use crate::table::{Layout, LayoutError, Table};
 
@@ -66,7 +66,7 @@ pub enum TerminalError {
 pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
     let layout = layout.unwrap_or_else(|| Layout::opening(&table));
     layout.validate(&table)?;
-    if !session::has_terminal() {
+    if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
     let look = Look::detect(|name| std::env::var(name).ok());
@@ -75,14 +75,19 @@ pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
     Ok(runner::run(App::new(table, layout, look, seed)?)?)
 }
 
-/// Opens the training screen until the player quits: with the run in `folder`, or with the list of this user's runs.
+/// Whether there is a terminal on both sides that can show pictures.
+pub fn is_there() -> bool {
+    session::has_terminal()
+}
+
+/// The training screen, following `run`, or with the runs in `list`, by default the user's, to choose from.
 ///
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
-pub fn watch(folder: Option<PathBuf>) -> Result<(), TerminalError> {
-    if !session::has_terminal() {
+pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
+    if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
     let look = Look::detect(|name| std::env::var(name).ok());
-    Ok(runner::run(App::watching(look, folder)?)?)
+    Ok(runner::run(App::watching(look, run.map(Path::to_owned), list.map(Path::to_owned))?)?)
 }

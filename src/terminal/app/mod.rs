@@ -89,23 +89,24 @@ impl App {
         })
     }
 
-    /// The program that opens with the training screen: with the run in `folder`, or with the list of runs. Going back
-    /// from its first page ends the program.
+    /// The program that opens with the training screen: with a run, or with the list of those in `list`, by default the
+    /// user's. Going back from its first page ends the program.
     ///
     /// # Errors
     /// None with the default table, whose opening position is possible.
-    pub fn watching(look: Look, folder: Option<PathBuf>) -> Result<Self, LayoutError> {
+    pub fn watching(look: Look, run: Option<PathBuf>, list: Option<PathBuf>) -> Result<Self, LayoutError> {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let mut app = Self::new(table, layout, look, 0)?;
         app.screen = Screen::Training;
-        app.training.open_alone(folder);
+        app.training.open_alone(run, list);
         Ok(app)
     }
 
     /// The same program with its runs and policies elsewhere.
     #[must_use]
     pub fn with_places(mut self, places: Places) -> Self {
+        self.training.folder.clone_from(&places.runs);
         self.training.places = places;
         self
     }

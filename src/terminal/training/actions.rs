@@ -73,7 +73,7 @@ impl TrainingScreen {
 
     fn choose(&mut self) {
         let Some(name) = self.list.marked().map(|run| run.name.clone()) else { return };
-        let folder = self.places.runs.join(&name);
+        let folder = self.folder.join(&name);
         if self.page() != Page::Compare {
             self.show(folder);
             return;
@@ -88,7 +88,7 @@ impl TrainingScreen {
     }
 
     fn start(&mut self) -> Option<Effect> {
-        match self.form.launch(&self.places.runs) {
+        match self.form.launch(&self.folder) {
             Ok(launch) => {
                 self.show(launch.folder.clone());
                 Some(Effect::Train(Box::new(launch)))
@@ -104,7 +104,7 @@ impl TrainingScreen {
         let folder = match (self.page(), &self.watch) {
             (Page::Watch, Some(watch)) => watch.folder().to_owned(),
             _ => {
-                let folder = self.places.runs.join(&self.list.marked()?.name);
+                let folder = self.folder.join(&self.list.marked()?.name);
                 self.show(folder.clone());
                 folder
             }

@@ -60,6 +60,8 @@ impl Page {
 pub struct TrainingScreen {
     /// Where runs and policies are.
     pub places: Places,
+    /// The folder whose runs are listed, and in which new ones are started.
+    pub folder: PathBuf,
     /// The list of runs.
     pub list: RunList,
     /// The form for a new run.
@@ -80,6 +82,7 @@ impl TrainingScreen {
     /// The screen before it is opened.
     pub fn new(places: Places) -> Self {
         Self {
+            folder: places.runs.clone(),
             places,
             list: RunList::default(),
             form: Form::new(),
@@ -99,12 +102,16 @@ impl TrainingScreen {
         }
     }
 
-    /// Opens with the run in `folder`, or with the list; there is nothing behind its first page.
-    pub fn open_alone(&mut self, folder: Option<PathBuf>) {
+    /// Opens with a run, or with the list of those in `list`, by default the user's; there is nothing behind its first
+    /// page.
+    pub fn open_alone(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
         self.alone = true;
         self.pages = vec![Page::Runs];
-        if let Some(folder) = folder {
-            self.show(folder);
+        if let Some(list) = list {
+            self.folder = list;
+        }
+        if let Some(run) = run {
+            self.show(run);
         }
     }
 
@@ -157,7 +164,7 @@ impl TrainingScreen {
         let lists = matches!(self.page(), Page::Runs | Page::Form | Page::Compare);
         let folder = |named: &Named| named.run.folder.clone();
         Wanted {
-            runs: lists.then(|| self.places.runs.clone()),
+            runs: lists.then(|| self.folder.clone()),
             followed: [
                 self.watch.as_ref().map(|watch| folder(&watch.own)),
                 self.watch.as_ref().and_then(|watch| watch.other.as_ref()).map(folder),

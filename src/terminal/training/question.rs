@@ -3,6 +3,8 @@
 use super::watch::Watch;
 use crate::terminal::words::count;
 
+/// What a name for a file may hold.
+const ACCEPTED: &str = "letters, digits, '-', '_' and '.', which does not come first";
 /// Most letters of a name.
 const LONGEST_NAME: usize = 60;
 
@@ -56,10 +58,9 @@ impl Question {
 /// What is wrong with a name for a file; `None` where nothing is.
 pub fn wrong_name(name: &str) -> Option<String> {
     if name.is_empty() {
-        return Some("a name is needed; accepted is anything without / and \\".to_owned());
+        return Some(format!("a name is needed; accepted are {ACCEPTED}"));
     }
-    let is_wrong = name.contains(['/', '\\']) || name.starts_with('.');
-    is_wrong.then(|| {
-        format!("{name:?} is no name for a file; accepted is anything without / and \\ that begins without a dot")
-    })
+    let is_sign = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
+    let is_wrong = name.starts_with('.') || !name.chars().all(is_sign);
+    is_wrong.then(|| format!("{name:?} is no name for a policy; accepted are {ACCEPTED}"))
 }

@@ -173,7 +173,7 @@ impl Watch {
             Condition::Is(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
             Condition::Is(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
             Condition::Is(Phase::Training) => {
-                (format!("it goes on without this screen; carom watch {} shows it again", quoted(name)), false)
+                (format!("it goes on without this screen: carom watch {}", quoted(name)), false)
             }
             Condition::Is(Phase::Finished) => {
                 ("finished; w uses these weights in the coach, k keeps them under a name".to_owned(), false)

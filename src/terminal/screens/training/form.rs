@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Columns of the fields' names, and of their values.
-const NAME: u16 = 12;
+const NAME: u16 = 14;
 const VALUE: u16 = 24;
 
 /// Draws the form, and below it what it starts.
@@ -55,7 +55,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let title = Line::from(Span::styled("The same on the command line", theme.text()));
     let inner = draw_title(&title, below, theme, look, buffer);
     let lines = command_lines(&form.command(), usize::from(area.width.saturating_sub(6)));
-    let name = Line::from(vec![Span::styled("run         ", theme.faint()), Span::styled(form.name(), theme.text())]);
+    let name = Line::from(vec![Span::styled("run           ", theme.faint()), Span::styled(form.name(), theme.text())]);
     let lines = lines.into_iter().map(|line| Line::styled(line, theme.text())).chain([Line::default(), name]);
     for (line, y) in lines.zip(inner.y..inner.bottom()) {
         buffer.set_line(inner.x + 3, y, &line, inner.width.saturating_sub(4));

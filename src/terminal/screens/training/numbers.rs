@@ -24,10 +24,9 @@ const UNKNOWN: &str = "-";
 /// Draws the panel.
 pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme();
-    let mut title = vec![Span::styled("Numbers", theme.text())];
+    let mut title = vec![Span::styled(if watch.other.is_some() { "Compared" } else { "Numbers" }, theme.text())];
     if let Some(other) = &watch.other {
-        let dash = app.look().pick(" · ", " - ");
-        title.push(Span::styled(format!("{dash}compared with {}", other.name), theme.faint()));
+        title.push(Span::styled(format!(" with {}", other.name), theme.faint()));
     } else if let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref()) {
         title.push(Span::styled(format!(" started with {}", from.path), theme.faint()));
     }

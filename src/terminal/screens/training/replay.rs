@@ -29,7 +29,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let (outcome, style) = match example.reward {
         reward if !is_share => (format!("{reward:.2}"), theme.text()),
         reward if reward >= 1.0 => ("point".to_owned(), theme.good()),
-        _ => ("no point".to_owned(), theme.warning()),
+        _ => ("miss".to_owned(), theme.warning()),
     };
     let title = Line::from(vec![
         Span::styled(format!("Shot {} of {}", replay.index() + 1, examples.shots.len()), theme.text()),
