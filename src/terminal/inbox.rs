@@ -1,4 +1,4 @@
-//! The one channel of everything that happens: keys, resizes, signals, and the coach's answers.
+//! The one channel of everything that happens: keys, resizes, signals, the coach's answers, and news of training.
 
 use std::{
     io,
@@ -12,7 +12,7 @@ use signal_hook::{
     iterator::Signals,
 };
 
-use super::recommender::Answer;
+use super::{recommender::Answer, training::Report};
 
 /// Something that the screen has to deal with.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub enum News {
     Signal(i32),
     /// The coach has answered.
     Answer(Answer),
+    /// Something has come of what the training screen wanted.
+    Report(Report),
 }
 
 /// Starts the threads that read the terminal and the signals into one channel.

@@ -7,6 +7,8 @@ mod app;
 mod canvas;
 mod chart;
 mod chord;
+mod coach;
+mod errands;
 mod geometry;
 mod history;
 mod inbox;
@@ -24,6 +26,7 @@ mod shot;
 mod sprites;
 mod status;
 mod theme;
+mod training;
 mod widgets;
 mod words;
 
@@ -31,12 +34,13 @@ use std::{io, path::Path, time::SystemTime};
 
 use crate::table::{Layout, LayoutError, Table};
 
-pub use app::{App, Effect, Mode};
+pub use app::{App, Effect, Mode, Screen};
 pub use geometry::Mapping;
-pub use keymap::{Action, When};
+pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, TrainingWhen, When};
 pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, Effort, Job, Office};
+pub use recommender::{Answer, Effort, Job, Office, Tutor};
 pub use shot::Shot;
+pub use training::{Keeping, Kept, Launch, Report, Slot, Wanted};
 
 /// Why the terminal program cannot run.
 #[derive(Debug, thiserror::Error)]
@@ -62,7 +66,7 @@ pub enum TerminalError {
 pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
     let layout = layout.unwrap_or_else(|| Layout::opening(&table));
     layout.validate(&table)?;
-    if !session::has_terminal() {
+    if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
     let look = Look::detect(|name| std::env::var(name).ok());
@@ -81,6 +85,9 @@ pub fn is_there() -> bool {
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
-    let _ = (run, list);
-    Err(TerminalError::NoTerminal)
+    if !is_there() {
+        return Err(TerminalError::NoTerminal);
+    }
+    let look = Look::detect(|name| std::env::var(name).ok());
+    Ok(runner::run(App::watching(look, run.map(Path::to_owned), list.map(Path::to_owned))?)?)
 }

@@ -3,7 +3,7 @@
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
-        Arc, OnceLock,
+        Arc,
         atomic::{AtomicBool, Ordering},
         mpsc::{Receiver, Sender, channel},
     },
@@ -14,11 +14,38 @@ use std::{
 use super::shot::Shot;
 use crate::{
     coach::{Coach, Request},
+    game::Rule,
+    learning::Policy,
     table::{Layout, Table},
 };
 
 /// Longest time that the coach may think, s. Its goal is well under 100 ms; only layouts that are very hard use it up.
 const BUDGET: Duration = Duration::from_secs(2);
+
+/// Whose advice is asked, and what counts as a point.
+#[derive(Clone, Debug, Default)]
+pub struct Tutor {
+    /// A policy that somebody has trained, with its name; without one those that are bundled are asked.
+    pub policy: Option<(String, Arc<Policy>)>,
+    /// What counts as a point.
+    pub rule: Rule,
+}
+
+impl Tutor {
+    /// The policy's name.
+    pub fn name(&self) -> &str {
+        self.policy.as_ref().map_or("the bundled policy", |(name, _)| name)
+    }
+
+    /// Whether `other` is asked the same policy; a policy is never changed, only replaced.
+    fn has_policy_of(&self, other: &Self) -> bool {
+        match (&self.policy, &other.policy) {
+            (None, None) => true,
+            (Some((_, one)), Some((_, other))) => Arc::ptr_eq(one, other),
+            _ => false,
+        }
+    }
+}
 
 /// A question to the coach.
 #[derive(Clone, Debug)]
@@ -29,6 +56,8 @@ pub struct Job {
     pub table: Table,
     /// Where the balls lie.
     pub layout: Layout,
+    /// Whose advice is asked.
+    pub tutor: Tutor,
     /// Seed of the coach's random numbers.
     pub seed: u64,
     /// Set when nobody waits for the answer any more.
@@ -58,12 +87,12 @@ pub struct Answer {
 /// The coach, made when it is first asked: reading its networks must not delay the first picture.
 #[derive(Debug, Default)]
 pub struct Office {
-    coach: OnceLock<Result<Coach, String>>,
+    coach: Option<(Tutor, Coach)>,
 }
 
 impl Office {
     /// Answers a question on this thread. A panic becomes a sentence.
-    pub fn answer(&self, job: &Job) -> Answer {
+    pub fn answer(&mut self, job: &Job) -> Answer {
         let found = catch_unwind(AssertUnwindSafe(|| self.shot(job)))
             .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
         match found {
@@ -72,15 +101,31 @@ impl Office {
         }
     }
 
-    fn shot(&self, job: &Job) -> Result<(Shot, Effort), String> {
-        let coach = self.coach.get_or_init(|| Coach::new(job.table.clone()).map_err(|error| error.to_string()));
-        let coach = coach.as_ref().map_err(Clone::clone)?;
-        let request = Request { budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel), ..Request::default() };
-        let found = coach.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
+    fn shot(&mut self, job: &Job) -> Result<(Shot, Effort), String> {
+        let request = Request { rule: job.tutor.rule, budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel) };
+        let found = self.coach(job)?.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
         let effort = Effort { simulations: found.simulations, elapsed: found.elapsed };
         Shot::new(&job.table, &job.layout, found.cue, found.solved, found.source.to_string())
             .map(|shot| (shot, effort))
             .map_err(|error| error.to_string())
+    }
+
+    /// The coach for the question's table, with its policy.
+    fn coach(&mut self, job: &Job) -> Result<&Coach, String> {
+        let fits = |(tutor, coach): &(Tutor, Coach)| *coach.table() == job.table && tutor.has_policy_of(&job.tutor);
+        let known = self.coach.take().filter(fits);
+        let (tutor, coach) = match known {
+            Some(known) => known,
+            None => {
+                let coach = Coach::new(job.table.clone()).map_err(|error| error.to_string())?;
+                let coach = match &job.tutor.policy {
+                    Some((_, policy)) => coach.with_policy(Policy::clone(policy)),
+                    None => coach,
+                };
+                (job.tutor.clone(), coach)
+            }
+        };
+        Ok(&self.coach.insert((tutor, coach)).1)
     }
 }
 
@@ -88,7 +133,7 @@ impl Office {
 pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Box<Job>>> {
     let (sender, questions): (Sender<Box<Job>>, Receiver<Box<Job>>) = channel();
     thread::Builder::new().name("coach".into()).spawn(move || {
-        let office = Office::default();
+        let mut office = Office::default();
         for job in questions {
             if !job.cancel.load(Ordering::Relaxed) {
                 reply(office.answer(&job));

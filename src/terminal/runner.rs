@@ -14,6 +14,7 @@ use signal_hook::{
 
 use super::{
     app::{App, Effect},
+    errands::Errands,
     inbox::{self, News},
     recommender::{self, Job},
     session::Session,
@@ -37,11 +38,12 @@ enum Next {
 pub fn run(app: App) -> io::Result<()> {
     let (to_screen, news) = inbox::open()?;
     let session = Session::start()?;
+    let errands = Errands::new(to_screen.clone());
     let jobs = recommender::spawn(move |answer| {
         // A screen that is gone needs no answer.
         let _ = to_screen.send(News::Answer(answer));
     })?;
-    let mut runner = Runner { app, session, jobs };
+    let mut runner = Runner { app, session, jobs, errands };
     let end = runner.until_the_end(&news);
     let left = runner.session.leave();
     match end? {
@@ -55,6 +57,7 @@ struct Runner {
     app: App,
     session: Session,
     jobs: Sender<Box<Job>>,
+    errands: Errands,
 }
 
 impl Runner {
@@ -65,6 +68,7 @@ impl Runner {
         let mut ticked = drawn;
         let mut due = drawn;
         loop {
+            self.errands.want(self.app.wanted())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             let first = match interval {
                 // Nothing moves: no timer, no processor time, no bytes.
@@ -113,6 +117,10 @@ impl Runner {
                 Some(Effect::Quit) => return Ok(Next::Quit),
                 Some(Effect::Suspend) => self.suspend()?,
                 Some(Effect::Recommend(job)) => self.ask(job),
+                Some(Effect::Train(launch)) => self.errands.train(*launch)?,
+                Some(Effect::Send(request, folder)) => self.errands.send(request, folder)?,
+                Some(Effect::Keep(keeping)) => self.errands.keep(*keeping)?,
+                Some(Effect::LoadPolicy(folder)) => self.errands.load_policy(folder)?,
                 None => {}
             },
             // A resize needs a picture, which follows anyway.
@@ -126,6 +134,10 @@ impl Runner {
             }
             News::Signal(signal) => return Ok(Next::Die(signal)),
             News::Answer(answer) => self.app.receive(answer),
+            News::Report(report) => {
+                self.errands.taken(&report);
+                self.app.receive_report(report);
+            }
         }
         Ok(Next::GoOn)
     }

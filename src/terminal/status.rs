@@ -35,4 +35,9 @@ impl Message {
     pub fn warning(text: impl Into<String>) -> Self {
         Self { tone: Tone::Warning, text: text.into() }
     }
+
+    /// Whether it is a refusal or a failure.
+    pub fn is_warning(&self) -> bool {
+        self.tone == Tone::Warning
+    }
 }

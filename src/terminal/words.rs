@@ -41,6 +41,42 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// A whole number with its thousands set off, like 1,234,567.
+pub fn count(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (n, digit) in digits.chars().enumerate() {
+        if n > 0 && (digits.len() - n).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A whole number in few columns, like 950, 12.5k, 1.2M.
+pub fn short_count(number: u64) -> String {
+    for (unit, size) in [("G", 1e9), ("M", 1e6), ("k", 1e3)] {
+        if number as f64 >= size {
+            let text = format!("{:.1}", number as f64 / size);
+            return format!("{}{unit}", text.strip_suffix(".0").unwrap_or(&text));
+        }
+    }
+    number.to_string()
+}
+
+/// A time in its two largest units, like 45 s, 3 min 20 s, 2 h 5 min, 3 d 4 h.
+pub fn time_words(seconds: f64) -> String {
+    let seconds = seconds.max(0.0) as u64;
+    let (minutes, hours, days) = (seconds / 60, seconds / 3600, seconds / 86_400);
+    match () {
+        () if days > 0 => format!("{days} d {} h", hours % 24),
+        () if hours > 0 => format!("{hours} h {} min", minutes % 60),
+        () if minutes > 0 => format!("{minutes} min {} s", seconds % 60),
+        () => format!("{seconds} s"),
+    }
+}
+
 /// Metres as millimetres with one decimal.
 pub fn millimetres(metres: f64) -> String {
     fixed(1000.0 * metres, 1)
@@ -79,6 +115,13 @@ mod tests {
         assert_eq!(fixed(-0.000_6, 3), "-0.001");
         assert_eq!(millimetres(-0.71), "-710.0");
         assert_eq!(fixed(f64::NAN, 1), "NaN");
+    }
+
+    #[test]
+    fn large_numbers_and_times_are_written_for_people() {
+        assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1,000", "1,234,567"]);
+        assert_eq!([999, 12_500, 5_000_000].map(short_count), ["999", "12.5k", "5M"]);
+        assert_eq!([59.9, 200.0, 7500.0, 273_600.0].map(time_words), ["59 s", "3 min 20 s", "2 h 5 min", "3 d 4 h"]);
     }
 
     #[test]

@@ -1,44 +1,31 @@
 //! The state of the program; it draws on any frame and needs no terminal.
 //!
-//! [`actions`] is what each key does to it, [`view`] what the screens read of it.
+//! What its screens share is here; each screen has a state of its own. [`view`] is what drawing reads.
 
-mod actions;
 mod view;
 
-use std::sync::{Arc, atomic::AtomicBool};
+use std::path::PathBuf;
 
 use crossterm::event::{KeyEvent, KeyEventKind};
-use rand::SeedableRng;
-use rand_xoshiro::Xoshiro256PlusPlus;
 use ratatui::Frame;
 
 use super::{
-    history::History,
-    keymap::{self, When},
+    coach::CoachScreen,
+    keymap::{self, Action, Place, When},
     look::Look,
-    playback::Playback,
-    recommender::{Answer, Effort, Job},
+    recommender::{Answer, Job},
     screens,
-    shot::Shot,
     status::Message,
     theme::Theme,
+    training::{Keeping, Launch, Report, TrainingScreen, Wanted},
 };
-use crate::table::{Layout, LayoutError, Table};
+use crate::{
+    learning::run::request::Request,
+    storage::Places,
+    table::{Layout, LayoutError, Table},
+};
 
-/// Step sizes of the arrow keys, mm; Shift makes them ten times larger, Ctrl ten times smaller.
-const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
-const FIRST_STEP: usize = 2;
-/// Seconds a picture of the spinner stays.
-const SPINNER_INTERVAL: f64 = 0.1;
-
-/// The balls and the shot that was found for them.
-#[derive(Clone, Debug)]
-struct Position {
-    layout: Layout,
-    shot: Option<Arc<Shot>>,
-}
-
-/// What the arrow keys are for.
+/// What the arrow keys are for on the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// They move balls.
@@ -47,41 +34,43 @@ pub enum Mode {
     Watching,
 }
 
-/// A question that the coach has not answered yet.
-#[derive(Debug)]
-struct Pending {
-    id: u64,
-    cancel: Arc<AtomicBool>,
-    waited: f64,
-}
-
 /// What the program around the app has to do.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Ask the coach and hand the answer to [`App::receive`].
     Recommend(Box<Job>),
+    /// Start a process that trains; how it ends goes to [`App::receive_report`], as do the answers to what follows.
+    Train(Box<Launch>),
+    /// Ask a run for something.
+    Send(Request, PathBuf),
+    /// Keep a policy under a name.
+    Keep(Box<Keeping>),
+    /// Read the policy of the run in this folder.
+    LoadPolicy(PathBuf),
     /// Stop until the shell continues the program.
     Suspend,
     /// End.
     Quit,
 }
 
+/// The screens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// The table, and what the coach recommends.
+    Coach,
+    /// Runs, and how they learn.
+    Training,
+}
+
 /// The whole state of the terminal program.
 #[derive(Debug)]
 pub struct App {
-    table: Table,
-    balls: History<Position>,
-    selected: usize,
-    step: usize,
-    mode: Mode,
-    playback: Playback,
-    pending: Option<Pending>,
-    questions: u64,
-    message: Option<Message>,
+    screen: Screen,
+    coach: CoachScreen,
+    training: TrainingScreen,
     help: Option<u16>,
     look: Look,
     theme: Theme,
-    rng: Xoshiro256PlusPlus,
 }
 
 impl App {
@@ -90,22 +79,36 @@ impl App {
     /// # Errors
     /// A layout that is not possible on the table.
     pub fn new(table: Table, layout: Layout, look: Look, seed: u64) -> Result<Self, LayoutError> {
-        layout.validate(&table)?;
         Ok(Self {
-            table,
-            balls: History::new(Position { layout, shot: None }),
-            selected: 0,
-            step: FIRST_STEP,
-            mode: Mode::Placing,
-            playback: Playback::default(),
-            pending: None,
-            questions: 0,
-            message: None,
+            screen: Screen::Coach,
+            coach: CoachScreen::new(table, layout, seed)?,
+            training: TrainingScreen::new(Places::of_this_user()),
             help: None,
             look,
             theme: Theme::new(look.depth),
-            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
+    }
+
+    /// The program that opens with the training screen: with a run, or with the list of those in `list`, by default the
+    /// user's. Going back from its first page ends the program.
+    ///
+    /// # Errors
+    /// None with the default table, whose opening position is possible.
+    pub fn watching(look: Look, run: Option<PathBuf>, list: Option<PathBuf>) -> Result<Self, LayoutError> {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let mut app = Self::new(table, layout, look, 0)?;
+        app.screen = Screen::Training;
+        app.training.open_alone(run, list);
+        Ok(app)
+    }
+
+    /// The same program with its runs and policies elsewhere.
+    #[must_use]
+    pub fn with_places(mut self, places: Places) -> Self {
+        self.training.folder.clone_from(&places.runs);
+        self.training.places = places;
+        self
     }
 
     /// A key was pressed.
@@ -113,91 +116,121 @@ impl App {
         if key.kind == KeyEventKind::Release {
             return None;
         }
-        match keymap::find(key, |when| self.refusal(when))? {
-            Ok(action) => {
-                self.message = None;
-                self.update(action)
-            }
+        if self.screen == Screen::Training && self.help.is_none() && self.training.typed(key) {
+            return None;
+        }
+        let found = keymap::find(key, self.place(), |when| self.refusal(when))?;
+        *self.message_mut() = None;
+        match found {
+            Ok(action) => self.update(action),
             Err(reason) => {
-                self.message = Some(Message::warning(reason));
+                *self.message_mut() = Some(Message::warning(reason));
                 None
             }
         }
     }
 
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Quit => return Some(Effect::Quit),
+            Action::Suspend => return Some(Effect::Suspend),
+            Action::OpenHelp => self.help = Some(0),
+            Action::CloseHelp => self.help = None,
+            Action::ScrollHelp(lines) => {
+                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL));
+            }
+            Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
+            Action::OpenTraining => {
+                // What nobody watches does not play on.
+                self.coach.playback.pause();
+                self.training.open();
+                self.screen = Screen::Training;
+            }
+            Action::Coach(action) => return self.coach.update(action),
+            Action::Training(action) => {
+                let effect = self.training.update(action);
+                if self.training.is_left() {
+                    return self.leave_training();
+                }
+                return effect;
+            }
+        }
+        None
+    }
+
+    /// Back to the coach, or to the shell where the program began with the training screen.
+    fn leave_training(&mut self) -> Option<Effect> {
+        if self.training.alone {
+            return Some(Effect::Quit);
+        }
+        self.screen = Screen::Coach;
+        None
+    }
+
     /// Why a binding may not be used now; `None` where it may.
     pub fn refusal(&self, when: When) -> Option<&'static str> {
-        let refuse = |refused: bool, reason| refused.then_some(reason);
-        let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
         match when {
-            When::Help => refuse(self.help.is_none(), "the help is not open"),
+            When::Help => self.help.is_none().then_some("the help is not open"),
             _ if self.help.is_some() => Some("close the help first: Esc"),
             When::Always => None,
-            When::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
-            _ if thinking.is_some() => thinking,
-            When::Placing => refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls"),
-            When::Shot | When::Watching if self.shot().is_none() => Some("there is no shot yet; Enter asks the coach"),
-            When::Idle | When::Shot => None,
-            When::Watching => refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one"),
-            When::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
-            When::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
+            When::Coach(when) => self.coach.refusal(when),
+            When::Training(when) => self.training.refusal(when),
+        }
+    }
+
+    /// What is on the screen. The help is that of what lies below it.
+    pub fn place(&self) -> Place {
+        match self.screen {
+            Screen::Coach => Place::Coach,
+            Screen::Training if self.help.is_some() => self.training.page().place(),
+            Screen::Training => self.training.place(),
         }
     }
 
     /// The coach has answered. Late answers to cancelled questions are dropped.
     pub fn receive(&mut self, answer: Answer) {
-        if self.pending.as_ref().is_none_or(|pending| pending.id != answer.id) {
-            return;
-        }
-        self.pending = None;
-        match answer.shot {
-            Ok(shot) => {
-                self.playback.jump(0.0);
-                self.message = Some(news(&shot, answer.effort));
-                self.balls.present_mut().shot = Some(shot);
-                self.mode = Mode::Watching;
-            }
-            Err(sentence) => self.message = Some(Message::warning(sentence)),
-        }
+        self.coach.receive(answer);
     }
 
     /// The thread that thinks is gone, and with it the answer.
     pub fn coach_lost(&mut self) {
-        if self.pending.take().is_some() {
-            self.message = Some(Message::warning("the coach has failed; quit and start again to ask it"));
+        self.coach.lost();
+    }
+
+    /// Something has come of what the training screen wanted.
+    pub fn receive_report(&mut self, report: Report) {
+        if let Some((table, tutor)) = self.training.receive(report) {
+            self.coach.take_tutor(&table, tutor);
+            self.training.alone = false;
+            self.screen = Screen::Coach;
+            self.help = None;
         }
+    }
+
+    /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_report`].
+    pub fn wanted(&self) -> Wanted {
+        if self.screen == Screen::Training { self.training.wanted() } else { Wanted::default() }
     }
 
     /// Lets `seconds` pass for whatever moves on the screen.
     pub fn tick(&mut self, seconds: f64) {
-        if let Some(pending) = &mut self.pending {
-            pending.waited += seconds;
-        }
-        if let Some(duration) = self.shot().map(|shot| shot.recording.duration()) {
-            self.playback.tick(seconds, duration);
+        match self.screen {
+            Screen::Coach => self.coach.tick(seconds),
+            Screen::Training => self.training.tick(seconds),
         }
     }
 
     /// Seconds until the next picture; `None` while nothing moves by itself.
     pub fn frame_interval(&self) -> Option<f64> {
-        if self.playback.playing { Some(1.0 / 30.0) } else { self.pending.as_ref().map(|_| SPINNER_INTERVAL) }
+        match self.screen {
+            Screen::Coach => self.coach.frame_interval(),
+            Screen::Training => self.training.frame_interval(),
+        }
     }
 
     /// Draws the screen.
     pub fn draw(&self, frame: &mut Frame) {
         screens::draw(self, frame.area(), frame.buffer_mut());
     }
-}
-
-fn news(shot: &Shot, effort: Option<Effort>) -> Message {
-    let contact = shot.contact_words().map_or(String::new(), |words| format!("; {words}"));
-    let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
-        0 => ", under 1 ms".to_owned(),
-        milliseconds => format!(", {milliseconds} ms"),
-    });
-    if shot.solved {
-        return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
-    }
-    let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
-    Message::warning(format!("no point found{tried}; this is the best attempt ({}{took}){contact}", shot.source))
 }

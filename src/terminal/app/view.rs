@@ -1,62 +1,90 @@
-//! What the screens read of the state.
+//! What drawing reads of the state.
 
 use std::sync::Arc;
 
-use super::{App, Mode, SPINNER_INTERVAL, STEPS};
+use super::{App, Mode, Screen};
 use crate::{
     table::{Layout, Table},
-    terminal::{look::Look, playback::Playback, shot::Shot, status::Message, theme::Theme},
+    terminal::{
+        coach::CoachScreen, look::Look, playback::Playback, shot::Shot, status::Message, theme::Theme,
+        training::TrainingScreen,
+    },
 };
 
 impl App {
+    /// Which screen is shown.
+    pub const fn screen(&self) -> Screen {
+        self.screen
+    }
+
+    /// The coach's screen.
+    pub const fn coach(&self) -> &CoachScreen {
+        &self.coach
+    }
+
+    /// The training screen.
+    pub const fn training(&self) -> &TrainingScreen {
+        &self.training
+    }
+
     /// The table that is played on.
     pub const fn table(&self) -> &Table {
-        &self.table
+        &self.coach.table
     }
 
     /// Where the balls lie before the shot.
     pub const fn layout(&self) -> &Layout {
-        &self.balls.present().layout
+        self.coach.layout()
     }
 
     /// The shot that was found for the layout.
     pub const fn shot(&self) -> Option<&Arc<Shot>> {
-        self.balls.present().shot.as_ref()
+        self.coach.shot()
     }
 
     /// What the arrow keys are for.
     pub const fn mode(&self) -> Mode {
-        self.mode
+        self.coach.mode
     }
 
     /// The shot that is being watched.
     pub fn watched(&self) -> Option<&Shot> {
-        self.shot().filter(|_| self.mode == Mode::Watching).map(Arc::as_ref)
+        self.shot().filter(|_| self.mode() == Mode::Watching).map(Arc::as_ref)
     }
 
     /// The clock of the shot.
     pub const fn playback(&self) -> &Playback {
-        &self.playback
+        &self.coach.playback
     }
 
     /// The ball that the arrow keys move.
     pub const fn selected(&self) -> usize {
-        self.selected
+        self.coach.selected
     }
 
     /// The chosen step, mm.
     pub fn step_mm(&self) -> f64 {
-        STEPS[self.step]
+        self.coach.step_mm()
     }
 
     /// Number of the spinner's picture, while the coach thinks.
     pub fn spinner(&self) -> Option<usize> {
-        self.pending.as_ref().map(|pending| (pending.waited / SPINNER_INTERVAL) as usize)
+        self.coach.spinner()
     }
 
     /// What the status line says.
     pub const fn message(&self) -> Option<&Message> {
-        self.message.as_ref()
+        match self.screen {
+            Screen::Coach => self.coach.message.as_ref(),
+            Screen::Training => self.training.message.as_ref(),
+        }
+    }
+
+    pub(super) const fn message_mut(&mut self) -> &mut Option<Message> {
+        match self.screen {
+            Screen::Coach => &mut self.coach.message,
+            Screen::Training => &mut self.training.message,
+        }
     }
 
     /// The first line of the help, while it is open.

@@ -6,25 +6,48 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use crate::terminal::{
-    app::App,
-    chord::keys_text,
-    keymap::{BINDINGS, Section, When},
-    widgets::draw_hints,
+use crate::{
+    learning::run::quantity::Quantity,
+    terminal::{
+        app::App,
+        chord::keys_text,
+        keymap::{Place, Section, When, bindings},
+        widgets::draw_hints,
+    },
 };
 
 /// Lines that the help can be scrolled by; a larger number would leave an empty page.
-pub const MOST_SCROLL: u16 = 20;
+pub const MOST_SCROLL: u16 = 36;
 /// Columns of the keys.
 const KEYS: usize = 22;
 
-const NOTES: &[&str] = &[
+const COACH_NOTES: [&str; 5] = [
     "Places are measured from the middle of the table, x to the right, y up. The dots are the",
     "predicted paths; rings are the first contact and where the balls stop. On a small screen",
     "the balls are drawn larger than they are; they roll and touch at their true size.",
     "Tip: the cue ball from behind the cue; in its grey part the tip would slip off.",
     "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
 ];
+
+const TRAINING_NOTES: [&str; 6] = [
+    "Training goes on in a process of its own: it needs neither this screen nor this terminal.",
+    "Held-out figures are of the agent's own choice on layouts that it has not trained on, with",
+    "Wilson's 95 % interval. Shots of a run that trains are replayed once, as they were measured.",
+    "A chart shows the smallest and largest value where many lines share a column, so that no",
+    "peak is lost; what is no number is a gap. Smoothing is over shots, and never looks ahead.",
+    "The quantities and their keys:",
+];
+
+/// What the help says of the picture at `place`.
+fn notes(place: Place) -> Vec<String> {
+    if place == Place::Coach {
+        return COACH_NOTES.map(str::to_owned).to_vec();
+    }
+    let quantities: Vec<_> =
+        Quantity::ALL.iter().enumerate().map(|(n, one)| format!("{} {}", n + 1, one.name())).collect();
+    let rows = quantities.chunks(4).map(|row| format!("  {}", row.join(", ")));
+    TRAINING_NOTES.map(str::to_owned).into_iter().chain(rows).collect()
+}
 
 /// Draws the help from its line `top` on.
 pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
@@ -47,8 +70,13 @@ fn lines(app: &App) -> Vec<Line<'static>> {
     let (theme, look) = (app.theme(), app.look());
     let mut lines = Vec::new();
     for section in Section::ALL {
+        let own: Vec<_> =
+            bindings(app.place()).filter(|binding| binding.section == section && binding.when != When::Help).collect();
+        if own.is_empty() {
+            continue;
+        }
         lines.push(Line::styled(section.title(), theme.good()));
-        for binding in BINDINGS.iter().filter(|binding| binding.section == section && binding.when != When::Help) {
+        for binding in own {
             let keys = keys_text(binding.keys.iter().map(|(chord, _)| *chord), look);
             lines.push(Line::from(vec![
                 Span::styled(format!("  {keys:<KEYS$}"), theme.accent()),
@@ -58,6 +86,7 @@ fn lines(app: &App) -> Vec<Line<'static>> {
         lines.push(Line::default());
     }
     lines.push(Line::styled("What is drawn", theme.good()));
-    lines.extend(NOTES.iter().map(|note| Line::styled(format!("  {note}"), theme.text())));
+    let notes = notes(app.place()).into_iter();
+    lines.extend(notes.map(|note| Line::styled(format!("  {note}"), theme.text())));
     lines
 }

@@ -4,10 +4,11 @@ mod coach;
 mod help;
 mod panes;
 mod too_small;
+mod training;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::app::App;
+use super::app::{App, Screen};
 
 pub use help::MOST_SCROLL;
 
@@ -22,6 +23,9 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     } else if let Some(top) = app.help() {
         help::draw(app, top, area, buffer);
     } else {
-        coach::draw(app, area, buffer);
+        match app.screen() {
+            Screen::Coach => coach::draw(app, area, buffer),
+            Screen::Training => training::draw(app, area, buffer),
+        }
     }
 }

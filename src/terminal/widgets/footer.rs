@@ -7,35 +7,30 @@ use ratatui::{
     widgets::{Clear, Widget},
 };
 
-use crate::{
-    table::BALLS,
-    terminal::{
-        app::App,
-        chord::keys_text,
-        keymap::{BINDINGS, Binding, Section},
-        playback::passed,
-        status::Tone,
-        words::{BALL_NAMES, event_words, fixed, millimetres, step_words},
-    },
+use crate::terminal::{
+    app::App,
+    chord::keys_text,
+    keymap::{Binding, Section, When, bindings},
+    status::{Message, Tone},
+    theme::Theme,
 };
 
-/// Draws the status in the last row of `area`; a sentence that is longer takes the rows above it as well.
-pub fn draw_status(app: &App, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme();
-    let (text, style) = match app.message() {
-        Some(message) => {
-            let style = match message.tone {
-                Tone::Plain => theme.text(),
-                Tone::Good => theme.good(),
-                Tone::Warning => theme.warning(),
-            };
-            (message.text.clone(), style)
-        }
-        None => (standing(app), theme.text()),
+/// Columns between two hints.
+const GAP: usize = 3;
+
+/// Most rows that a long sentence on the status line may take.
+const STATUS_ROWS: u16 = 3;
+
+/// Draws a sentence into the row `area`; one that is longer takes the rows above it as well.
+pub fn draw_status(message: &Message, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    let style = match message.tone {
+        Tone::Plain => theme.text(),
+        Tone::Good => theme.good(),
+        Tone::Warning => theme.warning(),
     };
     let width = area.width.saturating_sub(2);
-    let lines = wrap(&text, usize::from(width));
-    let rows = (lines.len() as u16).min(area.height);
+    let lines = wrap(&message.text, usize::from(width));
+    let rows = (lines.len() as u16).min(STATUS_ROWS).min(area.bottom());
     let place = Rect::new(area.x, area.bottom() - rows, area.width, rows);
     Clear.render(place, buffer);
     buffer.set_style(place, theme.text());
@@ -62,54 +57,26 @@ fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// What the status line says while there is no news.
-fn standing(app: &App) -> String {
-    if let Some(picture) = app.spinner() {
-        let pictures =
-            app.look().pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
-        return format!("{} the coach is thinking; Esc stops it", pictures[picture % pictures.len()]);
-    }
-    match app.watched() {
-        Some(shot) => {
-            let (events, time) = (shot.recording.events(), app.playback().readout);
-            events.get(passed(events, time)).map_or("all balls lie still".to_owned(), |next| {
-                format!("next: {} in {} s", event_words(next.kind), fixed(next.time - time, 1))
-            })
-        }
-        None => selected_ball(app),
-    }
-}
-
-/// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.
-fn selected_ball(app: &App) -> String {
-    let (ball, balls) = (app.selected(), app.layout().balls);
-    let others = (0..BALLS).filter(|&other| other != ball);
-    let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
-    let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
-    let near =
-        nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), BALL_NAMES[other]));
-    let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
-    format!("{} at x {x} mm, y {y} mm{near}; step {}", BALL_NAMES[ball], step_words(app.step_mm()))
-}
-
 /// Draws the keys that may be used now, as many as fit.
 pub fn draw_hints(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme();
-    let mut hints: Vec<(Section, Line)> = BINDINGS
-        .iter()
+    let mut hints: Vec<(&Binding, Line)> = bindings(app.place())
         .filter(|binding| app.refusal(binding.when).is_none())
-        .filter_map(|binding| Some((binding.section, hint(app, binding)?)))
+        .filter_map(|binding| Some((binding, hint(app, binding)?)))
         .collect();
     let room = usize::from(area.width.saturating_sub(1));
-    // The keys of the program itself stay to the last; the others go from the end.
-    while hints.iter().map(|(_, line)| line.width()).sum::<usize>() > room {
-        let last = hints.iter().rposition(|(section, _)| *section != Section::Program);
+    let width = |hints: &[(&Binding, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
+    // The keys of the program itself stay to the last, but for the way from the coach to another screen; the others go
+    // from the end.
+    let stays = |binding: &Binding| binding.section == Section::Program && !matches!(binding.when, When::Coach(_));
+    while width(&hints) > room + GAP {
+        let last = hints.iter().rposition(|(binding, _)| !stays(binding));
         hints.remove(last.unwrap_or(hints.len() - 1));
     }
     let mut x = area.x + 1;
     buffer.set_style(area, theme.text());
     for (_, line) in hints {
-        x = buffer.set_line(x, area.y, &line, area.right().saturating_sub(x)).0;
+        x = buffer.set_line(x, area.y, &line, area.right().saturating_sub(x)).0 + GAP as u16;
     }
 }
 
@@ -118,7 +85,7 @@ fn hint(app: &App, binding: &Binding) -> Option<Line<'static>> {
     let keys = keys_text(binding.keys.iter().take(keys).map(|(chord, _)| *chord), app.look());
     Some(Line::from(vec![
         Span::styled(keys, app.theme().accent()),
-        Span::styled(format!(" {words}   "), app.theme().faint()),
+        Span::styled(format!(" {words}"), app.theme().faint()),
     ]))
 }
 

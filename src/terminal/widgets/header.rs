@@ -7,9 +7,12 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use crate::terminal::{
-    app::{App, Mode},
-    words::fixed,
+use crate::{
+    game::Rule,
+    terminal::{
+        app::{App, Mode},
+        words::fixed,
+    },
 };
 
 /// Most cells of the bar that shows how far the shot has played.
@@ -19,11 +22,18 @@ const BAR: u16 = 40;
 pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme();
     let table = app.table();
-    let left = Line::from(vec![
+    let tutor = &app.coach().tutor;
+    let mut left = Line::from(vec![
         Span::styled(" carom ", theme.accent().add_modifier(Modifier::REVERSED)),
         Span::styled(format!(" {}", table.name), theme.text()),
-        Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint()),
     ]);
+    match &tutor.policy {
+        None => left.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint())),
+        Some((name, _)) => left.push_span(Span::styled(format!(" {name}"), theme.good())),
+    }
+    if tutor.rule != Rule::default() {
+        left.push_span(Span::styled(format!(" {}", tutor.rule), theme.text()));
+    }
     let taken = buffer.set_line(area.x, area.y, &left, area.width).0;
     let room = area.right().saturating_sub(taken + 4);
     // The bar is left out where a long name leaves it no room.

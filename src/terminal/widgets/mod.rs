@@ -23,7 +23,7 @@ pub use events::draw_events;
 pub use footer::{draw_hints, draw_status};
 pub use header::draw_header;
 pub use shot::draw_shot;
-pub use table::draw_table;
+pub use table::{TableView, draw_table};
 pub use tip::draw_tip;
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.

@@ -9,14 +9,14 @@ use ratatui::{
 
 use super::rails::draw_rails;
 use crate::{
-    table::BALLS,
+    table::{BALLS, Layout, Table},
     terminal::{
-        app::{App, Mode},
         canvas::{Canvas, Ink},
         geometry::Mapping,
-        look::Glyphs,
-        shot::DOT_SPACING,
+        look::{Glyphs, Look},
+        shot::{DOT_SPACING, Shot},
         sprites::Sprite,
+        theme::Theme,
     },
 };
 
@@ -42,20 +42,42 @@ const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
 const BALL_WEIGHT: u8 = 6;
 
+/// What is drawn of a table, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct TableView<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// Where the balls lie before the shot.
+    pub layout: &'a Layout,
+    /// The shot from there, if there is one.
+    pub shot: Option<&'a Shot>,
+    /// Seconds since the stroke.
+    pub time: f64,
+    /// Whether the balls are drawn where the shot has them at `time`; otherwise they wait to be placed.
+    pub is_moving: bool,
+    /// The ball that lies on top of the others; marked while balls are placed.
+    pub front: usize,
+    /// The colours.
+    pub theme: &'a Theme,
+    /// What the terminal can show.
+    pub look: Look,
+}
+
 /// Draws the table in the upper middle of `area`, as large as fits.
-pub fn draw_table(app: &App, area: Rect, buffer: &mut Buffer) {
-    let mapping = Mapping::fit(app.table(), area);
+pub fn draw_table(view: &TableView, area: Rect, buffer: &mut Buffer) {
+    let mapping = Mapping::fit(view.table, area);
     if mapping.bed.is_empty() {
         return;
     }
-    let balls = app.watched().map_or(app.layout().balls, |shot| shot.recording.positions(app.playback().time));
-    let marked = (app.mode() == Mode::Placing).then(|| balls[app.selected()]);
-    draw_rails(&mapping, app.table().diamond(), marked, app.theme(), app.look(), buffer);
-    let glyphs = app.look().glyphs;
+    let shot = view.shot.filter(|_| view.is_moving);
+    let balls = shot.map_or(view.layout.balls, |shot| shot.recording.positions(view.time));
+    let marked = (!view.is_moving).then(|| balls[view.front]);
+    draw_rails(&mapping, view.table.diamond(), marked, view.theme, view.look, buffer);
+    let glyphs = view.look.glyphs;
     let sprite = Sprite::new(&mapping, glyphs);
     let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * sprite.reach(&mapping, glyphs));
     let balls = apart(balls, 2.0 * sprite.reach(&mapping, glyphs));
-    let scene = Scene { app, mapping, balls, sprite, clear };
+    let scene = Scene { view, mapping, balls, sprite, clear };
     if glyphs == Glyphs::Letters {
         scene.draw_letters(buffer);
     } else {
@@ -80,7 +102,7 @@ fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
 }
 
 struct Scene<'a> {
-    app: &'a App,
+    view: &'a TableView<'a>,
     mapping: Mapping,
     /// Where the balls are drawn.
     balls: [DVec2; BALLS],
@@ -96,8 +118,8 @@ impl Scene<'_> {
 
     /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
     fn each_dot(&self, mut draw: impl FnMut(usize, DVec2)) {
-        let Some(shot) = self.app.shot() else { return };
-        let columns = if self.app.look().glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
+        let Some(shot) = self.view.shot else { return };
+        let columns = if self.view.look.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
         let is_free = |place: DVec2| ghosts.iter().all(|(_, ghost)| ghost.distance(place) > 0.75 * self.clear);
@@ -110,7 +132,7 @@ impl Scene<'_> {
 
     /// Where balls will be: the cue ball at the first contact, and all balls that move where they come to rest.
     fn ghosts(&self) -> Vec<(usize, DVec2)> {
-        let Some(shot) = self.app.shot() else { return Vec::new() };
+        let Some(shot) = self.view.shot else { return Vec::new() };
         // At the contact the ring touches the object ball; only the cue ball itself may hide it.
         let contact = shot.contact.map(|contact| contact.place);
         let contact = contact.filter(|place| place.distance(self.balls[0]) > self.clear);
@@ -120,9 +142,9 @@ impl Scene<'_> {
 
     /// Calls `draw` along the cue, as long as it has not struck.
     fn each_cue_dot(&self, mut draw: impl FnMut(DVec2)) {
-        let Some(shot) = self.app.shot().filter(|_| self.app.playback().time == 0.0) else { return };
+        let Some(shot) = self.view.shot.filter(|_| self.view.time == 0.0) else { return };
         let back = -DVec2::from_angle(shot.cue.phi);
-        let tip = 1.2 * self.sprite.reach(&self.mapping, self.app.look().glyphs);
+        let tip = 1.2 * self.sprite.reach(&self.mapping, self.view.look.glyphs);
         let dots = (CUE_LENGTH / CUE_DOTS) as u32;
         for dot in 0..=dots {
             draw(self.balls[0] + back * (tip + f64::from(dot) * CUE_DOTS));
@@ -131,12 +153,12 @@ impl Scene<'_> {
 
     /// The balls, the selected one last, so that it lies on top.
     fn order(&self) -> [usize; BALLS] {
-        let selected = self.app.selected();
+        let selected = self.view.front;
         [(selected + 1) % BALLS, (selected + 2) % BALLS, selected]
     }
 
     fn draw_blocks(&self, buffer: &mut Buffer) {
-        let (theme, glyphs) = (self.app.theme(), self.app.look().glyphs);
+        let (theme, glyphs) = (self.view.theme, self.view.look.glyphs);
         let mapping = &self.mapping;
         let mut canvas = Canvas::new(mapping.bed, glyphs, theme.cloth);
         let (width, height) = canvas.size();
@@ -166,7 +188,7 @@ impl Scene<'_> {
     }
 
     fn draw_letters(&self, buffer: &mut Buffer) {
-        let (theme, look) = (self.app.theme(), self.app.look());
+        let (theme, look) = (self.view.theme, self.view.look);
         let mapping = &self.mapping;
         buffer.set_style(mapping.bed, Style::new().bg(theme.cloth));
         let mut put = |place: DVec2, symbol: char, color: Color| {
@@ -183,7 +205,7 @@ impl Scene<'_> {
             let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
             let text = if wide { format!("({})", LETTERS[ball]) } else { LETTERS[ball].to_string() };
             let mut style = Style::new().fg(theme.balls[ball]).add_modifier(Modifier::BOLD);
-            if self.app.mode() == Mode::Placing && ball == self.app.selected() {
+            if !self.view.is_moving && ball == self.view.front {
                 style = style.add_modifier(Modifier::REVERSED);
             }
             buffer.set_stringn(x - u16::from(wide), y, &text, 3, style);

@@ -7,32 +7,24 @@ use std::sync::{
 
 use glam::DVec2;
 
-use super::{App, Effect, Mode, Pending, Position, STEPS};
+use super::{CoachScreen, Pending, Position, STEPS};
 use crate::{
     table::{BALLS, Layout, LayoutError},
     terminal::{
+        app::{Effect, Mode},
         history::History,
-        keymap::Action,
+        keymap::CoachAction as Action,
         placing,
         recommender::Job,
-        screens,
         status::Message,
         words::{BALL_NAMES, step_words},
     },
 };
 
-impl App {
+impl CoachScreen {
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
-            Action::Quit => return Some(Effect::Quit),
-            Action::Suspend => return Some(Effect::Suspend),
-            Action::OpenHelp => self.help = Some(0),
-            Action::CloseHelp => self.help = None,
-            Action::ScrollHelp(lines) => {
-                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL));
-            }
-            Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
             Action::Select(ball) => self.select(ball),
             Action::SelectNext => self.select((self.selected + 1) % BALLS),
             Action::SelectPrevious => self.select((self.selected + BALLS - 1) % BALLS),
@@ -106,7 +98,7 @@ impl App {
     }
 
     /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
-    fn place(&mut self, layout: Layout) {
+    pub(super) fn place(&mut self, layout: Layout) {
         self.balls.push(Position { layout, shot: None });
         self.rest();
     }
@@ -116,7 +108,7 @@ impl App {
         self.rest();
     }
 
-    fn rest(&mut self) {
+    pub(super) fn rest(&mut self) {
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
     }
@@ -135,10 +127,11 @@ impl App {
         let cancel = Arc::new(AtomicBool::new(false));
         self.pending = Some(Pending { id: self.questions, cancel: Arc::clone(&cancel), waited: 0.0 });
         let (table, layout) = (self.table.clone(), *self.layout());
-        Effect::Recommend(Box::new(Job { id: self.questions, table, layout, seed: self.questions, cancel }))
+        let tutor = self.tutor.clone();
+        Effect::Recommend(Box::new(Job { id: self.questions, table, layout, tutor, seed: self.questions, cancel }))
     }
 
-    fn cancel(&mut self) {
+    pub(super) fn cancel(&mut self) {
         if let Some(pending) = self.pending.take() {
             pending.cancel.store(true, Ordering::Relaxed);
             self.message = Some(Message::plain("the coach has stopped thinking"));

@@ -1,0 +1,152 @@
+//! What the training screen wants done outside: each on a thread of its own, so that the screen never waits.
+
+mod policies;
+mod polling;
+mod trainer;
+
+use std::{io, path::PathBuf, sync::mpsc::Sender, thread, time::Duration};
+
+use self::polling::Poll;
+use super::{
+    inbox::News,
+    training::{Keeping, Launch, Report, Slot, Wanted},
+};
+use crate::learning::run::{follow::Follower, list::runs_in, request::Request};
+
+/// Time between two looks at a run that is followed.
+const FOLLOW_INTERVAL: Duration = Duration::from_millis(100);
+/// Time between two looks at the list of runs.
+const LIST_INTERVAL: Duration = Duration::from_secs(2);
+
+/// Does what is wanted and sends what comes of it to the screen.
+#[derive(Debug)]
+pub struct Errands {
+    to_screen: Sender<News>,
+    wanted: Wanted,
+    list: Option<Poll>,
+    followed: [Option<Poll>; 2],
+}
+
+impl Errands {
+    /// Nothing is wanted yet.
+    pub fn new(to_screen: Sender<News>) -> Self {
+        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None] }
+    }
+
+    /// Starts to find out what is wanted now, and stops what is not wanted any more.
+    ///
+    /// # Errors
+    /// A thread that could not be started.
+    pub fn want(&mut self, wanted: Wanted) -> io::Result<()> {
+        if wanted == self.wanted {
+            return Ok(());
+        }
+        if wanted.runs != self.wanted.runs {
+            // What is dropped stops.
+            self.list = None;
+            if let Some(folder) = wanted.runs.clone() {
+                self.list = Some(Poll::start("runs", LIST_INTERVAL, self.to_screen.clone(), list(folder))?);
+            }
+        }
+        for (n, slot) in Slot::ALL.into_iter().enumerate() {
+            if wanted.followed[n] != self.wanted.followed[n] {
+                self.followed[n] = None;
+                if let Some(folder) = wanted.followed[n].clone() {
+                    let look = follow(slot, folder);
+                    self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
+                }
+            }
+        }
+        self.wanted = wanted;
+        Ok(())
+    }
+
+    /// The screen has taken a report: whoever sent it may look again. News never pile up before a screen that is slow.
+    pub fn taken(&self, report: &Report) {
+        let poll = match report {
+            Report::Runs(_) => &self.list,
+            Report::Followed(Slot::Main, ..) => &self.followed[0],
+            Report::Followed(Slot::Compared, ..) => &self.followed[1],
+            _ => &None,
+        };
+        if let Some(poll) = poll {
+            poll.taken();
+        }
+    }
+
+    /// Starts a process that trains.
+    ///
+    /// # Errors
+    /// A thread that could not be started, here and below.
+    pub fn train(&self, launch: Launch) -> io::Result<()> {
+        self.spawn("trainer", move || {
+            let failure = trainer::run(&launch.arguments).err()?;
+            Some(Report::TrainerFailed(launch.folder, failure))
+        })
+    }
+
+    /// Asks a run for something.
+    ///
+    /// # Errors
+    /// As [`Errands::train`].
+    pub fn send(&self, request: Request, folder: PathBuf) -> io::Result<()> {
+        self.spawn("request", move || {
+            Some(Report::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
+        })
+    }
+
+    /// Keeps a policy under a name.
+    ///
+    /// # Errors
+    /// As [`Errands::train`].
+    pub fn keep(&self, keeping: Keeping) -> io::Result<()> {
+        self.spawn("keep", move || {
+            let outcome = policies::keep(&keeping);
+            Some(Report::Kept(keeping, outcome))
+        })
+    }
+
+    /// Reads the policy of the run in `folder`.
+    ///
+    /// # Errors
+    /// As [`Errands::train`].
+    pub fn load_policy(&self, folder: PathBuf) -> io::Result<()> {
+        self.spawn("policy", move || {
+            let policy = policies::load(&folder);
+            Some(Report::Policy(folder, policy))
+        })
+    }
+
+    fn spawn(&self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<()> {
+        let to_screen = self.to_screen.clone();
+        thread::Builder::new().name(name.into()).spawn(move || {
+            if let Some(report) = work() {
+                // A screen that is gone needs no answer.
+                let _ = to_screen.send(News::Report(report));
+            }
+        })?;
+        Ok(())
+    }
+}
+
+/// Lists the runs, and reports where anything has changed.
+fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
+    let mut before = None;
+    move || {
+        let found = match runs_in(&folder) {
+            // Nothing has ever been trained.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+            found => found.map_err(|error| format!("{}: {error}", folder.display())),
+        };
+        if before.as_ref() == Some(&found) {
+            return None;
+        }
+        before = Some(found.clone());
+        Some(Report::Runs(found))
+    }
+}
+
+fn follow(slot: Slot, folder: PathBuf) -> impl FnMut() -> Option<Report> {
+    let mut follower = Follower::new(&folder);
+    move || follower.look().map(|update| Report::Followed(slot, folder.clone(), Box::new(update)))
+}

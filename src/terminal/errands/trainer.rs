@@ -1,0 +1,64 @@
+//! Processes that train. They are on their own: neither the end of the screen nor that of its terminal reaches them.
+
+use std::{
+    ffi::OsString,
+    fs::File,
+    io::{Read, Seek, SeekFrom},
+    os::unix::process::CommandExt,
+    process::{Command, Stdio},
+};
+
+/// Bytes at the end of what a process says in which its last sentence is looked for.
+const LAST_BYTES: i64 = 4096;
+
+/// Runs this program with `arguments` until it ends.
+///
+/// # Errors
+/// A sentence where it cannot be started or fails, its own where it says one.
+pub fn run(arguments: &[OsString]) -> Result<(), String> {
+    let start = || {
+        let program = std::env::current_exe()?;
+        // What it says goes to a file that has no name. A pipe would break with the end of this screen, and a write to
+        // it would then end the training.
+        let said = tempfile::tempfile()?;
+        let mut command = Command::new(program);
+        command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(said.try_clone()?);
+        // Signals of the terminal go to a group of processes: not to this one.
+        Ok((command.process_group(0).spawn()?, said))
+    };
+    let (mut process, said) =
+        start().map_err(|error: std::io::Error| format!("training cannot be started: {error}"))?;
+    let status = process.wait().map_err(|error| format!("the training is lost from sight: {error}"))?;
+    if status.success() {
+        return Ok(());
+    }
+    Err(last_sentence(said).unwrap_or_else(|| format!("the process that trains has ended: {status}")))
+}
+
+/// The last line of a file, without the program's name before it.
+fn last_sentence(mut file: File) -> Option<String> {
+    let length = i64::try_from(file.metadata().ok()?.len()).ok()?;
+    file.seek(SeekFrom::End(-length.min(LAST_BYTES))).ok()?;
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes).ok()?;
+    let text = String::from_utf8_lossy(&bytes);
+    let line = text.lines().rev().map(str::trim).find(|line| !line.is_empty())?;
+    Some(line.strip_prefix("carom: ").unwrap_or(line).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    #[test]
+    fn the_last_sentence_is_found_however_much_was_said() {
+        let mut file = tempfile::tempfile().unwrap();
+        assert_eq!(last_sentence(file.try_clone().unwrap()), None);
+        for n in 0..2000 {
+            writeln!(file, "line {n}").unwrap();
+        }
+        writeln!(file, "carom: the folder is full\n").unwrap();
+        assert_eq!(last_sentence(file).unwrap(), "the folder is full");
+    }
+}

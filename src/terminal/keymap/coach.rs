@@ -1,0 +1,150 @@
+//! The coach's keys.
+
+use crossterm::event::KeyCode::{self, BackTab, Down, End, Enter, Esc, Home, Left, Right, Tab, Up};
+
+use super::{
+    Action, Binding,
+    Section::{self, Balls, Program, Shot},
+    When, entry,
+};
+use crate::terminal::chord::Chord;
+
+/// What a key does on the coach's screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CoachAction {
+    /// Selects a ball.
+    Select(usize),
+    /// Selects the next ball.
+    SelectNext,
+    /// Selects the ball before.
+    SelectPrevious,
+    /// Moves the selected ball: steps to the right and up, and how large a step is against the chosen one.
+    Move(i8, i8, f64),
+    /// Chooses a larger step.
+    LargerStep,
+    /// Chooses a smaller step.
+    SmallerStep,
+    /// Puts the balls on their spots.
+    Opening,
+    /// Puts the balls anywhere.
+    Random,
+    /// Takes the last change of the balls back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Asks the coach.
+    Recommend,
+    /// Stops asking.
+    Cancel,
+    /// Plays or pauses the shot.
+    PlayPause,
+    /// Steps to the next event.
+    NextEvent,
+    /// Steps to the event before.
+    PreviousEvent,
+    /// Goes to the stroke.
+    ToStart,
+    /// Goes to where the balls lie still.
+    ToEnd,
+    /// Plays faster.
+    Faster,
+    /// Plays slower.
+    Slower,
+    /// Leaves the shot, to move balls again.
+    PlaceBalls,
+    /// Takes the balls as the shot leaves them.
+    Continue,
+}
+
+/// When a binding of the coach may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoachWhen {
+    /// Whatever the coach does.
+    Anytime,
+    /// While the coach is not thinking.
+    Idle,
+    /// While balls are placed.
+    Placing,
+    /// While a shot is watched.
+    Watching,
+    /// Where a shot is there.
+    Shot,
+    /// While the coach thinks.
+    Thinking,
+    /// Where a change can be taken back.
+    Undoable,
+    /// Where a change was taken back.
+    Redoable,
+}
+
+const fn bind(
+    section: Section,
+    when: CoachWhen,
+    keys: &'static [(Chord, Action)],
+    hint: Option<(&'static str, usize)>,
+    description: &'static str,
+) -> Binding {
+    entry(section, When::Coach(when), keys, hint, description)
+}
+
+const fn key(code: KeyCode, action: CoachAction) -> (Chord, Action) {
+    on(Chord::plain(code), action)
+}
+
+const fn letter(letter: char, action: CoachAction) -> (Chord, Action) {
+    on(Chord::char(letter), action)
+}
+
+const fn on(chord: Chord, action: CoachAction) -> (Chord, Action) {
+    (chord, Action::Coach(action))
+}
+
+use CoachAction as A;
+use CoachWhen as W;
+
+/// The keys, the more particular ones first.
+#[rustfmt::skip]
+pub const COACH: &[Binding] = &[
+    bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
+    bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
+    bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
+    bind(Balls, W::Placing, &[
+        key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
+        key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),
+        letter('h', A::Move(-1, 0, 1.0)), letter('j', A::Move(0, -1, 1.0)),
+        letter('k', A::Move(0, 1, 1.0)), letter('l', A::Move(1, 0, 1.0)),
+        ], Some(("move", 4)), "move the selected ball by one step"),
+    bind(Balls, W::Placing, &[
+        on(Chord::shift(Left), A::Move(-1, 0, 10.0)), on(Chord::shift(Down), A::Move(0, -1, 10.0)),
+        on(Chord::shift(Up), A::Move(0, 1, 10.0)), on(Chord::shift(Right), A::Move(1, 0, 10.0)),
+        letter('H', A::Move(-1, 0, 10.0)), letter('J', A::Move(0, -1, 10.0)),
+        letter('K', A::Move(0, 1, 10.0)), letter('L', A::Move(1, 0, 10.0)),
+        ], None, "the same by ten steps"),
+    bind(Balls, W::Placing, &[
+        on(Chord::ctrl(Left), A::Move(-1, 0, 0.1)), on(Chord::ctrl(Down), A::Move(0, -1, 0.1)),
+        on(Chord::ctrl(Up), A::Move(0, 1, 0.1)), on(Chord::ctrl(Right), A::Move(1, 0, 0.1)),
+        ], None, "the same by a tenth of a step"),
+    bind(Balls, W::Placing, &[letter('-', A::SmallerStep), letter('+', A::LargerStep), letter('=', A::LargerStep)],
+        Some(("step", 2)), "choose a smaller or larger step"),
+    bind(Shot, W::Watching, &[key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls)], Some(("place balls", 1)),
+        "back to the balls as they were"),
+    bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
+        Some(("event", 2)), "step from event to event"),
+    bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
+        "the same while a shot is watched"),
+    bind(Shot, W::Watching, &[letter('-', A::Slower), letter('+', A::Faster), letter('=', A::Faster),
+        key(Down, A::Slower), key(Up, A::Faster)], Some(("speed", 2)), "play slower or faster"),
+    bind(Shot, W::Shot, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('0', A::ToStart), letter('$', A::ToEnd)],
+        None, "to the stroke, to the end"),
+    bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
+        "go on with the balls as the shot leaves them"),
+    bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),
+        letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red"),
+    bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
+    bind(Balls, W::Redoable, &[letter('U', A::Redo), on(Chord::ctrl(KeyCode::Char('r')), A::Redo)], Some(("redo", 1)),
+        "make it again"),
+    bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots"),
+    bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
+    bind(Program, W::Anytime, &[(Chord::char('t'), Action::OpenTraining)], Some(("train", 1)),
+        "train agents and watch them learn"),
+];

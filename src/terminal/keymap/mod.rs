@@ -1,0 +1,253 @@
+//! The tables of keys: dispatch, the hint line and the help all read them, so that they cannot disagree.
+
+mod coach;
+mod training;
+
+use crossterm::event::{
+    KeyCode::{self, Down, Enter, Esc, F, PageDown, PageUp, Up},
+    KeyEvent,
+};
+
+use super::chord::Chord;
+
+pub use coach::{CoachAction, CoachWhen};
+pub use training::{TrainingAction, TrainingWhen};
+
+/// What a key does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// Ends the program.
+    Quit,
+    /// Stops the program until the shell continues it.
+    Suspend,
+    /// Opens the help.
+    OpenHelp,
+    /// Closes the help.
+    CloseHelp,
+    /// Scrolls the help by lines, down where positive.
+    ScrollHelp(i16),
+    /// Draws the table with the next simpler set of characters.
+    NextGlyphs,
+    /// Opens the training screen.
+    OpenTraining,
+    /// Something on the coach's screen.
+    Coach(CoachAction),
+    /// Something on the training screen.
+    Training(TrainingAction),
+}
+
+/// When a binding may be used; the app knows whether it holds, and why not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// Whatever is on the screen.
+    Always,
+    /// While the help is open.
+    Help,
+    /// As the coach's screen says.
+    Coach(CoachWhen),
+    /// As the training screen says.
+    Training(TrainingWhen),
+}
+
+/// What is on the screen: each has its own keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The coach.
+    Coach,
+    /// The list of runs.
+    Runs,
+    /// The same, to choose one to compare with.
+    Compare,
+    /// The form for a new run.
+    Form,
+    /// A run that is watched.
+    Watch,
+    /// A question about a run.
+    Question,
+    /// A name that is typed.
+    Name,
+}
+
+/// Headings of the help, in its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// Keys that move balls.
+    Balls,
+    /// Keys that ask the coach and play the shot.
+    Shot,
+    /// Keys of the list of runs.
+    List,
+    /// Keys of the form.
+    Form,
+    /// Keys that choose what is drawn of a run.
+    Charts,
+    /// Keys that steer a run and use what it has learnt.
+    Run,
+    /// Keys of the replay.
+    Replay,
+    /// All others.
+    Program,
+}
+
+/// One line of a table.
+#[derive(Debug)]
+pub struct Binding {
+    /// The keys, each with what it does.
+    pub keys: &'static [(Chord, Action)],
+    /// Its word in the hint line, and how many of the keys stand before it there.
+    pub hint: Option<(&'static str, usize)>,
+    /// What the help says.
+    pub description: &'static str,
+    /// When it may be used.
+    pub when: When,
+    /// Its heading in the help.
+    pub section: Section,
+}
+
+impl Section {
+    /// All headings, in the help's order.
+    pub const ALL: [Self; 8] =
+        [Self::Balls, Self::Shot, Self::List, Self::Form, Self::Charts, Self::Run, Self::Replay, Self::Program];
+
+    /// The heading.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Balls => "Placing the balls",
+            Self::Shot => "The shot",
+            Self::List => "The list of runs",
+            Self::Form => "A new run",
+            Self::Charts => "The charts",
+            Self::Run => "The run",
+            Self::Replay => "The replay",
+            Self::Program => "The program",
+        }
+    }
+}
+
+const fn entry(
+    section: Section,
+    when: When,
+    keys: &'static [(Chord, Action)],
+    hint: Option<(&'static str, usize)>,
+    description: &'static str,
+) -> Binding {
+    Binding { keys, hint, description, when, section }
+}
+
+const fn key(code: KeyCode, action: Action) -> (Chord, Action) {
+    (Chord::plain(code), action)
+}
+
+const fn letter(letter: char, action: Action) -> (Chord, Action) {
+    (Chord::char(letter), action)
+}
+
+const fn ctrl(letter: char, action: Action) -> (Chord, Action) {
+    (Chord::ctrl(KeyCode::Char(letter)), action)
+}
+
+use Action as A;
+use Section::Program;
+
+/// The keys of the help while it is open.
+#[rustfmt::skip]
+const HELP: &[Binding] = &[
+    entry(Program, When::Help, &[key(Esc, A::CloseHelp), letter('?', A::CloseHelp), letter('q', A::CloseHelp),
+        key(Enter, A::CloseHelp), key(F(1), A::CloseHelp)], Some(("close", 1)), "close the help"),
+    entry(Program, When::Help, &[key(Down, A::ScrollHelp(1)), key(Up, A::ScrollHelp(-1)), letter('j', A::ScrollHelp(1)),
+        letter('k', A::ScrollHelp(-1)), key(PageDown, A::ScrollHelp(10)), key(PageUp, A::ScrollHelp(-10))],
+        Some(("scroll", 2)), "scroll the help"),
+];
+
+/// The keys that all screens have.
+#[rustfmt::skip]
+const PROGRAM: &[Binding] = &[
+    entry(Program, When::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
+    entry(Program, When::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
+    entry(Program, When::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
+    entry(Program, When::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
+];
+
+/// Those of them that mean nothing else where letters are answers.
+#[rustfmt::skip]
+const LEAVE: &[Binding] = &[
+    entry(Program, When::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
+    entry(Program, When::Always, &[ctrl('c', A::Quit)], None, "quit"),
+];
+
+/// All keys at `place`. The first enabled binding with a key wins; the hint line shows as many as fit, in this order.
+pub fn bindings(place: Place) -> impl Iterator<Item = &'static Binding> {
+    let own = match place {
+        Place::Coach => coach::COACH,
+        Place::Runs => training::RUNS,
+        Place::Compare => training::COMPARE,
+        Place::Form => training::FORM,
+        Place::Watch => training::WATCH,
+        Place::Question => training::QUESTION,
+        Place::Name => training::NAME,
+    };
+    let (help, program) = match place {
+        Place::Question | Place::Name => (&[][..], LEAVE),
+        _ => (HELP, PROGRAM),
+    };
+    help.iter().chain(own).chain(program)
+}
+
+/// What `event` asks for at `place`: the first binding that may be used now, or else the reason why the last one may
+/// not, since the more particular ones come first.
+/// `None` where no binding has the key. `refusal` says why a binding may not be used.
+pub fn find<'a>(
+    event: &KeyEvent,
+    place: Place,
+    refusal: impl Fn(When) -> Option<&'a str>,
+) -> Option<Result<Action, &'a str>> {
+    let mut refused = None;
+    for binding in bindings(place) {
+        let Some((_, action)) = binding.keys.iter().find(|(chord, _)| chord.matches(event)) else { continue };
+        match refusal(binding.when) {
+            None => return Some(Ok(*action)),
+            Some(reason) => refused = Some(Err(reason)),
+        }
+    }
+    refused
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLACES: [Place; 7] =
+        [Place::Coach, Place::Runs, Place::Compare, Place::Form, Place::Watch, Place::Question, Place::Name];
+
+    #[test]
+    fn no_two_bindings_with_the_same_condition_share_a_key() {
+        for place in PLACES {
+            let all: Vec<_> = bindings(place).collect();
+            for (n, one) in all.iter().enumerate() {
+                for other in all[n + 1..].iter().filter(|other| other.when == one.when) {
+                    for (chord, _) in one.keys {
+                        let free = other.keys.iter().all(|(theirs, _)| theirs != chord);
+                        assert!(free, "{place:?} {chord:?}: {}", other.description);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_refused_key_says_why_and_an_unknown_one_nothing() {
+        let refuse_all = |_| Some("not now");
+        let press = |letter| KeyEvent::from(KeyCode::Char(letter));
+        assert_eq!(find(&press('u'), Place::Coach, refuse_all), Some(Err("not now")));
+        assert_eq!(find(&press('u'), Place::Coach, |_| None), Some(Ok(Action::Coach(CoachAction::Undo))));
+        assert_eq!(find(&press('%'), Place::Coach, refuse_all), None);
+    }
+
+    #[test]
+    fn the_program_can_be_left_from_everywhere() {
+        let event = KeyEvent::new(KeyCode::Char('c'), crossterm::event::KeyModifiers::CONTROL);
+        for place in PLACES {
+            assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
+        }
+    }
+}

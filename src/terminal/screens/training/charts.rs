@@ -1,0 +1,68 @@
+//! The charts of a run, and of the one that it is compared with.
+
+use std::ops::RangeInclusive;
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::panes::grid;
+use crate::{
+    learning::run::{follow::Followed, history::Point, quantity::Quantity},
+    terminal::{
+        app::App,
+        chart::{Chart, Curve, Whose, draw_chart},
+        training::Watch,
+    },
+};
+
+/// Draws those that are chosen.
+pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
+    let charts = &watch.charts;
+    let shots = charts.range(watch.most_shots(), watch.planned());
+    let range = shots.0..=shots.1;
+    let drawn = charts.drawn();
+    if drawn.is_empty() {
+        let words = "No chart is shown; 1 to 9 show some, ? lists them.";
+        buffer.set_stringn(
+            area.x + 3,
+            area.y + 1,
+            words,
+            usize::from(area.width.saturating_sub(4)),
+            app.theme().faint(),
+        );
+        return;
+    }
+    for (&n, (place, is_last)) in drawn.iter().zip(grid(drawn.len(), area)) {
+        let quantity = Quantity::ALL[n];
+        let title = title(n, watch);
+        let own = points(&watch.own.run, quantity, &range);
+        let other = watch.other.as_ref().map(|other| points(&other.run, quantity, &range));
+        let mut curves = Vec::new();
+        if let (Some(other), Some(points)) = (&watch.other, &other) {
+            curves.push(Curve { points, odd: other.run.history.odd(quantity), whose: Whose::Other });
+        }
+        curves.push(Curve { points: &own, odd: watch.own.run.history.odd(quantity), whose: Whose::Own });
+        let chart = Chart {
+            title: &title,
+            curves: &curves,
+            shots,
+            log: charts.is_log(n),
+            smoothing: charts.smoothing(),
+            selected: charts.is_selected(n),
+            with_shots: is_last,
+            note: None,
+        };
+        draw_chart(&chart, place, app.theme(), app.look(), buffer);
+    }
+}
+
+fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Vec<Point> {
+    run.history.points(quantity, range.clone())
+}
+
+/// The key and the quantity. What is measured is no share of successes where the reward says something else.
+fn title(n: usize, watch: &Watch) -> String {
+    let quantity = Quantity::ALL[n];
+    let is_share = watch.reward().is_none_or(|reward| reward.rule().is_some());
+    let name = if quantity == Quantity::HeldOut && !is_share { "held-out reward" } else { quantity.name() };
+    format!("{} {name}", n + 1)
+}

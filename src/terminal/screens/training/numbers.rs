@@ -1,0 +1,121 @@
+//! The panel of a run's numbers.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    learning::{evaluation::SuccessRate, run::standing::Phase},
+    terminal::{
+        app::App,
+        training::Watch,
+        widgets::{draw_title, write_right},
+        words::{count, time_words},
+    },
+};
+
+/// Most columns of a name and its value.
+const WIDE: u16 = 30;
+/// What stands where nothing is known.
+const UNKNOWN: &str = "-";
+
+/// Draws the panel.
+pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme();
+    let mut title = vec![Span::styled(if watch.other.is_some() { "Compared" } else { "Numbers" }, theme.text())];
+    if let Some(other) = &watch.other {
+        title.push(Span::styled(format!(" with {}", other.name), theme.faint()));
+    } else if let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref()) {
+        title.push(Span::styled(format!(" started with {}", from.path), theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, theme, app.look(), buffer);
+    let [left, right] = columns(watch);
+    let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
+    let lines = left.len().max(right.len());
+    // Air above, where there is some.
+    let top = inner.y + u16::from(usize::from(inner.height) > lines + 2);
+    for (rows, x) in [(left, inner.x + 1), (right, inner.x + width + 3)] {
+        for ((name, value), y) in rows.into_iter().zip(top..inner.bottom()) {
+            buffer.set_stringn(x, y, name, usize::from(width), theme.faint());
+            write_right(buffer, x + name.len() as u16 + 1, x + width, y, &value, theme.text());
+        }
+    }
+}
+
+type Row = (&'static str, String);
+
+/// Names and values: how far the run is and how fast it goes, and what it has learnt with what. In either the most
+/// important come first, for not all find room everywhere.
+fn columns(watch: &Watch) -> [Vec<Row>; 2] {
+    let run = &watch.own.run;
+    let (standing, last) = (run.standing.as_ref(), run.history.last());
+    let shots = watch.own.shots();
+    let seconds = standing.map(|standing| standing.seconds).or(last.map(|record| record.seconds));
+    let updates = standing.map(|standing| standing.updates).or(last.map(|record| record.updates));
+    // Speeds are of a run at work alone.
+    let working = standing.filter(|_| watch.is_at_work());
+    let speed = |value: Option<f64>| known(value.filter(|value| value.is_finite()), |value| count(value as u64));
+    let pace = working.map(|standing| standing.shots_per_second).filter(|pace| *pace > 0.0);
+    let left = watch.planned().map(|planned| planned.saturating_sub(shots));
+    let eta = match (left, pace, working.map(|standing| standing.phase)) {
+        (Some(left), Some(pace), Some(Phase::Training | Phase::Measuring)) => Some(left as f64 / pace),
+        _ => None,
+    };
+    let exploration = standing.map(|standing| standing.exploration).or(last.and_then(|record| record.exploration));
+    let memory = standing.and_then(|standing| standing.memory).or(last.and_then(|record| record.memory));
+    let three = |value: f64| format!("{value:.3}");
+    let config = run.config.as_ref();
+    let held_out = watch.held_out();
+    let is_share = watch.reward().is_some_and(|reward| reward.rule().is_some());
+    let measured = if is_share { "success" } else { "reward" };
+    let mut learnt = vec![(measured, known(held_out, three)), ("best", known(run.history.best(), three))];
+    if is_share {
+        learnt.insert(
+            1,
+            (
+                "95 % within",
+                known(held_out.zip(config), |(rate, config)| {
+                    let layouts = config.schedule.evaluation_layouts;
+                    let SuccessRate { low, high, .. } =
+                        SuccessRate::new((rate * layouts as f64).round() as usize, layouts);
+                    format!("{low:.3} to {high:.3}")
+                }),
+            ),
+        );
+    }
+    learnt.extend([
+        ("exploration", known(exploration, three)),
+        ("memory filled", known(memory, |share| format!("{:.0} %", 100.0 * share))),
+        ("learning rate", known(last, |record| format!("{:.1e}", record.learning_rate))),
+        ("updates", known(updates, count)),
+        ("seed", known(config, |config| config.plan.seed.to_string())),
+    ]);
+    if let Some(config) = config {
+        learnt.extend([
+            ("agent", config.agent.clone()),
+            ("reward", config.plan.reward.to_string()),
+            ("table", config.table.name.clone()),
+        ]);
+    }
+    [
+        vec![
+            ("shots", count(shots)),
+            ("planned", known(watch.planned(), count)),
+            ("trained for", known(seconds, time_words)),
+            ("time left", known(eta, time_words)),
+            ("shots/s", speed(working.map(|standing| standing.shots_per_second))),
+            ("updates/s", speed(working.map(|standing| standing.updates_per_second))),
+            ("measured every", known(config, |config| count(config.schedule.evaluate_every))),
+            ("layouts", known(config, |config| count(config.schedule.evaluation_layouts as u64))),
+            ("started", known(config, |config| config.started.replace('T', " ").replace('Z', ""))),
+            ("carom", known(config, |config| config.version.clone())),
+        ],
+        learnt,
+    ]
+}
+
+fn known<T>(value: Option<T>, words: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| UNKNOWN.to_owned(), words)
+}

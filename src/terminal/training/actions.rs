@@ -1,0 +1,177 @@
+//! What each key does to the training screen, and when it may be used.
+
+use super::{Form, Keeping, Launch, Page, Question, TrainingScreen, Watch, question::wrong_name};
+use crate::{
+    learning::run::request::Request,
+    terminal::{
+        app::Effect,
+        keymap::{TrainingAction as Action, TrainingWhen as When},
+        status::Message,
+        training::watch::Named,
+    },
+};
+
+impl TrainingScreen {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn refusal(&self, when: When) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        let Some(watch) = &self.watch else {
+            return match when {
+                When::Here => None,
+                When::Marked => refuse(self.list.marked().is_none(), "there is no run yet; n starts one"),
+                When::MarkedCanGoOn => self.list.refusal_to_go_on(),
+                _ => Some("no run is watched"),
+            };
+        };
+        match when {
+            When::Here => None,
+            When::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
+            When::MarkedCanGoOn => self.list.refusal_to_go_on(),
+            When::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
+            When::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
+            When::AtWork => {
+                refuse(!watch.is_at_work(), "the run is not at work; r goes on with one that has not finished")
+            }
+            When::CanGoOn => watch.refusal_to_go_on(),
+            When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet"),
+            When::Shots => {
+                refuse(watch.replay.examples().is_none(), "no shots yet: they come with the first measurement")
+            }
+        }
+    }
+
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.back(),
+            Action::Line(lines) => self.list.move_mark(lines),
+            Action::Choose => self.choose(),
+            Action::New => {
+                self.form = Form::new();
+                self.pages.push(Page::Form);
+            }
+            Action::Resume => return self.resume(),
+            Action::Field(fields) => self.form.move_mark(fields),
+            Action::Value(step) => self.form.choose(step, self.list.runs()),
+            Action::Erase => match &mut self.question {
+                Some(question) => question.erase(),
+                None => self.form.erase(),
+            },
+            Action::Start => return self.start(),
+            Action::Yes => return self.yes(),
+            Action::No => self.question = None,
+            other => return self.steer(other),
+        }
+        None
+    }
+
+    fn back(&mut self) {
+        if self.pages.pop() == Some(Page::Watch) {
+            self.watch = None;
+        }
+    }
+
+    fn choose(&mut self) {
+        let Some(name) = self.list.marked().map(|run| run.name.clone()) else { return };
+        let folder = self.folder.join(&name);
+        if self.page() != Page::Compare {
+            self.show(folder);
+            return;
+        }
+        self.pages.pop();
+        let Some(watch) = &mut self.watch else { return };
+        if watch.folder() == folder {
+            self.message = Some(Message::warning("a run cannot be compared with itself; c chooses another"));
+        } else {
+            watch.other = Some(Named::new(&folder, &self.places.runs));
+        }
+    }
+
+    fn start(&mut self) -> Option<Effect> {
+        match self.form.launch(&self.folder) {
+            Ok(launch) => {
+                self.show(launch.folder.clone());
+                Some(Effect::Train(Box::new(launch)))
+            }
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    fn resume(&mut self) -> Option<Effect> {
+        let folder = match (self.page(), &self.watch) {
+            (Page::Watch, Some(watch)) => watch.folder().to_owned(),
+            _ => {
+                let folder = self.folder.join(&self.list.marked()?.name);
+                self.show(folder.clone());
+                folder
+            }
+        };
+        self.message = Some(Message::plain("going on from the last checkpoint"));
+        Some(Effect::Train(Box::new(Launch::resume(&folder))))
+    }
+
+    /// What the keys do to the run that is watched, and to how it is shown.
+    fn steer(&mut self, action: Action) -> Option<Effect> {
+        let Self { watch: Some(watch), question, .. } = self else { return None };
+        let (shots, planned) = (watch.most_shots(), watch.planned());
+        let Watch { charts, replay, .. } = watch;
+        match action {
+            Action::Show(n) => charts.toggle(n),
+            Action::Chart(steps) => charts.select(steps),
+            Action::Enlarge => charts.enlarge(),
+            Action::Log => charts.toggle_log(),
+            Action::Smooth => charts.smooth(),
+            Action::Zoom(steps) => charts.zoom(steps, shots, planned),
+            Action::Pan(steps) => charts.pan(steps, shots, planned),
+            Action::All => charts.show_all(),
+            Action::Follow => charts.follow_end(),
+            Action::Compare if watch.other.is_some() => watch.other = None,
+            Action::Compare => self.pages.push(Page::Compare),
+            Action::Pause => {
+                let request = if watch.is_paused() { Request::GoOn } else { Request::Pause };
+                return Some(Effect::Send(request, watch.folder().to_owned()));
+            }
+            Action::Stop => *question = Some(Question::Stop),
+            Action::Abandon => *question = Some(Question::Abandon),
+            Action::Use => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
+            Action::Keep => *question = Some(Question::Name(watch.own.name.replace(['/', '\\'], "-"))),
+            Action::Play | Action::Shot(_) => {
+                let table = &watch.own.run.config.as_ref()?.table;
+                match action {
+                    Action::Shot(shots) => replay.step(shots, table),
+                    _ => replay.toggle(table),
+                }
+            }
+            _ => {}
+        }
+        None
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        let watch = self.watch.as_ref()?;
+        let folder = watch.folder().to_owned();
+        match self.question.take()? {
+            Question::Stop => Some(Effect::Send(Request::Stop, folder)),
+            Question::Abandon => Some(Effect::Send(Request::Abandon, folder)),
+            Question::Replace(name) => Some(self.keep(name, true)),
+            Question::Name(typed) => {
+                let name = typed.trim().to_owned();
+                if let Some(sentence) = wrong_name(&name) {
+                    self.question = Some(Question::Name(typed));
+                    self.message = Some(Message::warning(sentence));
+                    return None;
+                }
+                Some(self.keep(name, false))
+            }
+        }
+    }
+
+    fn keep(&self, name: String, replace: bool) -> Effect {
+        let from = self.watch.as_ref().map(Watch::policy).unwrap_or_default();
+        let to = self.places.policies.join(format!("{name}.safetensors"));
+        Effect::Keep(Box::new(Keeping { from, to, name, replace }))
+    }
+}

@@ -1,0 +1,266 @@
+//! The state of the training screen: which page is open, the list of runs, the form, and the run that is watched.
+//!
+//! Training happens in processes of its own, which this screen only starts, follows and steers. [`actions`] is what
+//! each key does.
+
+mod actions;
+mod charts;
+mod form;
+mod question;
+mod replay;
+mod report;
+mod runs;
+mod watch;
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::{keymap::Place, recommender::Tutor, status::Message};
+use crate::{
+    game::Rule,
+    learning::run::{follow::Condition, request::Request},
+    storage::Places,
+    table::Table,
+};
+
+pub use form::{Field, Form};
+pub use question::Question;
+pub use report::{Keeping, Kept, Launch, Report, Slot, Wanted};
+pub use runs::RunList;
+pub use watch::{Named, Watch};
+
+/// A page of the training screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Page {
+    /// The list of runs.
+    Runs,
+    /// The form for a new run.
+    Form,
+    /// The run that is watched.
+    Watch,
+    /// The list of runs, to choose one to compare with.
+    Compare,
+}
+
+impl Page {
+    /// Whose keys it has.
+    pub const fn place(self) -> Place {
+        match self {
+            Self::Runs => Place::Runs,
+            Self::Form => Place::Form,
+            Self::Watch => Place::Watch,
+            Self::Compare => Place::Compare,
+        }
+    }
+}
+
+/// The state of the training screen.
+#[derive(Debug)]
+pub struct TrainingScreen {
+    /// Where runs and policies are.
+    pub places: Places,
+    /// The folder whose runs are listed, and in which new ones are started.
+    pub folder: PathBuf,
+    /// The list of runs.
+    pub list: RunList,
+    /// The form for a new run.
+    pub form: Form,
+    /// The run that is watched.
+    pub watch: Option<Watch>,
+    /// What is asked.
+    pub question: Option<Question>,
+    /// What the status line says.
+    pub message: Option<Message>,
+    /// Whether there is nothing behind the first page.
+    pub alone: bool,
+    /// The pages one has come through; the last one is open.
+    pages: Vec<Page>,
+}
+
+impl TrainingScreen {
+    /// The screen before it is opened.
+    pub fn new(places: Places) -> Self {
+        Self {
+            folder: places.runs.clone(),
+            places,
+            list: RunList::default(),
+            form: Form::new(),
+            watch: None,
+            question: None,
+            message: None,
+            alone: false,
+            pages: Vec::new(),
+        }
+    }
+
+    /// Opens the page that was open last, or the list.
+    pub fn open(&mut self) {
+        self.message = None;
+        if self.pages.is_empty() {
+            self.pages.push(Page::Runs);
+        }
+    }
+
+    /// Opens with a run, or with the list of those in `list`, by default the user's; there is nothing behind its first
+    /// page.
+    pub fn open_alone(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
+        self.alone = true;
+        self.pages = vec![Page::Runs];
+        if let Some(list) = list {
+            self.folder = list;
+        }
+        if let Some(run) = run {
+            self.show(run);
+        }
+    }
+
+    /// Opens the page of the run in `folder`.
+    fn show(&mut self, folder: PathBuf) {
+        let watch = Watch::new(&folder, &self.places.runs);
+        self.list.mark_named(&watch.own.name);
+        self.watch = Some(watch);
+        self.pages.retain(|page| *page == Page::Runs);
+        self.pages.push(Page::Watch);
+    }
+
+    /// Whether one has gone back from the first page.
+    pub const fn is_left(&self) -> bool {
+        self.pages.is_empty()
+    }
+
+    /// The page that is open.
+    pub fn page(&self) -> Page {
+        self.pages.last().copied().unwrap_or(Page::Runs)
+    }
+
+    /// What is on the screen: the page, or what is asked there.
+    pub fn place(&self) -> Place {
+        match &self.question {
+            None => self.page().place(),
+            Some(Question::Name(_)) => Place::Name,
+            Some(_) => Place::Question,
+        }
+    }
+
+    /// Takes a letter where letters are typed; `false` where it is none or none is typed.
+    pub fn typed(&mut self, key: &KeyEvent) -> bool {
+        let KeyCode::Char(letter) = key.code else { return false };
+        if !(key.modifiers - KeyModifiers::SHIFT).is_empty() {
+            return false;
+        }
+        let taken = match &mut self.question {
+            Some(question) => question.typed(letter),
+            None => self.page() == Page::Form && self.form.typed(letter),
+        };
+        if taken {
+            self.message = None;
+        }
+        taken
+    }
+
+    /// What has to be found out now.
+    pub fn wanted(&self) -> Wanted {
+        let lists = matches!(self.page(), Page::Runs | Page::Form | Page::Compare);
+        let folder = |named: &Named| named.run.folder.clone();
+        Wanted {
+            runs: lists.then(|| self.folder.clone()),
+            followed: [
+                self.watch.as_ref().map(|watch| folder(&watch.own)),
+                self.watch.as_ref().and_then(|watch| watch.other.as_ref()).map(folder),
+            ],
+        }
+    }
+
+    /// Takes what has come of something; a policy that is to be used in the coach goes on to it, with its table.
+    pub fn receive(&mut self, report: Report) -> Option<(Table, Tutor)> {
+        match report {
+            Report::Runs(found) => self.list.take(found),
+            Report::Followed(Slot::Main, folder, update) => {
+                if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
+                    let before = watch.condition();
+                    watch.apply(*update);
+                    let changed = watch.condition() != before && !matches!(before, Condition::Stalled(_));
+                    // What was said of what was is no news any more; a failure stays until it is read.
+                    if changed && self.message.as_ref().is_some_and(|message| !message.is_warning()) {
+                        self.message = None;
+                    }
+                }
+            }
+            Report::Followed(Slot::Compared, folder, update) => {
+                let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
+                if let Some(other) = other.filter(|other| other.run.folder == folder) {
+                    other.run.apply(*update);
+                }
+            }
+            Report::TrainerFailed(folder, sentence) => {
+                let name = Named::new(&folder, &self.places.runs).name;
+                self.message = Some(Message::warning(format!("{name}: {sentence}")));
+            }
+            Report::Sent(request, Ok(())) => {
+                self.message = Some(Message::plain(match request {
+                    Request::Pause => "the run is asked to pause",
+                    Request::GoOn => "the run is asked to go on",
+                    Request::Stop => "the run is asked to stop: it measures itself and saves first",
+                    Request::Abandon => "the run is asked to end, and its folder goes",
+                }));
+            }
+            Report::Sent(_, Err(sentence)) => {
+                self.message = Some(Message::warning(format!("the run cannot be asked: {sentence}")));
+            }
+            Report::Kept(keeping, outcome) => self.kept(keeping, outcome),
+            Report::Policy(folder, policy) => return self.policy(&folder, policy),
+        }
+        None
+    }
+
+    fn kept(&mut self, keeping: Keeping, outcome: Result<Kept, String>) {
+        let name = keeping.name;
+        match outcome {
+            Ok(Kept::Done) => {
+                let call = watch::quoted(&name);
+                self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
+            }
+            // Whoever has left the run meanwhile is not asked any more.
+            Ok(Kept::Taken) if self.page() == Page::Watch && self.question.is_none() => {
+                self.question = Some(Question::Replace(name));
+            }
+            Ok(Kept::Taken) => {}
+            Err(sentence) => self.message = Some(Message::warning(format!("{name} is not kept: {sentence}"))),
+        }
+    }
+
+    fn policy(
+        &mut self,
+        folder: &std::path::Path,
+        policy: Result<std::sync::Arc<crate::learning::Policy>, String>,
+    ) -> Option<(Table, Tutor)> {
+        let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder)?;
+        let table = watch.table()?.clone();
+        match policy {
+            Ok(policy) => {
+                let rule = watch.reward().and_then(crate::game::Reward::rule).unwrap_or(Rule::default());
+                Some((table, Tutor { policy: Some((watch.own.name.clone(), policy)), rule }))
+            }
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    /// Lets `seconds` pass for the replay.
+    pub fn tick(&mut self, seconds: f64) {
+        if let Some(watch) = self.watch.as_mut().filter(|watch| watch.own.run.config.is_some())
+            && let Some(config) = &watch.own.run.config
+        {
+            watch.replay.tick(seconds, &config.table);
+        }
+    }
+
+    /// Seconds until the next picture; `None` while nothing moves by itself.
+    pub fn frame_interval(&self) -> Option<f64> {
+        let watch = self.watch.as_ref().filter(|_| self.page() == Page::Watch)?;
+        watch.replay.is_playing().then_some(replay::INTERVAL)
+    }
+}

@@ -1,0 +1,189 @@
+//! A run that is watched, perhaps beside another one.
+
+use std::path::{Path, PathBuf};
+
+use super::{charts::Charts, replay::Replay};
+use crate::{
+    game::Reward,
+    learning::run::{
+        POLICY,
+        examples::Examples,
+        follow::{Condition, Followed, Update},
+        history::Point,
+        quantity::Quantity,
+        standing::Phase,
+    },
+    table::Table,
+};
+
+/// A run and its name.
+#[derive(Debug)]
+pub struct Named {
+    /// How the command line calls it.
+    pub name: String,
+    /// What is known of it.
+    pub run: Followed,
+}
+
+impl Named {
+    /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
+    pub fn new(folder: &Path, runs: &Path) -> Self {
+        let name = folder.strip_prefix(runs).unwrap_or(folder).display().to_string();
+        Self { name, run: Followed::new(folder) }
+    }
+
+    /// Shots that it has played.
+    pub fn shots(&self) -> u64 {
+        let said = self.run.standing.as_ref().map_or(0, |standing| standing.shots);
+        said.max(self.run.history.last().map_or(0, |record| record.shots))
+    }
+}
+
+/// A run that is watched.
+#[derive(Debug)]
+pub struct Watch {
+    /// The run.
+    pub own: Named,
+    /// The run that it is compared with.
+    pub other: Option<Named>,
+    /// Which charts are shown, and how.
+    pub charts: Charts,
+    /// Its latest shots.
+    pub replay: Replay,
+    /// Shots that came before the table that they are played on.
+    early: Option<Examples>,
+}
+
+impl Watch {
+    /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
+    pub fn new(folder: &Path, runs: &Path) -> Self {
+        Self {
+            own: Named::new(folder, runs),
+            other: None,
+            charts: Charts::default(),
+            replay: Replay::default(),
+            early: None,
+        }
+    }
+
+    /// Takes what has changed.
+    pub fn apply(&mut self, mut update: Update) {
+        self.early = update.examples.take().or(self.early.take());
+        self.own.run.apply(update);
+        if let (Some(config), true) = (&self.own.run.config, self.early.is_some())
+            && let Some(examples) = self.early.take()
+        {
+            self.replay.offer(examples, &config.table);
+        }
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.own.run.folder
+    }
+
+    /// How it is.
+    pub const fn condition(&self) -> Condition {
+        self.own.run.condition
+    }
+
+    /// Shots planned, where that is known.
+    pub fn planned(&self) -> Option<u64> {
+        self.own.run.config.as_ref().map(|config| config.plan.shots)
+    }
+
+    /// What it is rewarded for, where that is known.
+    pub fn reward(&self) -> Option<Reward> {
+        self.own.run.config.as_ref().map(|config| config.plan.reward)
+    }
+
+    /// Its table, where that is known.
+    pub fn table(&self) -> Option<&Table> {
+        self.own.run.config.as_ref().map(|config| &config.table)
+    }
+
+    /// Shots played by it or by the run that it is compared with: charts show both.
+    pub fn most_shots(&self) -> u64 {
+        self.own.shots().max(self.other.as_ref().map_or(0, Named::shots))
+    }
+
+    /// The last measurement on held-out layouts.
+    pub fn held_out(&self) -> Option<f64> {
+        let points: Vec<Point> = self.own.run.history.points(Quantity::HeldOut, 0.0..=f64::MAX);
+        points.iter().rev().find_map(|point| point.finite).map(|span| span.mean)
+    }
+
+    /// Whether a process works on it.
+    pub const fn is_at_work(&self) -> bool {
+        match self.condition() {
+            Condition::Is(phase) => !phase.is_over(),
+            Condition::Stalled(_) => true,
+            _ => false,
+        }
+    }
+
+    /// Whether it waits to be told to go on.
+    pub fn is_paused(&self) -> bool {
+        self.condition() == Condition::Is(Phase::Paused)
+    }
+
+    /// Why one cannot go on with it; `None` where one can.
+    pub const fn refusal_to_go_on(&self) -> Option<&'static str> {
+        match self.condition() {
+            Condition::Is(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
+            Condition::Is(Phase::Finished) => {
+                Some("the run is finished; n in the list starts a new one with its weights")
+            }
+            Condition::Is(Phase::Paused) => Some("the run is paused; p lets it go on"),
+            Condition::Is(_) | Condition::Stalled(_) => Some("the run is at work"),
+            Condition::Unknown | Condition::Missing => Some("there is no run yet"),
+            Condition::Removed => Some("the run has been removed"),
+        }
+    }
+
+    /// Where its policy is, if the agent has one that the coach can use.
+    pub fn policy(&self) -> PathBuf {
+        self.folder().join(POLICY)
+    }
+
+    /// What stands in the way of the run, or what can be done now, in a sentence; and whether that is bad news.
+    pub fn advice(&self) -> (String, bool) {
+        let Self { own: Named { name, run }, .. } = self;
+        let resume = format!("r goes on with it, or: carom train --resume {}", quoted(name));
+        let standing = run.standing.as_ref();
+        let reason = standing.and_then(|standing| standing.reason.as_deref());
+        let warning = standing.and_then(|standing| standing.warning.as_deref());
+        match run.condition {
+            Condition::Is(Phase::Failed) => {
+                (format!("{}; {resume}", reason.unwrap_or("the training has broken down")), true)
+            }
+            Condition::Died => (format!("the process that trained is gone without having saved; {resume}"), true),
+            Condition::Stalled(since) => {
+                let seconds = since.as_secs();
+                (format!("nothing has come for {seconds} s, and the process is there: it may be suspended"), true)
+            }
+            Condition::Removed => ("the folder of the run has been removed; Esc goes back".to_owned(), true),
+            _ if !run.notices.is_empty() => (run.notices.join("; "), true),
+            Condition::Is(Phase::Stopped) | Condition::Interrupted => {
+                (format!("stopped before its end; {resume}"), false)
+            }
+            _ if warning.is_some() => (warning.unwrap_or_default().to_owned(), true),
+            Condition::Unknown => ("looking for the run".to_owned(), false),
+            Condition::Missing => ("waiting for the run to start".to_owned(), false),
+            Condition::Is(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
+            Condition::Is(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
+            Condition::Is(Phase::Training) => {
+                (format!("it goes on without this screen: carom watch {}", quoted(name)), false)
+            }
+            Condition::Is(Phase::Finished) => {
+                ("finished; w uses these weights in the coach, k keeps them under a name".to_owned(), false)
+            }
+        }
+    }
+}
+
+/// The name as a shell takes it.
+pub fn quoted(name: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./".contains(letter);
+    if name.chars().all(is_plain) { name.to_owned() } else { format!("'{}'", name.replace('\'', r"'\''")) }
+}

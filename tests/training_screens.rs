@@ -1,0 +1,581 @@
+//! The training screen as one sees it: keys and reports go through the real app, and its pictures are compared.
+
+use std::{path::Path, sync::Arc, time::Duration};
+
+use carom::{
+    game::Rule,
+    learning::{
+        Policy,
+        run::{
+            Config,
+            examples::{Example, Examples},
+            follow::{Condition, Update},
+            list::{Stage, Summary},
+            metrics::Record,
+            request::Request,
+            standing::{Phase, Standing},
+        },
+    },
+    physics::CueInputs,
+    storage::Places,
+    table::{Layout, Table},
+    terminal::{App, Depth, Effect, Glyphs, Kept, Launch, Look, Office, Place, Report, Slot},
+};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use proptest::prelude::*;
+use ratatui::{Terminal, backend::TestBackend, style::Color};
+use serde_json::json;
+
+const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+
+const RUNS: &str = "/runs";
+const NAME: &str = "20261120-091500-ddpg-match-r3-1";
+const OTHER: &str = "20261119-180102-ddpg-match-r3-2";
+
+struct Player {
+    app: App,
+    effects: Vec<Effect>,
+}
+
+impl Player {
+    fn with(look: Look) -> Self {
+        let table = Table::default();
+        let places = Places { runs: RUNS.into(), policies: "/policies".into() };
+        let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap().with_places(places);
+        Self { app, effects: Vec::new() }.press("t")
+    }
+
+    /// At the list of runs.
+    fn new() -> Self {
+        Self::with(TRUE_COLOUR)
+    }
+
+    /// At a run that has played 1.2 of 5 million shots.
+    fn watching(look: Look) -> Self {
+        let player = Self::with(look).report(Report::Runs(Ok(summaries()))).press("Enter");
+        player.update(Slot::Main, NAME, known()).quiet()
+    }
+
+    /// Presses keys: letters as they are, names like `Left`, `Enter` between blanks.
+    fn press(mut self, keys: &str) -> Self {
+        for word in keys.split_whitespace() {
+            let (modifiers, name) = match word.split_once('-') {
+                Some(("C", name)) => (KeyModifiers::CONTROL, name),
+                _ => (KeyModifiers::NONE, word),
+            };
+            let code = match name {
+                "Left" => KeyCode::Left,
+                "Right" => KeyCode::Right,
+                "Up" => KeyCode::Up,
+                "Down" => KeyCode::Down,
+                "Enter" => KeyCode::Enter,
+                "Esc" => KeyCode::Esc,
+                "Tab" => KeyCode::Tab,
+                "End" => KeyCode::End,
+                "Backspace" => KeyCode::Backspace,
+                "Space" => KeyCode::Char(' '),
+                letter => KeyCode::Char(letter.chars().next().unwrap()),
+            };
+            self.effects.extend(self.app.handle(&KeyEvent::new(code, modifiers)));
+        }
+        self
+    }
+
+    fn report(mut self, report: Report) -> Self {
+        self.app.receive_report(report);
+        self
+    }
+
+    fn update(self, slot: Slot, name: &str, update: Update) -> Self {
+        self.report(Report::Followed(slot, Path::new(RUNS).join(name), Box::new(update)))
+    }
+
+    fn condition(self, condition: Condition, reason: Option<&str>) -> Self {
+        let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
+        let standing = Standing { phase, reason: reason.map(str::to_owned), ..standing() };
+        self.update(
+            Slot::Main,
+            NAME,
+            Update { condition: Some(condition), standing: Some(standing), ..Update::default() },
+        )
+    }
+
+    /// The replay has come to its end.
+    fn quiet(mut self) -> Self {
+        for _ in 0..2000 {
+            if self.app.frame_interval().is_none() {
+                break;
+            }
+            self.app.tick(0.1);
+        }
+        assert_eq!(self.app.frame_interval(), None, "it rests");
+        self
+    }
+
+    fn draw(&self, width: u16, height: u16) -> Terminal<TestBackend> {
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        terminal.draw(|frame| self.app.draw(frame)).unwrap();
+        terminal
+    }
+
+    fn text(&self, width: u16, height: u16) -> String {
+        self.draw(width, height).backend().to_string()
+    }
+
+    fn says(&self, part: &str) {
+        let text = self.text(120, 40);
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+fn check(name: &str, player: &Player) {
+    for (width, height) in [(80, 24), (120, 40)] {
+        insta::assert_snapshot!(format!("{name}_{width}x{height}"), without_moments(&player.text(width, height)));
+    }
+}
+
+/// The text with every moment of the form 20261120-143005 that is now replaced.
+fn without_moments(text: &str) -> String {
+    let mut text = text.to_owned();
+    let is_moment = |part: &[u8]| {
+        part.iter().enumerate().all(|(n, byte)| if n == 8 { *byte == b'-' } else { byte.is_ascii_digit() })
+    };
+    for start in 0..text.len().saturating_sub(15) {
+        let part = &text.as_bytes()[start..start + 15];
+        if is_moment(part) && !NAME.as_bytes().starts_with(part) && !OTHER.as_bytes().starts_with(part) {
+            text.replace_range(start..start + 15, "yyyymmdd-hhmmss");
+        }
+    }
+    text
+}
+
+fn summary(name: &str, shots: u64, best: Option<f64>, state: Stage) -> Summary {
+    Summary {
+        name: name.into(),
+        agent: "ddpg".into(),
+        reward: carom::game::Reward::R3,
+        table: "match".into(),
+        seed: 1,
+        shots,
+        planned_shots: 5_000_000,
+        best_reward: best,
+        last_reward: best.map(|best| best - 0.004),
+        started: format!("2026-11-{}T09:15:00Z", &name[6..8]),
+        changed: "2026-11-20T10:01:12Z".into(),
+        state,
+    }
+}
+
+fn summaries() -> Vec<Summary> {
+    vec![
+        summary(OTHER, 5_000_000, Some(0.931), Stage::Finished),
+        summary(NAME, 1_200_000, Some(0.874), Stage::Running),
+        summary("20261118-three-cushions/seed-1", 40_000, None, Stage::Interrupted),
+    ]
+}
+
+fn config(reward: &str) -> Config {
+    serde_json::from_value(json!({
+        "agent": "ddpg", "reward": reward, "seed": 1, "shots": 5_000_000, "started": "2026-11-20T09:15:00Z",
+        "version": "0.1.0", "source": null, "from": null,
+        "schedule": { "log_every": 20_000, "evaluate_every": 100_000, "evaluation_layouts": 2000 },
+        "settings": {}, "table": Table::default(),
+    }))
+    .unwrap()
+}
+
+fn standing() -> Standing {
+    Standing {
+        phase: Phase::Training,
+        shots: 1_200_000,
+        updates: 93_750,
+        seconds: 2772.0,
+        shots_per_second: 433.0,
+        updates_per_second: 34.0,
+        exploration: 0.153,
+        memory: Some(0.6),
+        process: 1,
+        warning: None,
+        reason: None,
+    }
+}
+
+fn record(n: u64) -> Record {
+    let share = n as f64 / 60.0;
+    Record {
+        shots: 20_000 * n,
+        seconds: 46.2 * n as f64,
+        shots_per_second: 433.0,
+        updates: 1562 * n,
+        learning_rate: 3e-4 * (1.0 - 0.5 * share),
+        critic_loss: 0.6 * (-3.0 * share).exp() + 0.02 * (n as f64).sin().abs(),
+        actor_loss: Some(-share),
+        q_value: 0.7 * share,
+        practice_reward: 0.6 * share + 0.03 * (1.7 * n as f64).sin(),
+        exploration: Some(0.3 - 0.147 * share),
+        memory: Some(share),
+        held_out_reward: n.is_multiple_of(5).then(|| 0.874 * share.sqrt()),
+        held_out_reach: n.is_multiple_of(5).then(|| 0.96 * share.sqrt()),
+    }
+}
+
+fn examples(after: u64) -> Examples {
+    let table = Table::default();
+    let cue = CueInputs::parse("-0.2,0.2,6,82.6,2.5").unwrap();
+    let shot = |reward| Example { layout: Layout::opening(&table), cue, reward };
+    Examples { after, shots: vec![shot(0.0), shot(1.0), shot(1.0)] }
+}
+
+/// All that there is to know of a run at work.
+fn known() -> Update {
+    Update {
+        config: Some(Box::new(config("r3"))),
+        records: (1..=60).map(record).collect(),
+        standing: Some(standing()),
+        condition: Some(Condition::Is(Phase::Training)),
+        examples: Some(examples(1_200_000)),
+        ..Update::default()
+    }
+}
+
+#[test]
+fn the_list_of_runs() {
+    let player = Player::new().report(Report::Runs(Ok(summaries())));
+    check("runs", &player);
+    let down = player.press("Down Down Down");
+    check("runs_marked", &down);
+    let effects = down.press("r").effects;
+    let folder = Path::new(RUNS).join("20261118-three-cushions/seed-1");
+    assert!(matches!(&effects[..], [Effect::Train(launch)] if **launch == Launch::resume(&folder)), "{effects:?}");
+}
+
+#[test]
+fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
+    let player = Player::new().report(Report::Runs(Ok(summaries()))).press("Down");
+    let mut more = summaries();
+    more.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Stage::Running));
+    let player = player.report(Report::Runs(Ok(more))).press("Enter");
+    assert_eq!(player.app.wanted().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
+}
+
+#[test]
+fn an_empty_list_says_what_to_press() {
+    check("runs_empty", &Player::new().report(Report::Runs(Ok(Vec::new()))));
+    let broken = Player::new().report(Report::Runs(Err("/runs: permission denied".into())));
+    broken.says("/runs: permission denied");
+    Player::new().press("Enter").says("there is no run yet; n starts one");
+}
+
+#[test]
+fn a_new_run_is_filled_in_and_started() {
+    let player = Player::new().report(Report::Runs(Ok(summaries()))).press("n");
+    check("form", &player);
+    let player = player.press("Down Right Right Down Right Down Backspace Backspace 7 Down Right Down Right");
+    check("form_filled", &player);
+    let mut player = player.press("Enter");
+    let Some(Effect::Train(launch)) = player.effects.pop() else { panic!("Enter starts nothing") };
+    let arguments: Vec<_> = launch.arguments.iter().map(|argument| argument.to_str().unwrap()).collect();
+    let folder = launch.folder.to_str().unwrap();
+    let wanted = ["train", "--agent", "ddpg", "--reward", "one-cushion", "--table", "thesis", "--steps", "500007"];
+    assert_eq!(arguments[..9], wanted);
+    assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{NAME}"), "--run", folder]);
+    assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-thesis-one-cushion-2"), "{folder}");
+    assert_eq!(player.app.wanted().followed[0].as_deref(), Some(launch.folder.as_path()));
+    let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
+    let failed = player
+        .report(Report::Followed(Slot::Main, launch.folder.clone(), Box::new(missing)))
+        .report(Report::TrainerFailed(launch.folder.clone(), "the disk is full".into()));
+    failed.says("the disk is full");
+}
+
+#[test]
+fn numbers_that_start_nothing_are_refused_with_what_is_accepted() {
+    let empty = Player::new().press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
+    let player = empty.press("Backspace Enter");
+    assert!(player.effects.is_empty());
+    player.says("\"\" is no number of shots; accepted is any number from 1 on");
+}
+
+#[test]
+fn a_run_that_trains() {
+    let player = Player::watching(TRUE_COLOUR);
+    check("watch", &player);
+    for part in
+        ["1,200,000", "34", "433", "2 h 26 min", "46 min 12 s", "0.153", "60 %", "Shot 3 of 3", "point", "training"]
+    {
+        player.says(part);
+    }
+    insta::assert_snapshot!("watch_200x60", player.text(200, 60));
+    check("watch_help", &player.press("?"));
+}
+
+#[test]
+fn every_condition_says_what_it_is_and_what_to_do() {
+    let watching = || Player::watching(TRUE_COLOUR);
+    check("watch_paused", &watching().condition(Condition::Is(Phase::Paused), None));
+    check("watch_stalled", &watching().condition(Condition::Stalled(Duration::from_secs(40)), None));
+    check("watch_died", &watching().condition(Condition::Died, None));
+    let reason =
+        "training stopped after 1200000 shots: the loss is not a finite number any more; try a lower learning rate";
+    check("watch_failed", &watching().condition(Condition::Is(Phase::Failed), Some(reason)));
+    check("watch_finished", &watching().condition(Condition::Is(Phase::Finished), None));
+    watching().condition(Condition::Is(Phase::Measuring), None).says("measuring");
+    watching()
+        .condition(Condition::Is(Phase::Stopped), None)
+        .says("carom train --resume 20261120-091500-ddpg-match-r3-1");
+    watching().condition(Condition::Removed, None).says("the folder of the run has been removed");
+}
+
+#[test]
+fn what_is_wrong_with_the_files_is_said() {
+    let notices = Some(vec!["metrics.jsonl has been emptied".to_owned(), "3 lines are no records".to_owned()]);
+    let player = Player::watching(TRUE_COLOUR);
+    let player = player.update(Slot::Main, NAME, Update { notices, ..Update::default() });
+    player.says("metrics.jsonl has been emptied; 3 lines are no records");
+}
+
+#[test]
+fn a_run_of_which_nothing_is_known_yet() {
+    let player = Player::new().report(Report::Runs(Ok(summaries()))).press("Enter");
+    check("watch_unknown", &player);
+    player.press("w").says("there is no run yet");
+}
+
+#[test]
+fn charts_are_chosen_and_enlarged() {
+    let player = Player::watching(TRUE_COLOUR).press("Tab Tab z l s");
+    check("watch_enlarged", &player);
+    let player = player.press("z 1 2 4 9");
+    check("watch_two_charts", &player);
+    let player = player.press("3 9");
+    player.says("No chart is shown");
+    player.press("z").says("no chart is shown; 1 to 9 show some");
+}
+
+#[test]
+fn a_run_is_compared_with_another() {
+    let player = Player::watching(TRUE_COLOUR).press("c");
+    check("compare_list", &player);
+    let player = player.press("Down Enter");
+    assert_eq!(player.app.wanted().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
+    let mut other = known();
+    other.records = (1..=250).map(record).collect();
+    let player = player.update(Slot::Compared, OTHER, other);
+    check("compare", &player);
+    let player = player.press("c");
+    assert_eq!(player.app.wanted().followed[1], None);
+    let same = Player::watching(TRUE_COLOUR).press("c Enter");
+    same.says("a run cannot be compared with itself");
+}
+
+#[test]
+fn a_run_is_steered_by_requests() {
+    let folder = Path::new(RUNS).join(NAME);
+    let player = Player::watching(TRUE_COLOUR).press("p");
+    let paused = player.report(Report::Sent(Request::Pause, Ok(())));
+    paused.says("the run is asked to pause");
+    let paused = paused.condition(Condition::Is(Phase::Paused), None);
+    paused.says("paused and saved; p lets it go on");
+    let sent: Vec<_> = paused
+        .press("p S n S y A y")
+        .effects
+        .into_iter()
+        .map(|effect| match effect {
+            Effect::Send(request, to) if to == folder => request,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(sent, [Request::Pause, Request::GoOn, Request::Stop, Request::Abandon]);
+    let refused =
+        Player::watching(TRUE_COLOUR).report(Report::Sent(Request::Stop, Err("read-only file system".into())));
+    refused.says("the run cannot be asked: read-only file system");
+    let died = Player::watching(TRUE_COLOUR).condition(Condition::Died, None).press("p");
+    died.says("the run is not at work");
+    let effects = died.press("r").effects;
+    assert!(matches!(&effects[..], [Effect::Train(launch)] if **launch == Launch::resume(&folder)), "{effects:?}");
+}
+
+#[test]
+fn abandoning_asks_first_and_says_what_is_lost() {
+    let player = Player::watching(TRUE_COLOUR).press("A");
+    check("abandon", &player);
+    assert_eq!(player.app.place(), Place::Question);
+    let player = player.press("x q");
+    assert!(player.effects.is_empty(), "q is no here, and leaves nothing");
+    assert_eq!(player.app.place(), Place::Watch);
+}
+
+#[test]
+fn a_policy_is_kept_under_a_name() {
+    let player = Player::watching(TRUE_COLOUR).press("k");
+    check("keep", &player);
+    let mut player = player;
+    for _ in 0..60 {
+        player = player.press("Backspace");
+    }
+    let player = player.press("Enter");
+    player.says("a name is needed");
+    let player = player.press("a / q Enter");
+    player.says("\"a/q\" is no name for a policy");
+    let mut player = player.press("Backspace Backspace q Enter");
+    let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
+    assert_eq!(keeping.to, Path::new("/policies/aq.safetensors"));
+    assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
+    let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
+    player.says("there is a policy called aq already; replace it?");
+    let mut player = player.press("y");
+    let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
+    assert!(keeping.replace);
+    player.report(Report::Kept(*keeping, Ok(Kept::Done))).says("kept; use it by: carom recommend --policy aq");
+}
+
+#[test]
+fn a_policy_is_used_in_the_coach_with_its_rule() {
+    let folder = Path::new(RUNS).join(NAME);
+    let thesis = Table::preset("thesis").unwrap();
+    let mut config = config("three-cushion");
+    config.table = thesis.clone();
+    let update = Update { config: Some(Box::new(config)), ..Update::default() };
+    let mut player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update).press("w");
+    assert!(matches!(player.effects.pop(), Some(Effect::LoadPolicy(from)) if from == folder));
+    let none = player.report(Report::Policy(folder.clone(), Err("the run has no policy".into())));
+    none.says("the run has no policy");
+    let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
+    let mut player = none.report(Report::Policy(folder, Ok(Arc::new(policy))));
+    assert_eq!((player.app.place(), player.app.table()), (Place::Coach, &thesis));
+    insta::assert_snapshot!("used_in_the_coach", player.text(120, 40));
+    player = player.press("Enter");
+    let Some(Effect::Recommend(job)) = player.effects.pop() else { panic!("the coach is not asked") };
+    assert_eq!(job.tutor.rule, Rule::ThreeCushion);
+    player.app.receive(Office::default().answer(&job));
+    assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
+}
+
+#[test]
+fn escape_goes_back_page_by_page_to_the_coach_or_to_the_shell() {
+    let player = Player::watching(TRUE_COLOUR).press("c Esc Esc n Esc");
+    assert_eq!(player.app.place(), Place::Runs);
+    assert_eq!(player.app.wanted().followed, [None, None], "nobody watches any more");
+    let player = player.press("Esc");
+    assert_eq!((player.app.place(), player.app.wanted().runs), (Place::Coach, None));
+    let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(NAME)), None).unwrap();
+    assert_eq!(alone.place(), Place::Watch);
+    let escape = KeyEvent::from(KeyCode::Esc);
+    assert!(alone.handle(&escape).is_none());
+    assert_eq!(alone.place(), Place::Runs);
+    assert!(matches!(alone.handle(&escape), Some(Effect::Quit)));
+}
+
+#[test]
+fn without_colours_letters_tell_everything() {
+    check("watch_ascii", &Player::watching(ASCII));
+    let player = Player::watching(NO_COLOUR);
+    check("watch_no_colour", &player);
+    for cell in player.draw(120, 40).backend().buffer().content() {
+        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
+    }
+    for keys in ["", "?", "Esc", "Esc n", "c"] {
+        let text = Player::watching(ASCII).press(keys).text(120, 40);
+        assert!(text.is_ascii(), "{keys}\n{text}");
+    }
+}
+
+#[test]
+fn numbers_that_change_keep_their_places() {
+    let columns = |shots: u64, speed: f64| {
+        let mut standing = standing();
+        (standing.shots, standing.shots_per_second) = (shots, speed);
+        let update = Update { standing: Some(standing), ..Update::default() };
+        let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update);
+        let buffer = player.draw(120, 40).backend().buffer().clone();
+        let changed = buffer.content().to_vec();
+        changed
+    };
+    let (before, after) = (columns(1_200_000, 433.0), columns(1_200_433, 1298.0));
+    let changes = before.iter().zip(&after).filter(|(one, other)| one != other).count();
+    assert!((4..24).contains(&changes), "{changes} cells");
+}
+
+#[test]
+fn every_size_can_be_drawn() {
+    let player = Player::watching(TRUE_COLOUR).press("5 6 7 8 9");
+    for width in (1..=240).step_by(9) {
+        for height in (1..=90).step_by(7) {
+            player.draw(width, height);
+        }
+    }
+    player.says("1 mean reward");
+}
+
+/// What one may press and what may come at any time.
+const KEYS: &[&str] = &[
+    "Enter",
+    "Esc",
+    "t",
+    "n",
+    "r",
+    "c",
+    "p",
+    "S",
+    "A",
+    "w",
+    "k",
+    "y",
+    "Space",
+    ",",
+    ".",
+    "l",
+    "s",
+    "z",
+    "+",
+    "-",
+    "Left",
+    "Right",
+    "Up",
+    "Down",
+    "0",
+    "End",
+    "Tab",
+    "1",
+    "2",
+    "9",
+    "?",
+    "g",
+    "q",
+    "Backspace",
+    "x",
+    "7",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn no_series_of_keys_and_news_breaks_the_program(
+        steps in prop::collection::vec((0..KEYS.len(), 0_u8..12), 1..60),
+        width in 20_u16..220,
+        height in 5_u16..70,
+    ) {
+        let mut player = Player::new();
+        for (key, news) in steps {
+            player = player.press(KEYS[key]);
+            player = match news {
+                0 => player.report(Report::Runs(Ok(summaries()))),
+                1 => player.report(Report::Runs(Ok(Vec::new()))),
+                2 => player.update(Slot::Main, NAME, known()),
+                3 => player.update(Slot::Compared, OTHER, known()),
+                4 => player.condition(Condition::Died, None),
+                5 => player.condition(Condition::Is(Phase::Finished), None),
+                6 => player.report(Report::TrainerFailed(Path::new(RUNS).join(NAME), "it failed".into())),
+                _ => player,
+            };
+            player.app.tick(0.7);
+            if news > 9 {
+                player.draw(width, height);
+            }
+        }
+        player.draw(width, height);
+    }
+}
