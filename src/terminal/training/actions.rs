@@ -2,7 +2,7 @@
 
 use super::{Form, Keeping, Launch, Page, Question, TrainingScreen, Watch, question::wrong_name};
 use crate::{
-    learning::run::request::Request,
+    learning::run::{follow::Condition, request::Request},
     terminal::{
         app::Effect,
         keymap::{TrainingAction as Action, TrainingWhen as When},
@@ -29,11 +29,14 @@ impl TrainingScreen {
             When::MarkedCanGoOn => self.list.refusal_to_go_on(),
             When::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
             When::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
-            When::AtWork => {
+            When::Paused => refuse(!watch.is_paused(), "the run is not paused"),
+            When::AtWork | When::Working => {
                 refuse(!watch.is_at_work(), "the run is not at work; r goes on with one that has not finished")
+                    .or(refuse(when == When::Working && watch.is_paused(), "the run is paused"))
             }
             When::CanGoOn => watch.refusal_to_go_on(),
-            When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet"),
+            When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet")
+                .or(refuse(watch.condition() == Condition::Removed, "the run has been removed")),
             When::Shots => {
                 refuse(watch.replay.examples().is_none(), "no shots yet: they come with the first measurement")
             }

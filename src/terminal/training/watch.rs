@@ -102,9 +102,11 @@ impl Watch {
         self.own.run.config.as_ref().map(|config| &config.table)
     }
 
-    /// Shots played by it or by the run that it is compared with: charts show both.
+    /// Shots played by it or by the run that it is compared with: charts show both. The last turn of a run may end a few
+    /// shots beyond the plan, for which no chart needs another scale.
     pub fn most_shots(&self) -> u64 {
-        self.own.shots().max(self.other.as_ref().map_or(0, Named::shots))
+        let own = self.own.shots().min(self.planned().unwrap_or(u64::MAX));
+        own.max(self.other.as_ref().map_or(0, Named::shots))
     }
 
     /// The last measurement on held-out layouts.

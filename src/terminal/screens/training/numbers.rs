@@ -80,7 +80,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
                     let layouts = config.schedule.evaluation_layouts;
                     let SuccessRate { low, high, .. } =
                         SuccessRate::new((rate * layouts as f64).round() as usize, layouts);
-                    format!("{low:.3} to {high:.3}")
+                    format!("{low:.3}-{high:.3}")
                 }),
             ),
         );
@@ -88,7 +88,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     learnt.extend([
         ("exploration", known(exploration, three)),
         ("memory filled", known(memory, |share| format!("{:.0} %", 100.0 * share))),
-        ("learning rate", known(last, |record| format!("{:.1e}", record.learning_rate))),
+        ("learning rate", known(last, |record| rate(record.learning_rate))),
         ("updates", known(updates, count)),
         ("seed", known(config, |config| config.plan.seed.to_string())),
     ]);
@@ -114,6 +114,11 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
         ],
         learnt,
     ]
+}
+
+/// A learning rate in as few digits as say something.
+fn rate(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
 fn known<T>(value: Option<T>, words: impl FnOnce(T) -> String) -> String {
