@@ -490,8 +490,7 @@ fn numbers_that_change_keep_their_places() {
         let update = Update { standing: Some(standing), ..Update::default() };
         let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update);
         let buffer = player.draw(120, 40).backend().buffer().clone();
-        let changed = buffer.content().to_vec();
-        changed
+        buffer.content().to_vec()
     };
     let (before, after) = (columns(1_200_000, 433.0), columns(1_200_433, 1298.0));
     let changes = before.iter().zip(&after).filter(|(one, other)| one != other).count();

@@ -78,7 +78,7 @@ impl TrainingScreen {
         let Some(name) = self.list.marked().map(|run| run.name.clone()) else { return };
         let folder = self.folder.join(&name);
         if self.page() != Page::Compare {
-            self.show(folder);
+            self.show(&folder);
             return;
         }
         self.pages.pop();
@@ -93,7 +93,7 @@ impl TrainingScreen {
     fn start(&mut self) -> Option<Effect> {
         match self.form.launch(&self.folder) {
             Ok(launch) => {
-                self.show(launch.folder.clone());
+                self.show(&launch.folder);
                 Some(Effect::Train(Box::new(launch)))
             }
             Err(sentence) => {
@@ -104,14 +104,11 @@ impl TrainingScreen {
     }
 
     fn resume(&mut self) -> Option<Effect> {
-        let folder = match (self.page(), &self.watch) {
-            (Page::Watch, Some(watch)) => watch.folder().to_owned(),
-            _ => {
-                let folder = self.folder.join(&self.list.marked()?.name);
-                self.show(folder.clone());
-                folder
-            }
-        };
+        if self.page() == Page::Runs {
+            let folder = self.folder.join(&self.list.marked()?.name);
+            self.show(&folder);
+        }
+        let folder = self.watch.as_ref()?.folder().to_owned();
         self.message = Some(Message::plain("going on from the last checkpoint"));
         Some(Effect::Train(Box::new(Launch::resume(&folder))))
     }

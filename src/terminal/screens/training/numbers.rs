@@ -1,5 +1,7 @@
 //! The panel of a run's numbers.
 
+use std::path::Path;
+
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
@@ -28,7 +30,9 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     if let Some(other) = &watch.other {
         title.push(Span::styled(format!(" with {}", other.name), theme.faint()));
     } else if let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref()) {
-        title.push(Span::styled(format!(" started with {}", from.path), theme.faint()));
+        let path = Path::new(&from.path);
+        let name = path.strip_prefix(&app.training().places.runs).unwrap_or(path).display();
+        title.push(Span::styled(format!(" from {name}"), theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, app.look(), buffer);
     let [left, right] = columns(watch);
