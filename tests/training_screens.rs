@@ -203,7 +203,7 @@ fn standing() -> Standing {
 }
 
 fn record(n: u64) -> Record {
-    let share = n as f64 / 60.0;
+    let share = (n as f64 / 60.0).min(1.0);
     Record {
         shots: 20_000 * n,
         seconds: 46.2 * n as f64,

@@ -116,7 +116,7 @@ impl TrainingScreen {
     /// What the keys do to the run that is watched, and to how it is shown.
     fn steer(&mut self, action: Action) -> Option<Effect> {
         let Self { watch: Some(watch), question, .. } = self else { return None };
-        let (shots, planned) = (watch.most_shots(), watch.planned());
+        let (shots, planned) = (watch.most_shots(), watch.planned_end());
         let Watch { charts, replay, .. } = watch;
         match action {
             Action::Show(n) => charts.toggle(n),

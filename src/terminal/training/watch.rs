@@ -102,11 +102,14 @@ impl Watch {
         self.own.run.config.as_ref().map(|config| &config.table)
     }
 
-    /// Shots played by it or by the run that it is compared with: charts show both. The last turn of a run may end a few
-    /// shots beyond the plan, for which no chart needs another scale.
+    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
+    pub fn planned_end(&self) -> Option<u64> {
+        self.planned().map(|planned| planned.max(self.own.shots()))
+    }
+
+    /// Shots played by it or by the run that it is compared with: charts show both.
     pub fn most_shots(&self) -> u64 {
-        let own = self.own.shots().min(self.planned().unwrap_or(u64::MAX));
-        own.max(self.other.as_ref().map_or(0, Named::shots))
+        self.own.shots().max(self.other.as_ref().map_or(0, Named::shots))
     }
 
     /// The last measurement on held-out layouts.
