@@ -20,7 +20,6 @@ pub enum Whose {
 
 /// A curve.
 #[derive(Clone, Copy, Debug)]
-#[expect(dead_code, reason = "only the title is drawn so far")]
 pub struct Curve<'a> {
     /// Its points, in order.
     pub points: &'a [Point],
@@ -32,7 +31,6 @@ pub struct Curve<'a> {
 
 /// A chart.
 #[derive(Clone, Copy, Debug)]
-#[expect(dead_code, reason = "only the title is drawn so far")]
 pub struct Chart<'a> {
     /// Its title.
     pub title: &'a str,
