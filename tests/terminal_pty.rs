@@ -9,6 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use carom::learning::run::list::{Stage, runs_in};
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
 /// Longest time that a test waits for a picture, s; a loaded machine may take long to start a process.
@@ -238,4 +239,30 @@ fn without_a_terminal_it_names_the_command_line() {
     let mut session = Session::start_command(command, 120, 40);
     session.wait_for("carom recommend --layout");
     session.wait_for("code 2");
+}
+
+#[test]
+fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
+    let data = tempfile::tempdir().unwrap();
+    let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_carom"));
+    command.env("XDG_DATA_HOME", data.path());
+    let mut session = Session::start_command(command, 80, 24);
+    session.wait_for("white at x -710.0 mm");
+    session.send("t");
+    session.wait_for("No agent has been trained here yet.");
+    session.send("n\x1b[B\x1b[B\x1b[B\x7f\x7f\x7f\x7f\x7f\x7f\x7f20000\r");
+    session.wait_for("Numbers");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+    // The pseudo-terminal goes with the session.
+    drop(session);
+    let start = Instant::now();
+    loop {
+        let runs = runs_in(&data.path().join("carom/runs")).unwrap_or_default();
+        if runs.first().is_some_and(|run| run.state == Stage::Finished && run.best_reward.is_some()) {
+            break;
+        }
+        assert!(start.elapsed() < 9 * PATIENCE, "it does not finish: {runs:?}");
+        thread::sleep(Duration::from_millis(100));
+    }
 }

@@ -114,18 +114,18 @@ impl Office {
     fn coach(&mut self, job: &Job) -> Result<&Coach, String> {
         let fits = |(tutor, coach): &(Tutor, Coach)| *coach.table() == job.table && tutor.has_policy_of(&job.tutor);
         let known = self.coach.take().filter(fits);
-        let (tutor, coach) = match known {
-            Some(known) => known,
-            None => {
-                let coach = Coach::new(job.table.clone()).map_err(|error| error.to_string())?;
-                let coach = match &job.tutor.policy {
-                    Some((_, policy)) => coach.with_policy(Policy::clone(policy)),
-                    None => coach,
+        let known = match (known, &job.tutor.policy) {
+            (Some(known), _) => known,
+            (None, policy) => {
+                let bundled = Coach::new(job.table.clone()).map_err(|error| error.to_string())?;
+                let coach = match policy {
+                    Some((_, policy)) => bundled.with_policy(Policy::clone(policy)),
+                    None => bundled,
                 };
                 (job.tutor.clone(), coach)
             }
         };
-        Ok(&self.coach.insert((tutor, coach)).1)
+        Ok(&self.coach.insert(known).1)
     }
 }
 

@@ -18,6 +18,7 @@ use super::{
     inbox::{self, News},
     recommender::{self, Job},
     session::Session,
+    training::Report,
 };
 
 /// Least time between two pictures; keys that come faster are drained and drawn together.
@@ -95,12 +96,18 @@ impl Runner {
             if interval.is_some() {
                 self.app.tick(passed.as_secs_f64());
             }
+            let mut can_wait = first.is_some();
             for news in first.into_iter().chain(news.try_iter()) {
+                can_wait &= matches!(news, News::Report(Report::Followed(..)));
                 match self.take(news)? {
                     Next::GoOn => {}
                     Next::Quit => return Ok(None),
                     Next::Die(signal) => return Ok(Some(signal)),
                 }
+            }
+            // News of a run come with the next picture where something moves: one picture for both.
+            if can_wait && self.app.frame_interval().is_some() {
+                continue;
             }
             self.draw()?;
             drawn = Instant::now();

@@ -35,15 +35,15 @@ pub fn run(arguments: &[OsString]) -> Result<(), String> {
     Err(last_sentence(said).unwrap_or_else(|| format!("the process that trains has ended: {status}")))
 }
 
-/// The last line of a file, without the program's name before it.
+/// The last sentence in a file that says why the program has failed; what it says while it trains is none.
 fn last_sentence(mut file: File) -> Option<String> {
     let length = i64::try_from(file.metadata().ok()?.len()).ok()?;
     file.seek(SeekFrom::End(-length.min(LAST_BYTES))).ok()?;
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).ok()?;
     let text = String::from_utf8_lossy(&bytes);
-    let line = text.lines().rev().map(str::trim).find(|line| !line.is_empty())?;
-    Some(line.strip_prefix("carom: ").unwrap_or(line).to_owned())
+    let reason = |line: &str| Some(line.strip_prefix("carom: ").or(line.strip_prefix("error: "))?.trim().to_owned());
+    text.lines().rev().find_map(reason)
 }
 
 #[cfg(test)]
@@ -52,12 +52,13 @@ mod tests {
     use std::io::Write;
 
     #[test]
-    fn the_last_sentence_is_found_however_much_was_said() {
+    fn the_reason_of_a_failure_is_found_however_much_was_said() {
         let mut file = tempfile::tempfile().unwrap();
         assert_eq!(last_sentence(file.try_clone().unwrap()), None);
         for n in 0..2000 {
             writeln!(file, "line {n}").unwrap();
         }
+        assert_eq!(last_sentence(file.try_clone().unwrap()), None, "a killed process gives no reason");
         writeln!(file, "carom: the folder is full\n").unwrap();
         assert_eq!(last_sentence(file).unwrap(), "the folder is full");
     }

@@ -87,6 +87,10 @@ pub enum TrainingWhen {
     Zoomed,
     /// While the run is at work.
     AtWork,
+    /// While the run is at work, but paused.
+    Paused,
+    /// While the run is at work and not paused.
+    Working,
     /// Where the run can go on.
     CanGoOn,
     /// Where the run is known, whatever it does.
@@ -158,7 +162,8 @@ pub const FORM: &[Binding] = &[
 #[rustfmt::skip]
 pub const WATCH: &[Binding] = &[
     bind(Run, W::CanGoOn, &[letter('r', A::Resume)], Some(("go on", 1)), "go on with a run that is not at work"),
-    bind(Run, W::AtWork, &[letter('p', A::Pause)], Some(("pause", 1)), "pause the run; once more lets it go on"),
+    bind(Run, W::Paused, &[letter('p', A::Pause)], Some(("go on", 1)), "let a paused run go on"),
+    bind(Run, W::Working, &[letter('p', A::Pause)], Some(("pause", 1)), "pause the run and save it"),
     bind(Run, W::AtWork, &[letter('S', A::Stop)], Some(("stop", 1)), "stop the run and save it; asks first"),
     bind(Run, W::Known, &[letter('w', A::Use)], Some(("use", 1)), "use these weights in the coach"),
     bind(Charts, W::Known, &[letter('c', A::Compare)], Some(("compare", 1)), "compare with another run; once more ends it"),

@@ -2,7 +2,7 @@
 
 use super::{Form, Keeping, Launch, Page, Question, TrainingScreen, Watch, question::wrong_name};
 use crate::{
-    learning::run::request::Request,
+    learning::run::{follow::Condition, request::Request},
     terminal::{
         app::Effect,
         keymap::{TrainingAction as Action, TrainingWhen as When},
@@ -29,11 +29,14 @@ impl TrainingScreen {
             When::MarkedCanGoOn => self.list.refusal_to_go_on(),
             When::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
             When::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
-            When::AtWork => {
+            When::Paused => refuse(!watch.is_paused(), "the run is not paused"),
+            When::AtWork | When::Working => {
                 refuse(!watch.is_at_work(), "the run is not at work; r goes on with one that has not finished")
+                    .or(refuse(when == When::Working && watch.is_paused(), "the run is paused"))
             }
             When::CanGoOn => watch.refusal_to_go_on(),
-            When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet"),
+            When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet")
+                .or(refuse(watch.condition() == Condition::Removed, "the run has been removed")),
             When::Shots => {
                 refuse(watch.replay.examples().is_none(), "no shots yet: they come with the first measurement")
             }
@@ -75,7 +78,7 @@ impl TrainingScreen {
         let Some(name) = self.list.marked().map(|run| run.name.clone()) else { return };
         let folder = self.folder.join(&name);
         if self.page() != Page::Compare {
-            self.show(folder);
+            self.show(&folder);
             return;
         }
         self.pages.pop();
@@ -90,7 +93,7 @@ impl TrainingScreen {
     fn start(&mut self) -> Option<Effect> {
         match self.form.launch(&self.folder) {
             Ok(launch) => {
-                self.show(launch.folder.clone());
+                self.show(&launch.folder);
                 Some(Effect::Train(Box::new(launch)))
             }
             Err(sentence) => {
@@ -101,14 +104,11 @@ impl TrainingScreen {
     }
 
     fn resume(&mut self) -> Option<Effect> {
-        let folder = match (self.page(), &self.watch) {
-            (Page::Watch, Some(watch)) => watch.folder().to_owned(),
-            _ => {
-                let folder = self.folder.join(&self.list.marked()?.name);
-                self.show(folder.clone());
-                folder
-            }
-        };
+        if self.page() == Page::Runs {
+            let folder = self.folder.join(&self.list.marked()?.name);
+            self.show(&folder);
+        }
+        let folder = self.watch.as_ref()?.folder().to_owned();
         self.message = Some(Message::plain("going on from the last checkpoint"));
         Some(Effect::Train(Box::new(Launch::resume(&folder))))
     }
@@ -116,7 +116,7 @@ impl TrainingScreen {
     /// What the keys do to the run that is watched, and to how it is shown.
     fn steer(&mut self, action: Action) -> Option<Effect> {
         let Self { watch: Some(watch), question, .. } = self else { return None };
-        let (shots, planned) = (watch.most_shots(), watch.planned());
+        let (shots, planned) = (watch.most_shots(), watch.planned_end());
         let Watch { charts, replay, .. } = watch;
         match action {
             Action::Show(n) => charts.toggle(n),

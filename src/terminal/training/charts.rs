@@ -96,7 +96,7 @@ impl Charts {
         let all: Vec<usize> = (0..Quantity::COUNT).filter(|&n| self.shown[n]).collect();
         // The first one beyond where the selected one has just been hidden.
         let place = match all.iter().position(|&n| n == self.selected) {
-            Some(place) => (place as isize + steps).rem_euclid(all.len() as isize) as usize,
+            Some(place) => around(place, steps, all.len()),
             None => all.iter().position(|&n| n > self.selected).unwrap_or(0),
         };
         if let Some(&n) = all.get(place) {
@@ -162,6 +162,11 @@ impl Charts {
             part.end = None;
         }
     }
+}
+
+/// The place `steps` after `from` among `count`, around the end.
+pub fn around(from: usize, steps: isize, count: usize) -> usize {
+    (from.cast_signed() + steps).rem_euclid(count.cast_signed()).cast_unsigned()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::{ffi::OsString, path::Path};
 
-use super::report::Launch;
+use super::{charts::around, report::Launch};
 use crate::{
     game::Reward,
     learning::{agents::AGENTS, run::list::Summary, timestamp},
@@ -95,7 +95,7 @@ impl Form {
     pub fn choose(&mut self, step: isize, runs: &[Summary]) {
         match self.field {
             Field::Agent => {
-                self.agent = (self.agent as isize + step).rem_euclid(AGENTS.len() as isize) as usize;
+                self.agent = around(self.agent, step, AGENTS.len());
                 // Another agent's weights are of no use.
                 self.from = None;
             }
@@ -201,5 +201,5 @@ impl Form {
 /// The element `steps` after `from`, around the end; the first where `from` is not among them.
 fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
     let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
-    all[(place as isize + steps).rem_euclid(all.len() as isize) as usize].clone()
+    all[around(place, steps, all.len())].clone()
 }

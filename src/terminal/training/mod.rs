@@ -12,14 +12,20 @@ mod report;
 mod runs;
 mod watch;
 
-use std::path::PathBuf;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::{keymap::Place, recommender::Tutor, status::Message};
 use crate::{
-    game::Rule,
-    learning::run::{follow::Condition, request::Request},
+    game::Reward,
+    learning::{
+        Policy,
+        run::{follow::Condition, request::Request},
+    },
     storage::Places,
     table::Table,
 };
@@ -111,13 +117,13 @@ impl TrainingScreen {
             self.folder = list;
         }
         if let Some(run) = run {
-            self.show(run);
+            self.show(&run);
         }
     }
 
     /// Opens the page of the run in `folder`.
-    fn show(&mut self, folder: PathBuf) {
-        let watch = Watch::new(&folder, &self.places.runs);
+    fn show(&mut self, folder: &Path) {
+        let watch = Watch::new(folder, &self.places.runs);
         self.list.mark_named(&watch.own.name);
         self.watch = Some(watch);
         self.pages.retain(|page| *page == Page::Runs);
@@ -230,16 +236,12 @@ impl TrainingScreen {
         }
     }
 
-    fn policy(
-        &mut self,
-        folder: &std::path::Path,
-        policy: Result<std::sync::Arc<crate::learning::Policy>, String>,
-    ) -> Option<(Table, Tutor)> {
+    fn policy(&mut self, folder: &Path, policy: Result<Arc<Policy>, String>) -> Option<(Table, Tutor)> {
         let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder)?;
         let table = watch.table()?.clone();
         match policy {
             Ok(policy) => {
-                let rule = watch.reward().and_then(crate::game::Reward::rule).unwrap_or(Rule::default());
+                let rule = watch.reward().and_then(Reward::rule).unwrap_or_default();
                 Some((table, Tutor { policy: Some((watch.own.name.clone(), policy)), rule }))
             }
             Err(sentence) => {
@@ -251,10 +253,9 @@ impl TrainingScreen {
 
     /// Lets `seconds` pass for the replay.
     pub fn tick(&mut self, seconds: f64) {
-        if let Some(watch) = self.watch.as_mut().filter(|watch| watch.own.run.config.is_some())
-            && let Some(config) = &watch.own.run.config
-        {
-            watch.replay.tick(seconds, &config.table);
+        let Some(Watch { own, replay, .. }) = &mut self.watch else { return };
+        if let Some(config) = &own.run.config {
+            replay.tick(seconds, &config.table);
         }
     }
 

@@ -102,6 +102,11 @@ impl Watch {
         self.own.run.config.as_ref().map(|config| &config.table)
     }
 
+    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
+    pub fn planned_end(&self) -> Option<u64> {
+        self.planned().map(|planned| planned.max(self.own.shots()))
+    }
+
     /// Shots played by it or by the run that it is compared with: charts show both.
     pub fn most_shots(&self) -> u64 {
         self.own.shots().max(self.other.as_ref().map_or(0, Named::shots))

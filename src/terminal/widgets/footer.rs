@@ -40,7 +40,7 @@ pub fn draw_status(message: &Message, area: Rect, theme: &Theme, buffer: &mut Bu
 }
 
 /// The words of `text` in lines of at most `width` characters; a longer word has a line to itself.
-fn wrap(text: &str, width: usize) -> Vec<String> {
+pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.len() - 1;

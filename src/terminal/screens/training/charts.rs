@@ -17,7 +17,7 @@ use crate::{
 /// Draws those that are chosen.
 pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let charts = &watch.charts;
-    let shots = charts.range(watch.most_shots(), watch.planned());
+    let shots = charts.range(watch.most_shots(), watch.planned_end());
     let range = shots.0..=shots.1;
     let drawn = charts.drawn();
     if drawn.is_empty() {

@@ -12,14 +12,14 @@ use crate::{
     terminal::{
         app::App,
         training::{Field, Form},
-        widgets::draw_title,
+        widgets::{draw_title, wrap},
         words::count,
     },
 };
 
 /// Columns of the fields' names, and of their values.
 const NAME: u16 = 14;
-const VALUE: u16 = 24;
+const VALUE: u16 = 20;
 
 /// Draws the form, and below it what it starts.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -48,7 +48,11 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             )
             .0;
         let x = (x + VALUE).max(end + 2);
-        buffer.set_stringn(x, y, note, usize::from(area.right().saturating_sub(x + 1)), theme.faint());
+        let room = usize::from(area.right().saturating_sub(x + 1));
+        // The row below is free.
+        for (line, y) in wrap(&note, room).into_iter().take(2).zip(y..) {
+            buffer.set_stringn(x, y, line, room, theme.faint());
+        }
     }
     let rows = 2 * Field::ALL.len() as u16 + 2;
     let below = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };

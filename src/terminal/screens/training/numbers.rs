@@ -1,5 +1,7 @@
 //! The panel of a run's numbers.
 
+use std::path::Path;
+
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
@@ -28,7 +30,9 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     if let Some(other) = &watch.other {
         title.push(Span::styled(format!(" with {}", other.name), theme.faint()));
     } else if let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref()) {
-        title.push(Span::styled(format!(" started with {}", from.path), theme.faint()));
+        let path = Path::new(&from.path);
+        let name = path.strip_prefix(&app.training().places.runs).unwrap_or(path).display();
+        title.push(Span::styled(format!(" from {name}"), theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, app.look(), buffer);
     let [left, right] = columns(watch);
@@ -80,7 +84,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
                     let layouts = config.schedule.evaluation_layouts;
                     let SuccessRate { low, high, .. } =
                         SuccessRate::new((rate * layouts as f64).round() as usize, layouts);
-                    format!("{low:.3} to {high:.3}")
+                    format!("{low:.3}-{high:.3}")
                 }),
             ),
         );
@@ -88,7 +92,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     learnt.extend([
         ("exploration", known(exploration, three)),
         ("memory filled", known(memory, |share| format!("{:.0} %", 100.0 * share))),
-        ("learning rate", known(last, |record| format!("{:.1e}", record.learning_rate))),
+        ("learning rate", known(last, |record| rate(record.learning_rate))),
         ("updates", known(updates, count)),
         ("seed", known(config, |config| config.plan.seed.to_string())),
     ]);
@@ -114,6 +118,11 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
         ],
         learnt,
     ]
+}
+
+/// A learning rate in as few digits as say something.
+fn rate(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
 fn known<T>(value: Option<T>, words: impl FnOnce(T) -> String) -> String {
