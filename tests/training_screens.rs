@@ -227,7 +227,7 @@ fn a_policy_is_kept_under_a_name() {
     player.says("\"a/q\" is no name for a policy");
     let mut player = player.press("Backspace Backspace q Enter");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    assert_eq!(keeping.to, Path::new("/policies/aq.safetensors"));
+    assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
     assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
     let player = player.report(Report::Kept(*keeping, Ok(Kept::Taken)));
     player.says("there is a policy called aq already; replace it?");

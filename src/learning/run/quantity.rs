@@ -72,7 +72,7 @@ impl Quantity {
                 let (updates, shots) = before.map_or((0, 0), |before| (before.updates, before.shots));
                 let played = record.shots.saturating_sub(shots);
                 let a_shot = record.updates.saturating_sub(updates) as f64 / played as f64;
-                (played > 0).then(|| a_shot * record.shots_per_second)
+                (played > 0).then_some(a_shot * record.shots_per_second)
             }
             Self::Exploration => record.exploration,
         }

@@ -1,10 +1,13 @@
 //! The policy that a run has learnt: reading it for the coach, and keeping it under a name.
 
-use std::{fs, io::ErrorKind, path::Path, sync::Arc};
+use std::{path::Path, sync::Arc};
 
 use crate::{
-    learning::{Policy, run::POLICY},
-    storage::write_atomic,
+    learning::{
+        Policy,
+        policy::kept::{self, KeepError},
+        run::POLICY,
+    },
     terminal::training::{Keeping, Kept},
 };
 
@@ -24,40 +27,18 @@ pub fn load(folder: &Path) -> Result<Arc<Policy>, String> {
     Policy::load(&path).map(Arc::new).map_err(|error| error.to_string())
 }
 
-/// Copies a policy to where policies are kept, or says that its name is taken.
+/// Keeps a policy where policies are kept, or says that its name is taken.
 ///
 /// # Errors
 /// A sentence where there is none, or the copy cannot be written.
 pub fn keep(keeping: &Keeping) -> Result<Kept, String> {
-    let Keeping { from, to, replace, .. } = keeping;
-    let bytes = fs::read(from).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => NONE.to_owned(),
-        _ => format!("{}: {error}", from.display()),
-    })?;
-    if to.exists() && !replace {
-        return Ok(Kept::Taken);
+    let Keeping { from, folder, name, replace } = keeping;
+    if !from.exists() {
+        return Err(NONE.to_owned());
     }
-    write_atomic(to, &bytes).map_err(|error| format!("{}: {error}", to.display()))?;
-    Ok(Kept::Done)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_policy_is_kept_once_and_replaced_only_where_that_was_allowed() {
-        let folder = tempfile::tempdir().unwrap();
-        let (from, to) = (folder.path().join("run"), folder.path().join("policies/best.safetensors"));
-        let mut keeping = Keeping { from: from.clone(), to: to.clone(), name: "best".into(), replace: false };
-        assert!(keep(&keeping).unwrap_err().contains("no policy"));
-        fs::write(&from, "one").unwrap();
-        assert_eq!(keep(&keeping), Ok(Kept::Done));
-        fs::write(&from, "two").unwrap();
-        assert_eq!(keep(&keeping), Ok(Kept::Taken));
-        assert_eq!(fs::read_to_string(&to).unwrap(), "one");
-        keeping.replace = true;
-        assert_eq!(keep(&keeping), Ok(Kept::Done));
-        assert_eq!(fs::read_to_string(&to).unwrap(), "two");
+    match kept::keep(folder, from, name, *replace) {
+        Ok(_) => Ok(Kept::Done),
+        Err(KeepError::Taken(_)) => Ok(Kept::Taken),
+        Err(error) => Err(error.to_string()),
     }
 }

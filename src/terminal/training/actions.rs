@@ -171,7 +171,7 @@ impl TrainingScreen {
 
     fn keep(&self, name: String, replace: bool) -> Effect {
         let from = self.watch.as_ref().map(Watch::policy).unwrap_or_default();
-        let to = self.places.policies.join(format!("{name}.safetensors"));
-        Effect::Keep(Box::new(Keeping { from, to, name, replace }))
+        let folder = self.places.policies.clone();
+        Effect::Keep(Box::new(Keeping { from, folder, name, replace }))
     }
 }

@@ -56,8 +56,8 @@ impl Launch {
 pub struct Keeping {
     /// The policy's file.
     pub from: PathBuf,
-    /// The copy.
-    pub to: PathBuf,
+    /// Where policies are kept.
+    pub folder: PathBuf,
     /// The name.
     pub name: String,
     /// Whether a policy that has the name already may be replaced.
