@@ -40,7 +40,7 @@ pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, Training
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Effort, Job, Office, Tutor};
 pub use shot::Shot;
-pub use training::{Keeping, Kept, Launch, Report, Slot, Wanted};
+pub use training::{Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
 
 /// Why the terminal program cannot run.
 #[derive(Debug, thiserror::Error)]

@@ -14,7 +14,7 @@ use carom::{
     physics::CueInputs,
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Depth, Effect, Glyphs, Look, Report, Slot},
+    terminal::{App, Depth, Effect, Glyphs, Look, Reel, Report, Slot},
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
@@ -82,8 +82,15 @@ impl Player {
         self
     }
 
-    pub fn update(self, slot: Slot, name: &str, update: Update) -> Self {
-        self.report(Report::Followed(slot, Path::new(RUNS).join(name), Box::new(update)))
+    /// News of a run, its shots recorded as the program does it.
+    pub fn update(self, slot: Slot, name: &str, mut update: Update) -> Self {
+        let folder = Path::new(RUNS).join(name);
+        let reel = update.examples.take().map(|examples| Reel::record(&examples, &Table::default()));
+        let player = self.report(Report::Followed(slot, folder.clone(), Box::new(update)));
+        match reel.filter(|_| slot == Slot::Main) {
+            Some(reel) => player.report(Report::Recorded(folder, reel)),
+            None => player,
+        }
     }
 
     pub fn condition(self, condition: Condition, reason: Option<&str>) -> Self {

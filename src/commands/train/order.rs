@@ -9,7 +9,7 @@ use crate::{
     commands::{Failure, input::table_named, named::run_named},
     learning::{
         learner::Plan,
-        run::{Schedule, origin::Weights, seeds::Order},
+        run::{Schedule, origin::Weights, run_name, seeds::Order},
         timestamp,
     },
     storage::Places,
@@ -41,7 +41,7 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     let layouts = args.evaluation_layouts as usize;
     let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
     let folder = args.run.clone().unwrap_or_else(|| {
-        let name = format!("{}-{agent}-{}-{reward}-{}", timestamp(), table.name, args.seed);
+        let name = run_name(&timestamp(), &agent, &table.name, reward, args.seed);
         Places::of_this_user().runs.join(name)
     });
     let plan = Plan { reward, seed: args.seed, shots: args.steps };

@@ -1,6 +1,6 @@
 //! What `config.json` says of a run.
 
-use std::path::Path;
+use std::{fmt::Display, path::Path};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -152,6 +152,11 @@ impl Config {
     pub fn day(&self) -> &str {
         self.started.get(..10).unwrap_or(&self.started)
     }
+}
+
+/// How a new run's folder is called where nobody says: names sort by the `moment` of the start, as `timestamp` gives it.
+pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: impl Display) -> String {
+    format!("{moment}-{agent}-{table}-{reward}-{seed}")
 }
 
 /// The version of carom that the configuration in `folder` names, even where this one cannot read the rest.

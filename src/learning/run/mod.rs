@@ -36,7 +36,7 @@ use self::{
     tally::Tally,
 };
 pub use self::{
-    config::{Config, Schedule, Start},
+    config::{Config, Schedule, Start, run_name},
     discard::discard,
     error::{OriginError, RunError},
     practice::{Ending, Limits, Watcher},

@@ -9,9 +9,12 @@ use std::{io, path::PathBuf, sync::mpsc::Sender, thread, time::Duration};
 use self::polling::Poll;
 use super::{
     inbox::News,
-    training::{Keeping, Launch, Report, Slot, Wanted},
+    training::{Keeping, Launch, Reel, Report, Slot, Wanted},
 };
-use crate::learning::run::{follow::Follower, list::runs_in, request::Request};
+use crate::{
+    learning::run::{examples::Examples, follow::Follower, list::runs_in, request::Request},
+    table::Table,
+};
 
 /// Time between two looks at a run that is followed.
 const FOLLOW_INTERVAL: Duration = Duration::from_millis(100);
@@ -52,7 +55,7 @@ impl Errands {
             if wanted.followed[n] != self.wanted.followed[n] {
                 self.followed[n] = None;
                 if let Some(folder) = wanted.followed[n].clone() {
-                    let look = follow(slot, folder);
+                    let look = follow(slot, folder, self.to_screen.clone());
                     self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
                 }
             }
@@ -146,7 +149,29 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
     }
 }
 
-fn follow(slot: Slot, folder: PathBuf) -> impl FnMut() -> Option<Report> {
+/// Follows a run. The shots of the one that is watched are recorded apart: that may take seconds.
+fn follow(slot: Slot, folder: PathBuf, to_screen: Sender<News>) -> impl FnMut() -> Option<Report> {
     let mut follower = Follower::new(&folder);
-    move || follower.look().map(|update| Report::Followed(slot, folder.clone(), Box::new(update)))
+    let (mut table, mut examples) = (None, None);
+    move || {
+        let mut update = follower.look()?;
+        table = update.config.as_ref().map(|config| config.table.clone()).or(table.take());
+        examples = update.examples.take().or(examples.take());
+        if slot == Slot::Main
+            && let Some(table) = table.clone()
+            && let Some(examples) = examples.take()
+        {
+            record(examples, table, folder.clone(), to_screen.clone());
+        }
+        Some(Report::Followed(slot, folder.clone(), Box::new(update)))
+    }
+}
+
+fn record(examples: Examples, table: Table, folder: PathBuf, to_screen: Sender<News>) {
+    let work = move || {
+        // A screen that is gone needs no shots.
+        let _ = to_screen.send(News::Report(Report::Recorded(folder, Reel::record(&examples, &table))));
+    };
+    // Without a thread there is no replay, and all else goes on.
+    let _ = thread::Builder::new().name("recorder".into()).spawn(work);
 }

@@ -37,9 +37,7 @@ impl TrainingScreen {
             When::CanGoOn => watch.refusal_to_go_on(),
             When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet")
                 .or(refuse(watch.condition() == Condition::Removed, "the run has been removed")),
-            When::Shots => {
-                refuse(watch.replay.examples().is_none(), "no shots yet: they come with the first measurement")
-            }
+            When::Shots => refuse(watch.replay.reel().is_none(), "no shots yet: they come with the first measurement"),
         }
     }
 
@@ -138,13 +136,8 @@ impl TrainingScreen {
             Action::Abandon => *question = Some(Question::Abandon),
             Action::Use => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
             Action::Keep => *question = Some(Question::Name(watch.own.name.replace(['/', '\\'], "-"))),
-            Action::Play | Action::Shot(_) => {
-                let table = &watch.own.run.config.as_ref()?.table;
-                match action {
-                    Action::Shot(shots) => replay.step(shots, table),
-                    _ => replay.toggle(table),
-                }
-            }
+            Action::Play => replay.toggle(),
+            Action::Shot(shots) => replay.step(shots),
             _ => {}
         }
         None

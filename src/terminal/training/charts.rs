@@ -2,8 +2,9 @@
 
 use crate::{learning::run::quantity::Quantity, terminal::chart::whole};
 
-/// Degrees of smoothing, as shares of the shots that are shown.
+/// Degrees of smoothing, as shares of the shots that are shown, and the one at the start: what is raw shows behind it.
 const SMOOTHING: [f64; 4] = [0.0, 0.01, 0.03, 0.1];
+const FIRST_SMOOTHING: usize = 1;
 /// Fewest shots that are shown.
 const LEAST_SHOTS: f64 = 100.0;
 /// A part that follows the end moves by this share of itself at a time: a chart that moves with every line would send
@@ -40,7 +41,7 @@ impl Default for Charts {
             log: [false; Quantity::COUNT],
             selected: 0,
             enlarged: false,
-            smoothing: 0,
+            smoothing: FIRST_SMOOTHING,
             part: None,
         }
     }

@@ -5,7 +5,11 @@ use std::{ffi::OsString, path::Path};
 use super::{charts::around, report::Launch};
 use crate::{
     game::Reward,
-    learning::{agents::AGENTS, run::list::Summary, timestamp},
+    learning::{
+        agents::AGENTS,
+        run::{list::Summary, run_name},
+        timestamp,
+    },
 };
 
 /// Tables that a run can be started on.
@@ -153,10 +157,9 @@ impl Form {
         }
     }
 
-    /// The name of the run's folder, made as `carom train` makes it.
+    /// The name of the run's folder.
     pub fn name(&self) -> String {
-        let Self { opened, agent, table, reward, seed, .. } = self;
-        format!("{opened}-{}-{table}-{reward}-{seed}", AGENTS[*agent].name)
+        run_name(&self.opened, AGENTS[self.agent].name, self.table, self.reward, &self.seed)
     }
 
     /// The command line that starts the same run.

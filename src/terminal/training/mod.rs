@@ -32,6 +32,7 @@ use crate::{
 
 pub use form::{Field, Form};
 pub use question::Question;
+pub use replay::{Reel, Scene};
 pub use report::{Keeping, Kept, Launch, Report, Slot, Wanted};
 pub use runs::RunList;
 pub use watch::{Named, Watch};
@@ -199,6 +200,11 @@ impl TrainingScreen {
                     other.run.apply(*update);
                 }
             }
+            Report::Recorded(folder, reel) => {
+                if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
+                    watch.replay.offer(reel);
+                }
+            }
             Report::TrainerFailed(folder, sentence) => {
                 let name = Named::new(&folder, &self.places.runs).name;
                 self.message = Some(Message::warning(format!("{name}: {sentence}")));
@@ -253,9 +259,8 @@ impl TrainingScreen {
 
     /// Lets `seconds` pass for the replay.
     pub fn tick(&mut self, seconds: f64) {
-        let Some(Watch { own, replay, .. }) = &mut self.watch else { return };
-        if let Some(config) = &own.run.config {
-            replay.tick(seconds, &config.table);
+        if let Some(watch) = &mut self.watch {
+            watch.replay.tick(seconds);
         }
     }
 

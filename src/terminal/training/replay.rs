@@ -25,15 +25,42 @@ enum Motion {
     Resting(f64),
 }
 
+/// A set of shots, recorded.
+#[derive(Debug)]
+pub struct Reel {
+    /// Shots practised before the measurement that they are of.
+    pub after: u64,
+    /// The shots.
+    pub scenes: Vec<Scene>,
+}
+
+/// A shot of a set.
+#[derive(Debug)]
+pub struct Scene {
+    /// What was measured.
+    pub example: Example,
+    /// What happens in it; none where it cannot be played.
+    pub shot: Option<Shot>,
+}
+
+impl Reel {
+    /// Records a set on `table`. That may take seconds where balls press each other for long: not for the screen's thread.
+    pub fn record(examples: &Examples, table: &Table) -> Self {
+        let record = |example: &Example| {
+            let Example { layout, cue, reward } = *example;
+            Scene { example: *example, shot: Shot::new(table, &layout, cue, reward >= 1.0, "").ok() }
+        };
+        Self { after: examples.after, scenes: examples.shots.iter().map(record).collect() }
+    }
+}
+
 /// Shots that are replayed.
 #[derive(Debug)]
 pub struct Replay {
-    examples: Option<Examples>,
+    reel: Option<Reel>,
     /// A newer set that waits until this one is through.
-    waiting: Option<Examples>,
+    waiting: Option<Reel>,
     index: usize,
-    /// The recording of the present shot; none where it cannot be played.
-    shot: Option<Shot>,
     playback: Playback,
     motion: Motion,
     /// Whether somebody has stopped it: then nothing moves until somebody wants it.
@@ -43,10 +70,9 @@ pub struct Replay {
 impl Default for Replay {
     fn default() -> Self {
         Self {
-            examples: None,
+            reel: None,
             waiting: None,
             index: 0,
-            shot: None,
             playback: Playback::default(),
             motion: Motion::Stopped,
             held: false,
@@ -55,37 +81,34 @@ impl Default for Replay {
 }
 
 impl Replay {
-    /// Takes a new set; it plays at once, or after the one that is playing.
-    pub fn offer(&mut self, examples: Examples, table: &Table) {
-        if self.examples.as_ref() == Some(&examples) || examples.shots.is_empty() {
+    /// Takes a new set; it plays at once, or after the one that is playing. A set that is not newer than the one that is
+    /// shown is no news.
+    pub fn offer(&mut self, reel: Reel) {
+        if reel.scenes.is_empty() || self.reel.as_ref().is_some_and(|shown| shown.after >= reel.after) {
             return;
         }
-        if self.examples.is_some() && (self.motion != Motion::Stopped || self.held) {
-            self.waiting = Some(examples);
+        if self.reel.is_some() && (self.motion != Motion::Stopped || self.held) {
+            self.waiting = Some(reel);
         } else {
-            self.begin(examples, table);
+            self.begin(reel);
         }
     }
 
-    fn begin(&mut self, examples: Examples, table: &Table) {
-        self.examples = Some(examples);
-        self.show(0, table);
+    fn begin(&mut self, reel: Reel) {
+        self.reel = Some(reel);
+        self.show(0);
         self.motion = Motion::Playing;
     }
 
     /// Puts the shot with this number on the table, before its stroke.
-    fn show(&mut self, index: usize, table: &Table) {
+    fn show(&mut self, index: usize) {
         self.index = index;
         self.playback.jump(0.0);
-        self.shot = self.example().and_then(|example| {
-            let Example { layout, cue, reward } = *example;
-            Shot::new(table, &layout, cue, reward >= 1.0, "").ok()
-        });
     }
 
     /// The set that is shown.
-    pub const fn examples(&self) -> Option<&Examples> {
-        self.examples.as_ref()
+    pub const fn reel(&self) -> Option<&Reel> {
+        self.reel.as_ref()
     }
 
     /// The present shot's number in the set, from 0.
@@ -94,13 +117,8 @@ impl Replay {
     }
 
     /// The present shot.
-    pub fn example(&self) -> Option<&Example> {
-        self.examples.as_ref()?.shots.get(self.index)
-    }
-
-    /// What happens in it; none where it cannot be played.
-    pub const fn shot(&self) -> Option<&Shot> {
-        self.shot.as_ref()
+    pub fn scene(&self) -> Option<&Scene> {
+        self.reel.as_ref()?.scenes.get(self.index)
     }
 
     /// Seconds since the stroke.
@@ -114,7 +132,7 @@ impl Replay {
     }
 
     /// Plays, or stops; at the end of the set it plays the newest from its beginning.
-    pub fn toggle(&mut self, table: &Table) {
+    pub fn toggle(&mut self) {
         if self.is_playing() {
             self.motion = Motion::Stopped;
             self.held = true;
@@ -123,17 +141,17 @@ impl Replay {
         self.held = false;
         if self.is_through() {
             match self.waiting.take() {
-                Some(newer) => self.begin(newer, table),
-                None => self.show(0, table),
+                Some(newer) => self.begin(newer),
+                None => self.show(0),
             }
         } else if self.is_at_the_end() {
-            self.show(self.index + 1, table);
+            self.show(self.index + 1);
         }
         self.motion = Motion::Playing;
     }
 
     fn duration(&self) -> f64 {
-        self.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())
+        self.scene().and_then(|scene| scene.shot.as_ref()).map_or(0.0, |shot| shot.recording.duration())
     }
 
     fn is_at_the_end(&self) -> bool {
@@ -141,23 +159,23 @@ impl Replay {
     }
 
     fn is_through(&self) -> bool {
-        let last = self.examples.as_ref().map_or(0, |examples| examples.shots.len().saturating_sub(1));
+        let last = self.reel.as_ref().map_or(0, |reel| reel.scenes.len().saturating_sub(1));
         self.index >= last && self.is_at_the_end()
     }
 
     /// Shows another shot before its stroke, the next where positive, and stops there.
-    pub fn step(&mut self, shots: isize, table: &Table) {
-        let count = self.examples.as_ref().map_or(0, |examples| examples.shots.len());
+    pub fn step(&mut self, shots: isize) {
+        let count = self.reel.as_ref().map_or(0, |reel| reel.scenes.len());
         if count > 0 {
             let index = self.index.saturating_add_signed(shots).min(count - 1);
-            self.show(index, table);
+            self.show(index);
         }
         self.motion = Motion::Stopped;
         self.held = true;
     }
 
     /// Lets `seconds` pass.
-    pub fn tick(&mut self, seconds: f64, table: &Table) {
+    pub fn tick(&mut self, seconds: f64) {
         match self.motion {
             Motion::Stopped => {}
             Motion::Playing => {
@@ -169,11 +187,11 @@ impl Replay {
             }
             Motion::Resting(left) if left > seconds => self.motion = Motion::Resting(left - seconds),
             Motion::Resting(_) if !self.is_through() => {
-                self.show(self.index + 1, table);
+                self.show(self.index + 1);
                 self.motion = Motion::Playing;
             }
             Motion::Resting(_) => match self.waiting.take() {
-                Some(newer) => self.begin(newer, table),
+                Some(newer) => self.begin(newer),
                 None => self.motion = Motion::Stopped,
             },
         }
@@ -185,21 +203,22 @@ mod tests {
     use super::*;
     use crate::{physics::CueInputs, table::Layout};
 
-    fn examples(after: u64) -> Examples {
+    fn reel(after: u64) -> Reel {
         let layout = Layout::opening(&Table::default());
         let cue = CueInputs::parse("0,0,0,30,1").unwrap();
-        Examples { after, shots: vec![Example { layout, cue, reward: 0.0 }; 3] }
+        let examples = Examples { after, shots: vec![Example { layout, cue, reward: 0.0 }; 3] };
+        Reel::record(&examples, &Table::default())
     }
 
-    fn pass(replay: &mut Replay, table: &Table) -> Vec<(u64, usize)> {
+    fn pass(replay: &mut Replay) -> Vec<(u64, usize)> {
         let mut seen = Vec::new();
         let mut seconds = 0.0;
         while replay.is_playing() && seconds < 1e3 {
-            let now = (replay.examples().unwrap().after, replay.index());
+            let now = (replay.reel().unwrap().after, replay.index());
             if seen.last() != Some(&now) {
                 seen.push(now);
             }
-            replay.tick(INTERVAL, table);
+            replay.tick(INTERVAL);
             seconds += INTERVAL;
         }
         seen
@@ -207,35 +226,35 @@ mod tests {
 
     #[test]
     fn a_set_plays_once_and_rests_at_its_last_shot() {
-        let (table, mut replay) = (Table::default(), Replay::default());
-        replay.offer(examples(1), &table);
-        assert_eq!(pass(&mut replay, &table), [(1, 0), (1, 1), (1, 2)]);
-        assert_eq!(replay.time(), replay.shot().unwrap().recording.duration());
-        replay.offer(examples(1), &table);
+        let mut replay = Replay::default();
+        replay.offer(reel(1));
+        assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2)]);
+        assert_eq!(replay.time(), replay.duration());
+        replay.offer(reel(1));
         assert!(!replay.is_playing(), "the same set is no news");
-        replay.toggle(&table);
-        assert_eq!(pass(&mut replay, &table).len(), 3);
+        replay.toggle();
+        assert_eq!(pass(&mut replay).len(), 3);
     }
 
     #[test]
     fn a_newer_set_waits_for_the_end_of_the_one_that_plays() {
-        let (table, mut replay) = (Table::default(), Replay::default());
-        replay.offer(examples(1), &table);
-        replay.tick(0.3, &table);
-        replay.offer(examples(2), &table);
-        replay.offer(examples(3), &table);
-        assert_eq!(pass(&mut replay, &table), [(1, 0), (1, 1), (1, 2), (3, 0), (3, 1), (3, 2)]);
+        let mut replay = Replay::default();
+        replay.offer(reel(1));
+        replay.tick(0.3);
+        replay.offer(reel(2));
+        replay.offer(reel(3));
+        assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2), (3, 0), (3, 1), (3, 2)]);
     }
 
     #[test]
     fn what_somebody_has_stopped_stays_stopped() {
-        let (table, mut replay) = (Table::default(), Replay::default());
-        replay.offer(examples(1), &table);
-        replay.step(1, &table);
-        replay.offer(examples(2), &table);
+        let mut replay = Replay::default();
+        replay.offer(reel(1));
+        replay.step(1);
+        replay.offer(reel(2));
         assert!(!replay.is_playing());
-        assert_eq!((replay.examples().unwrap().after, replay.index()), (1, 1));
-        replay.toggle(&table);
-        assert_eq!(pass(&mut replay, &table).last(), Some(&(2, 2)));
+        assert_eq!((replay.reel().unwrap().after, replay.index()), (1, 1));
+        replay.toggle();
+        assert_eq!(pass(&mut replay).last(), Some(&(2, 2)));
     }
 }

@@ -6,6 +6,7 @@ use std::{
     sync::Arc,
 };
 
+use super::Reel;
 use crate::learning::{
     Policy,
     run::{follow::Update, list::Summary, request::Request},
@@ -80,6 +81,8 @@ pub enum Report {
     Runs(Result<Vec<Summary>, String>),
     /// News of the run in a folder that is followed.
     Followed(Slot, PathBuf, Box<Update>),
+    /// The latest shots of the run in a folder, recorded.
+    Recorded(PathBuf, Reel),
     /// The process that trained in a folder could not be started, or has ended with this sentence.
     TrainerFailed(PathBuf, String),
     /// A run was asked for something.

@@ -7,7 +7,6 @@ use crate::{
     game::Reward,
     learning::run::{
         POLICY,
-        examples::Examples,
         follow::{Condition, Followed, Update},
         history::Point,
         quantity::Quantity,
@@ -31,12 +30,6 @@ impl Named {
         let name = folder.strip_prefix(runs).unwrap_or(folder).display().to_string();
         Self { name, run: Followed::new(folder) }
     }
-
-    /// Shots that it has played.
-    pub fn shots(&self) -> u64 {
-        let said = self.run.standing.as_ref().map_or(0, |standing| standing.shots);
-        said.max(self.run.history.last().map_or(0, |record| record.shots))
-    }
 }
 
 /// A run that is watched.
@@ -50,31 +43,17 @@ pub struct Watch {
     pub charts: Charts,
     /// Its latest shots.
     pub replay: Replay,
-    /// Shots that came before the table that they are played on.
-    early: Option<Examples>,
 }
 
 impl Watch {
     /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
     pub fn new(folder: &Path, runs: &Path) -> Self {
-        Self {
-            own: Named::new(folder, runs),
-            other: None,
-            charts: Charts::default(),
-            replay: Replay::default(),
-            early: None,
-        }
+        Self { own: Named::new(folder, runs), other: None, charts: Charts::default(), replay: Replay::default() }
     }
 
     /// Takes what has changed.
-    pub fn apply(&mut self, mut update: Update) {
-        self.early = update.examples.take().or(self.early.take());
+    pub fn apply(&mut self, update: Update) {
         self.own.run.apply(update);
-        if let (Some(config), true) = (&self.own.run.config, self.early.is_some())
-            && let Some(examples) = self.early.take()
-        {
-            self.replay.offer(examples, &config.table);
-        }
     }
 
     /// Where it is.
@@ -104,12 +83,12 @@ impl Watch {
 
     /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
     pub fn planned_end(&self) -> Option<u64> {
-        self.planned().map(|planned| planned.max(self.own.shots()))
+        self.planned().map(|planned| planned.max(self.own.run.shots()))
     }
 
     /// Shots played by it or by the run that it is compared with: charts show both.
     pub fn most_shots(&self) -> u64 {
-        self.own.shots().max(self.other.as_ref().map_or(0, Named::shots))
+        self.own.run.shots().max(self.other.as_ref().map_or(0, |other| other.run.shots()))
     }
 
     /// The last measurement on held-out layouts.

@@ -49,9 +49,20 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
             smoothing: charts.smoothing(),
             selected: charts.is_selected(n),
             with_shots: is_last,
-            note: None,
+            note: missing(&watch.own.run, quantity),
         };
         draw_chart(&chart, place, app.theme(), app.look(), buffer);
+    }
+}
+
+/// Why a run that has reported something has nothing to show of a quantity.
+fn missing(run: &Followed, quantity: Quantity) -> Option<&'static str> {
+    let last = run.history.last()?;
+    match quantity {
+        Quantity::HeldOut | Quantity::Reach if run.history.best().is_none() => Some("comes with the first measurement"),
+        Quantity::ActorLoss if last.actor_loss.is_none() => Some("this agent has no actor"),
+        Quantity::Exploration if last.exploration.is_none() => Some("the run does not report it"),
+        _ => None,
     }
 }
 

@@ -27,7 +27,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
         _ => theme.text(),
     };
     let words = format!("{:<CONDITION$}", condition.to_string());
-    let share = watch.planned().map(|planned| (watch.own.shots() as f64 / planned.max(1) as f64).min(1.0));
+    let share = watch.planned().map(|planned| (watch.own.run.shots() as f64 / planned.max(1) as f64).min(1.0));
     let percent = share.map_or("    -".to_owned(), |share| format!("{:>4.0}%", (100.0 * share).floor()));
     // The condition, a bar and the percentage come first: what they leave is the name's, and then of what it is.
     let fixed = (words.chars().count() + percent.len() + 3) as u16;

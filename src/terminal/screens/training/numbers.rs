@@ -9,7 +9,10 @@ use ratatui::{
 };
 
 use crate::{
-    learning::{evaluation::SuccessRate, run::standing::Phase},
+    learning::{
+        evaluation::SuccessRate,
+        run::{follow::Condition, standing::Phase},
+    },
     terminal::{
         app::App,
         training::Watch,
@@ -55,18 +58,14 @@ type Row = (&'static str, String);
 fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let run = &watch.own.run;
     let (standing, last) = (run.standing.as_ref(), run.history.last());
-    let shots = watch.own.shots();
+    let shots = watch.own.run.shots();
     let seconds = standing.map(|standing| standing.seconds).or(last.map(|record| record.seconds));
     let updates = standing.map(|standing| standing.updates).or(last.map(|record| record.updates));
     // Speeds are of a run at work alone.
     let working = standing.filter(|_| watch.is_at_work());
     let speed = |value: Option<f64>| known(value.filter(|value| value.is_finite()), |value| count(value as u64));
-    let pace = working.map(|standing| standing.shots_per_second).filter(|pace| *pace > 0.0);
-    let left = watch.planned().map(|planned| planned.saturating_sub(shots));
-    let eta = match (left, pace, working.map(|standing| standing.phase)) {
-        (Some(left), Some(pace), Some(Phase::Training | Phase::Measuring)) => Some(left as f64 / pace),
-        _ => None,
-    };
+    let is_going_on = matches!(watch.condition(), Condition::Is(Phase::Training | Phase::Measuring));
+    let left = run.time_left().filter(|_| is_going_on);
     let exploration = standing.map(|standing| standing.exploration).or(last.and_then(|record| record.exploration));
     let memory = standing.and_then(|standing| standing.memory).or(last.and_then(|record| record.memory));
     let three = |value: f64| format!("{value:.3}");
@@ -108,7 +107,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
             ("shots", count(shots)),
             ("planned", known(watch.planned(), count)),
             ("trained for", known(seconds, time_words)),
-            ("time left", known(eta, time_words)),
+            ("time left", known(left, |left| time_words(left.as_secs_f64()))),
             ("shots/s", speed(working.map(|standing| standing.shots_per_second))),
             ("updates/s", speed(working.map(|standing| standing.updates_per_second))),
             ("measured every", known(config, |config| count(config.schedule.evaluate_every))),

@@ -8,7 +8,7 @@ use ratatui::{
 
 use crate::terminal::{
     app::App,
-    training::Watch,
+    training::{Scene, Watch},
     widgets::{TableView, draw_table, draw_title, write_right},
     words::short_count,
 };
@@ -17,7 +17,8 @@ use crate::terminal::{
 pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let (theme, look, replay) = (app.theme(), app.look(), &watch.replay);
     let dot = look.pick(" · ", " - ");
-    let (Some(table), Some(examples), Some(example)) = (watch.table(), replay.examples(), replay.example()) else {
+    let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), replay.reel(), replay.scene())
+    else {
         let inner = draw_title(&Line::from(Span::styled("Shots", theme.text())), area, theme, look, buffer);
         let words = ["", "shots come with the", "first measurement"];
         for (text, y) in words.into_iter().zip(inner.y..inner.bottom()) {
@@ -32,12 +33,12 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
         _ => ("miss".to_owned(), theme.warning()),
     };
     let title = Line::from(vec![
-        Span::styled(format!("Shot {} of {}", replay.index() + 1, examples.shots.len()), theme.text()),
+        Span::styled(format!("Shot {} of {}", replay.index() + 1, reel.scenes.len()), theme.text()),
         Span::styled(dot, theme.faint()),
         Span::styled(outcome, style),
     ]);
     let inner = draw_title(&title, area, theme, look, buffer);
-    let after = format!(" after {} shots ", short_count(examples.after));
+    let after = format!(" after {} shots ", short_count(reel.after));
     let free = area.x + title.width() as u16 + 5;
     if usize::from(area.right().saturating_sub(free)) > after.len() {
         write_right(buffer, free, area.right().saturating_sub(1), area.y, &after, theme.faint());
@@ -45,7 +46,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let view = TableView {
         table,
         layout: &example.layout,
-        shot: replay.shot(),
+        shot: shot.as_ref(),
         time: replay.time(),
         is_moving: true,
         front: 0,
