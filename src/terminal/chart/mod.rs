@@ -116,6 +116,9 @@ pub fn whole(shots: u64, planned: Option<u64>) -> (f64, f64) {
     (0.0, planned.map_or(next, |planned| planned.min(next)))
 }
 
+/// What the numbers along the lower axis count: an episode is a shot.
+const UNIT: &str = "shots";
+
 /// Draws `chart` into `area`: its title in the first row, the labels of values to the left of the plot, and those of shots
 /// in the last row if they are asked for.
 pub fn draw_chart(chart: &Chart, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
@@ -199,13 +202,14 @@ fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, theme: &Theme
 
 /// The labels of shots below the plot.
 fn draw_shots(shots: (f64, f64), area: Rect, plot: Rect, grid: &Grid, theme: &Theme, buffer: &mut Buffer) {
-    let mut free = area.x;
+    buffer.set_stringn(area.x, plot.bottom(), UNIT, usize::from(LEFT), theme.faint());
+    let mut free = area.x + UNIT.len() as u16 + 1;
     for tick in shot_ticks(shots, plot.width) {
         let column = plot.x + grid.column_of((tick.at * f64::from(grid.size().0 - 1)).round() as i32);
         let width = tick.label.len() as u16;
         let end = (column + 1 + width / 2).min(area.right());
         let start = end.saturating_sub(width);
-        if start >= free && start >= area.x {
+        if start >= free {
             buffer.set_stringn(start, plot.bottom(), &tick.label, usize::from(width), theme.faint());
             free = end + 1;
         }
