@@ -1,9 +1,10 @@
 //! Draws the pictures of the documentation: plays the real program without a terminal and writes its screens as SVG.
 //!
-//! `cargo run --release --example picture -- docs/` writes the same bytes each time; another processor may round the
-//! networks' numbers otherwise and so find another shot.
+//! `cargo run --release --example picture -- docs/` writes the same bytes each time, but for the times of the training that
+//! it shows; another processor may round the networks' numbers otherwise and so find another shot.
 
 mod svg;
+mod training;
 
 use std::{env, error::Error, fs, path::Path};
 
@@ -41,7 +42,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     play_to_the_point(&mut app)?;
     write("coach.svg", &app, 120, 40, "The coach plays the shot that it recommends")?;
     press(&mut app, Char('?'));
-    write("help.svg", &app, 120, 40, "Every key of the coach")
+    write("help.svg", &app, 120, 40, "Every key of the coach")?;
+    let app = training::screen(LOOK)?;
+    write("training-80x24.svg", &app, 80, 24, "A run that trains, on a small terminal")?;
+    write("training.svg", &app, 120, 40, "A run that trains: its charts, its numbers and its latest shots")
 }
 
 fn press(app: &mut App, key: KeyCode) -> Option<Effect> {

@@ -202,8 +202,7 @@ fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, theme: &Theme
 
 /// The labels of shots below the plot.
 fn draw_shots(shots: (f64, f64), area: Rect, plot: Rect, grid: &Grid, theme: &Theme, buffer: &mut Buffer) {
-    buffer.set_stringn(area.x, plot.bottom(), UNIT, usize::from(LEFT), theme.faint());
-    let mut free = area.x + UNIT.len() as u16 + 1;
+    let (mut free, mut first) = (area.x, None);
     for tick in shot_ticks(shots, plot.width) {
         let column = plot.x + grid.column_of((tick.at * f64::from(grid.size().0 - 1)).round() as i32);
         let width = tick.label.len() as u16;
@@ -212,7 +211,12 @@ fn draw_shots(shots: (f64, f64), area: Rect, plot: Rect, grid: &Grid, theme: &Th
         if start >= free {
             buffer.set_stringn(start, plot.bottom(), &tick.label, usize::from(width), theme.faint());
             free = end + 1;
+            first = first.or(Some(start));
         }
+    }
+    let unit = area.x + 1;
+    if first.is_some_and(|first| first > unit + UNIT.len() as u16) {
+        buffer.set_string(unit, plot.bottom(), UNIT, theme.faint());
     }
 }
 

@@ -85,7 +85,7 @@ fn a_falling_loss_beside_another_run() {
           |      *****....             ....
           |          *********
          0+                  ************
-    shots  0     0.2k   0.4k    0.6k   0.8k 1.0k
+     shots 0     0.2k   0.4k    0.6k   0.8k 1.0k
     ");
     let log =
         Chart { log: true, smoothing: 0.03, note: Some("a note without room"), ..chart("3 critic loss", &curves) };
@@ -98,7 +98,7 @@ fn a_falling_loss_beside_another_run() {
           │                   ⠈⠈⠙⠒⠦⣄⣀
           │                        ⠈⠈⠙⠒⠦⡄
       0.01┤⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀
-    shots  0     0.2k   0.4k    0.6k   0.8k 1.0k
+     shots 0     0.2k   0.4k    0.6k   0.8k 1.0k
     ");
 }
 
@@ -117,7 +117,7 @@ fn gaps_are_named_and_interrupt_the_curve() {
          0+*           *         ***           **
           |                    ***              ***
         -1+                 ****                  ***
-    shots  0      0.2k     0.4k    0.6k     0.8k  1.0k
+     shots 0      0.2k     0.4k    0.6k     0.8k  1.0k
     ");
     let log = Chart { log: true, ..chart("1 mean reward", &curves) };
     insta::assert_snapshot!(picture(&log, (60, 7), BRAILLE), @r"
@@ -127,7 +127,7 @@ fn gaps_are_named_and_interrupt_the_curve() {
           │⢰⠃            ⣇               ⣸            ⠘⡆
           │              ⢸               ⡇             ⠁
       0.02┤⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⠘ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀
-    shots  0        0.2k       0.4k      0.6k       0.8k    1.0k
+     shots 0        0.2k       0.4k      0.6k       0.8k    1.0k
     ");
     let title = drawn(&log, (60, 7), BRAILLE);
     let warning = Theme::new(BRAILLE.depth).warning;
@@ -144,7 +144,7 @@ fn a_run_without_data_and_one_with_a_single_point() {
           │
           │     measured every 5k shots
           │
-    shots  0              0.5k          1.0k
+     shots 0              0.5k          1.0k
     ");
     let curves = [curve(&point, Whose::Own)];
     insta::assert_snapshot!(picture(&chart("4 held-out success", &curves), (26, 5), BRAILLE), @r"
@@ -152,7 +152,7 @@ fn a_run_without_data_and_one_with_a_single_point() {
          0┤⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁
           │     ⢠⡄
       -0.6┤⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀ ⡀
-    shots  0       0.5k   1.0k
+     shots 0       0.5k   1.0k
     ");
 }
 

@@ -1,0 +1,94 @@
+//! A run as it trains: it is trained for a minute, and watched.
+
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
+
+use carom::{
+    game::Reward,
+    learning::{
+        agents::AGENTS,
+        learner::Plan,
+        run::{Limits, Run, Schedule, Watcher, follow::Follower, list::runs_in, metrics::Record},
+    },
+    storage::Places,
+    table::{Layout, Table},
+    terminal::{App, Look, Reel, Report, Slot},
+};
+use crossterm::event::KeyCode::{Char, Enter};
+
+/// Shots that are planned, and those after which the picture is taken.
+const PLANNED: u64 = 300_000;
+const TAKEN: u64 = 150_000;
+/// Seconds of the replay before the picture: the balls are on their way.
+const REPLAYED: f64 = 1.3;
+
+/// The screen of a run that is half through.
+pub fn screen(look: Look) -> Result<App, Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let runs = folder.path().join("runs");
+    let place = runs.join("first-steps");
+    let plan = Plan { reward: Reward::R3, seed: 1, shots: PLANNED };
+    let learner = (AGENTS[0].start)(plan, Table::default(), serde_json::json!({}))?;
+    let mut run = Run::create(&place, learner, Schedule::new(10_000, 1_000), None)?;
+    let mut camera = Camera { runs, place, look, app: None };
+    let is_taken = std::cell::Cell::new(false);
+    // The run stops at the first turn after the picture, which is taken while it trains.
+    let limits = Limits { time: None, stop: &|| is_taken.get() };
+    run.practise(&limits, &mut Watching { camera: &mut camera, is_taken: &is_taken })?;
+    camera.app.ok_or("the run ended before the picture")?
+}
+
+/// Takes the picture.
+struct Camera {
+    runs: PathBuf,
+    place: PathBuf,
+    look: Look,
+    app: Option<Result<App, Box<dyn Error>>>,
+}
+
+impl Camera {
+    fn take(&self) -> Result<App, Box<dyn Error>> {
+        let table = Table::default();
+        let places = Places { runs: self.runs.clone(), policies: self.runs.clone() };
+        let mut app = App::new(table.clone(), Layout::opening(&table), self.look, 1)?.with_places(places);
+        app.handle(&Char('t').into());
+        app.receive_report(Report::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
+        app.handle(&Enter.into());
+        show(&mut app, &self.place, &table)?;
+        app.tick(REPLAYED);
+        Ok(app)
+    }
+}
+
+/// What a follower of the run sees.
+fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>> {
+    let mut update = Follower::new(place).look().ok_or("nothing is to be seen of the run")?;
+    let reel = update.examples.take().map(|examples| Reel::record(&examples, table));
+    app.receive_report(Report::Followed(Slot::Main, place.to_owned(), Box::new(update)));
+    app.receive_report(Report::Recorded(place.to_owned(), reel.ok_or("the run has no shots to show")?));
+    Ok(())
+}
+
+struct Watching<'a> {
+    camera: &'a mut Camera,
+    is_taken: &'a std::cell::Cell<bool>,
+}
+
+impl Watcher for Watching<'_> {
+    fn line(&mut self, record: &Record) {
+        if record.held_out_reward.is_some() {
+            eprintln!("trained {} of {TAKEN} shots for the picture", record.shots);
+        }
+        // Not at a measurement: it is to be seen training.
+        if record.shots > TAKEN && record.held_out_reward.is_none() && !self.is_taken.get() {
+            self.is_taken.set(true);
+            self.camera.app = Some(self.camera.take());
+        }
+    }
+
+    fn warn(&mut self, sentence: &str) {
+        eprintln!("{sentence}");
+    }
+}
