@@ -1,5 +1,7 @@
 //! What the player sees: keys go through the real app, and its pictures are compared at both sizes.
 
+mod keys;
+
 use std::{sync::Arc, time::Duration};
 
 use carom::{
@@ -8,6 +10,7 @@ use carom::{
     terminal::{Answer, App, Depth, Effect, Effort, Glyphs, Job, Look, Office, Shot},
 };
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use keys::key;
 use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
 
@@ -37,24 +40,7 @@ impl Player {
     /// Presses keys: letters as they are, names like `Left`, `S-Left`, `C-Left`, `Enter` between blanks.
     fn press(mut self, keys: &str) -> Self {
         for word in keys.split_whitespace() {
-            let (modifiers, name) = match word.split_once('-') {
-                Some(("S", name)) => (KeyModifiers::SHIFT, name),
-                Some(("C", name)) => (KeyModifiers::CONTROL, name),
-                _ => (KeyModifiers::NONE, word),
-            };
-            let code = match name {
-                "Left" => KeyCode::Left,
-                "Right" => KeyCode::Right,
-                "Up" => KeyCode::Up,
-                "Down" => KeyCode::Down,
-                "Enter" => KeyCode::Enter,
-                "Esc" => KeyCode::Esc,
-                "Tab" => KeyCode::Tab,
-                "End" => KeyCode::End,
-                "Space" => KeyCode::Char(' '),
-                letter => KeyCode::Char(letter.chars().next().unwrap()),
-            };
-            match self.app.handle(&KeyEvent::new(code, modifiers)) {
+            match self.app.handle(&key(word)) {
                 Some(Effect::Recommend(job)) => self.asked = Some(job),
                 Some(other) => panic!("{word} gives {other:?}"),
                 None => {}

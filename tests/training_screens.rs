@@ -1,5 +1,6 @@
 //! The training screen as one sees it: keys and reports go through the real app, and its pictures are compared.
 
+mod keys;
 mod training_player;
 
 use std::{path::Path, sync::Arc, time::Duration};

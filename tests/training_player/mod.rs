@@ -16,9 +16,10 @@ use carom::{
     table::{Layout, Table},
     terminal::{App, Depth, Effect, Glyphs, Look, Reel, Report, Slot},
 };
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use serde_json::json;
+
+use crate::keys::key;
 
 pub const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
 pub const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
@@ -55,24 +56,7 @@ impl Player {
     /// Presses keys: letters as they are, names like `Left`, `Enter` between blanks.
     pub fn press(mut self, keys: &str) -> Self {
         for word in keys.split_whitespace() {
-            let (modifiers, name) = match word.split_once('-') {
-                Some(("C", name)) => (KeyModifiers::CONTROL, name),
-                _ => (KeyModifiers::NONE, word),
-            };
-            let code = match name {
-                "Left" => KeyCode::Left,
-                "Right" => KeyCode::Right,
-                "Up" => KeyCode::Up,
-                "Down" => KeyCode::Down,
-                "Enter" => KeyCode::Enter,
-                "Esc" => KeyCode::Esc,
-                "Tab" => KeyCode::Tab,
-                "End" => KeyCode::End,
-                "Backspace" => KeyCode::Backspace,
-                "Space" => KeyCode::Char(' '),
-                letter => KeyCode::Char(letter.chars().next().unwrap()),
-            };
-            self.effects.extend(self.app.handle(&KeyEvent::new(code, modifiers)));
+            self.effects.extend(self.app.handle(&key(word)));
         }
         self
     }

@@ -1,0 +1,26 @@
+//! Keys by the names that tests call them.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+/// The key called `word`: a letter as it is, a name like `Left` or `Enter`, and `S-` or `C-` before it for Shift or Ctrl.
+pub fn key(word: &str) -> KeyEvent {
+    let (modifiers, name) = match word.split_once('-') {
+        Some(("S", name)) => (KeyModifiers::SHIFT, name),
+        Some(("C", name)) => (KeyModifiers::CONTROL, name),
+        _ => (KeyModifiers::NONE, word),
+    };
+    let code = match name {
+        "Left" => KeyCode::Left,
+        "Right" => KeyCode::Right,
+        "Up" => KeyCode::Up,
+        "Down" => KeyCode::Down,
+        "Enter" => KeyCode::Enter,
+        "Esc" => KeyCode::Esc,
+        "Tab" => KeyCode::Tab,
+        "End" => KeyCode::End,
+        "Backspace" => KeyCode::Backspace,
+        "Space" => KeyCode::Char(' '),
+        letter => KeyCode::Char(letter.chars().next().unwrap()),
+    };
+    KeyEvent::new(code, modifiers)
+}
