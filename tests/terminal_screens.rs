@@ -9,7 +9,6 @@ use carom::{
     table::{Layout, Table},
     terminal::{Answer, App, Depth, Effect, Effort, Glyphs, Job, Look, Office, Shot},
 };
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use keys::key;
 use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
