@@ -31,7 +31,7 @@ const FRAME: &[u8] = b"\x1b[?2026h";
 fn main() {
     let folder = tempfile::tempdir().expect("a folder for the run");
     let run = folder.path().join("run");
-    let mut training = train(&run);
+    let training = Training(train(&run));
     for (width, height) in [(80, 24), (120, 40)] {
         let watcher = Watcher::start(&run, width, height);
         thread::sleep(SETTLING);
@@ -58,7 +58,7 @@ fn main() {
             println!("{width}x{height}: the watcher takes {:.2} % of a processor", 100.0 * (after - before) / passed);
         }
     }
-    let mut ratios: Vec<f64> = (0..PAIRS).filter_map(|_| ratio(&run, training.id())).collect();
+    let mut ratios: Vec<f64> = (0..PAIRS).filter_map(|_| ratio(&run, training.0.id())).collect();
     ratios.sort_by(f64::total_cmp);
     if let (Some(first), Some(last)) = (ratios.first(), ratios.last()) {
         println!(
@@ -67,8 +67,17 @@ fn main() {
             ratios.len()
         );
     }
-    training.kill().expect("the training ends");
-    training.wait().expect("the training has ended");
+}
+
+/// A training that ends with the bench, however that ends.
+struct Training(Child);
+
+impl Drop for Training {
+    fn drop(&mut self) {
+        // It may have ended already.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
 }
 
 /// The default agent in its usual schedule.

@@ -258,7 +258,7 @@ fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
     drop(session);
     let start = Instant::now();
     loop {
-        let runs = runs_in(&data.path().join("carom/runs")).unwrap_or_default();
+        let runs = runs_in(&data.path().join("carom/runs")).unwrap_or_default().runs;
         if runs.first().is_some_and(|run| run.state == Stage::Finished && run.best_reward.is_some()) {
             break;
         }

@@ -11,7 +11,7 @@ use carom::{
         Policy,
         run::{
             follow::{Condition, Update},
-            list::Stage,
+            list::{Listing, Stage},
             request::Request,
             standing::Phase,
         },
@@ -49,7 +49,7 @@ fn without_moments(text: &str) -> String {
 
 #[test]
 fn the_list_of_runs() {
-    let player = Player::new().report(Report::Runs(Ok(summaries())));
+    let player = Player::new().report(Report::Runs(Ok(summaries().into())));
     check("runs", &player);
     let down = player.press("Down Down Down");
     check("runs_marked", &down);
@@ -60,16 +60,16 @@ fn the_list_of_runs() {
 
 #[test]
 fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
-    let player = Player::new().report(Report::Runs(Ok(summaries()))).press("Down");
+    let player = Player::new().report(Report::Runs(Ok(summaries().into()))).press("Down");
     let mut more = summaries();
     more.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Stage::Running));
-    let player = player.report(Report::Runs(Ok(more))).press("Enter");
+    let player = player.report(Report::Runs(Ok(more.into()))).press("Enter");
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
 }
 
 #[test]
 fn an_empty_list_says_what_to_press() {
-    check("runs_empty", &Player::new().report(Report::Runs(Ok(Vec::new()))));
+    check("runs_empty", &Player::new().report(Report::Runs(Ok(Listing::default()))));
     let broken = Player::new().report(Report::Runs(Err("/runs: permission denied".into())));
     broken.says("/runs: permission denied");
     Player::new().press("Enter").says("there is no run yet; n starts one");
@@ -77,7 +77,7 @@ fn an_empty_list_says_what_to_press() {
 
 #[test]
 fn a_new_run_is_filled_in_and_started() {
-    let player = Player::new().report(Report::Runs(Ok(summaries()))).press("n");
+    let player = Player::new().report(Report::Runs(Ok(summaries().into()))).press("n");
     check("form", &player);
     let player = player.press("Down Right Right Down Right Down Backspace Backspace 7 Down Right Down Right");
     check("form_filled", &player);
@@ -145,7 +145,7 @@ fn what_is_wrong_with_the_files_is_said() {
 
 #[test]
 fn a_run_of_which_nothing_is_known_yet() {
-    let player = Player::new().report(Report::Runs(Ok(summaries()))).press("Enter");
+    let player = Player::new().report(Report::Runs(Ok(summaries().into()))).press("Enter");
     check("watch_unknown", &player);
     player.press("w").says("there is no run yet");
 }
@@ -368,8 +368,8 @@ proptest! {
         for (key, news) in steps {
             player = player.press(KEYS[key]);
             player = match news {
-                0 => player.report(Report::Runs(Ok(summaries()))),
-                1 => player.report(Report::Runs(Ok(Vec::new()))),
+                0 => player.report(Report::Runs(Ok(summaries().into()))),
+                1 => player.report(Report::Runs(Ok(Listing::default()))),
                 2 => player.update(Slot::Main, NAME, known()),
                 3 => player.update(Slot::Compared, OTHER, known()),
                 4 => player.condition(Condition::Died, None),

@@ -8,7 +8,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
     },
     thread,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use signal_hook::{
@@ -34,6 +34,9 @@ use crate::{
 
 /// Time between two looks at the run.
 const INTERVAL: Duration = Duration::from_millis(200);
+
+/// Time for which a run has to be over before that is believed.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Watch a run, live while it trains and also after its end: the training screen on a terminal, elsewhere a line for every
 /// measurement until the run has ended. Watching only reads the run's files; leaving never disturbs it.
@@ -74,7 +77,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
     }
     let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
-    let mut before = Condition::Unknown;
+    let (mut before, mut over) = (Condition::Unknown, None::<Instant>);
     while !stop.load(Ordering::Relaxed) {
         let mut written = Ok(());
         let update = follower.look_at_lines(&mut |record| {
@@ -89,13 +92,16 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
             }
             followed.apply(update);
         }
+        let condition = followed.condition;
+        // A run that has just been taken up again is over until it says otherwise.
+        over = condition.is_over().then(|| over.unwrap_or_else(Instant::now));
+        let is_settled = over.is_none_or(|since| since.elapsed() >= GRACE);
         // A measurement is told by its line.
-        let is_measuring = followed.condition == Condition::Is(Phase::Measuring);
-        if !is_measuring && !followed.condition.is_like(before) {
-            before = followed.condition;
+        if is_settled && condition != Condition::Is(Phase::Measuring) && !condition.is_like(before) {
+            before = condition;
             tell(followed.sentence());
         }
-        if followed.condition.is_over() {
+        if over.is_some() && is_settled {
             break;
         }
         thread::sleep(INTERVAL);

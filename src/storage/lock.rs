@@ -45,10 +45,14 @@ impl Lock {
         Ok(None)
     }
 
-    /// Whether a process has the lock of a folder.
-    pub fn is_held(folder: &Path) -> bool {
-        let Ok(file) = File::open(folder.join(Self::FILE)) else { return false };
-        matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
+    /// Whether a process has the lock of a folder; `None` where that cannot be known: there is no lock, or the file system
+    /// knows none.
+    pub fn is_held(folder: &Path) -> Option<bool> {
+        match File::open(folder.join(Self::FILE)).ok()?.try_lock_shared() {
+            Ok(()) => Some(false),
+            Err(TryLockError::WouldBlock) => Some(true),
+            Err(TryLockError::Error(_)) => None,
+        }
     }
 }
 
@@ -59,11 +63,11 @@ mod tests {
     #[test]
     fn a_folder_is_locked_until_the_lock_is_dropped() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(!Lock::is_held(folder.path()));
+        assert_eq!(Lock::is_held(folder.path()), None);
         let lock = Lock::take(folder.path()).unwrap();
-        assert!(lock.is_some() && Lock::is_held(folder.path()));
+        assert!(lock.is_some() && Lock::is_held(folder.path()) == Some(true));
         assert!(Lock::take(folder.path()).unwrap().is_none());
         drop(lock);
-        assert!(!Lock::is_held(folder.path()) && Lock::take(folder.path()).unwrap().is_some());
+        assert!(Lock::is_held(folder.path()) == Some(false) && Lock::take(folder.path()).unwrap().is_some());
     }
 }

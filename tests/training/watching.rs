@@ -88,6 +88,26 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
 }
 
 #[test]
+fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "300000")));
+    let list = |state: &str| {
+        let list = done(here, "train --list . --json").out;
+        let run = lines(&list).remove(0);
+        assert_eq!(run["state"], state, "{list}");
+        run["last_reward"].as_f64().unwrap()
+    };
+    assert!(list("interrupted") >= 0.0, "what it earned when it was stopped is known");
+    let mut training = start(here, "train --resume run");
+    let watcher = outcome(watch(here, "watch run"));
+    assert!(training.wait().unwrap().success());
+    assert_eq!(watcher.code, Some(0));
+    assert!(watcher.err.contains("the run is training") && watcher.err.contains("finished"), "{}", watcher.err);
+    list("finished");
+}
+
+#[test]
 fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
     let folder = folder();
     let here = folder.path();
@@ -120,17 +140,30 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
     fs::write(&metrics, &lines[..lines.len() - 20]).unwrap();
     assert_eq!(look("the last line of metrics.jsonl is cut off").out.lines().count(), 9);
     fs::write(&metrics, lines.replacen("time/fps", "time/other", 2)).unwrap();
-    look("2 lines of metrics.jsonl cannot be read by this version");
+    look("2 lines of metrics.jsonl cannot be read");
     fs::write(&metrics, "").unwrap();
-    assert!(look("the run is finished").out.is_empty());
+    assert!(look("emptied or cut off: it ends after 0 of the 640 shots").out.is_empty());
+    let half = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect::<String>();
+    fs::write(&metrics, half).unwrap();
+    look("emptied or cut off: it ends after 320 of the 640 shots");
     fs::remove_file(&metrics).unwrap();
-    assert!(look("the run is finished").out.is_empty());
+    assert!(look("metrics.jsonl is missing").out.is_empty());
+    fs::create_dir(&metrics).unwrap();
+    look("metrics.jsonl cannot be read");
+    fs::remove_dir(&metrics).unwrap();
     fs::write(&metrics, &lines).unwrap();
     let newer = settings.replacen("\"version\": \"0", "\"version\": \"90", 1);
     fs::write(&config, &newer).unwrap();
     look("which is newer than this one");
     fs::write(&config, newer.replacen("\"reward\": \"r3\"", "\"reward\": \"r9\"", 1)).unwrap();
     assert_eq!(look("config.json is of carom 90").out.lines().count(), 10);
+    let list = done(here, "train --list .");
+    assert!(
+        list.err.contains("run: config.json is of carom 90") && !list.out.contains("ddpg"),
+        "{}{}",
+        list.out,
+        list.err
+    );
     fs::write(&config, "{").unwrap();
     look("config.json cannot be read");
     fs::write(run.join("state.json"), "[]").unwrap();

@@ -49,7 +49,7 @@ impl Player {
 
     /// At a run that has played 1.2 of 5 million shots.
     pub fn watching(look: Look) -> Self {
-        let player = Self::with(look).report(Report::Runs(Ok(summaries()))).press("Enter");
+        let player = Self::with(look).report(Report::Runs(Ok(summaries().into()))).press("Enter");
         player.update(Slot::Main, NAME, known()).quiet()
     }
 
@@ -129,6 +129,7 @@ pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Stage) -> Summa
         started: format!("2026-11-{}T09:15:00Z", &name[6..8]),
         changed: "2026-11-20T10:01:12Z".into(),
         state,
+        folder: Path::new(RUNS).join(name),
     }
 }
 
@@ -160,6 +161,7 @@ pub fn standing() -> Standing {
         updates_per_second: 34.0,
         exploration: 0.153,
         memory: Some(0.6),
+        held_out_reward: None,
         process: 1,
         warning: None,
         reason: None,

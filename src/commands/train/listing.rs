@@ -7,7 +7,7 @@ use std::{
 
 use crate::{
     commands::{Failure, output::tell},
-    learning::run::list::{Summary, runs_in},
+    learning::run::list::{Listing, Summary, runs_in},
     storage::Places,
 };
 
@@ -15,12 +15,15 @@ use crate::{
 pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
     let own = Places::of_this_user().runs;
     // Somebody who has never trained has no folder yet.
-    let runs = match (folder, folder.unwrap_or(&own)) {
-        (None, own) if !own.exists() => Vec::new(),
+    let Listing { runs, unreadable } = match (folder, folder.unwrap_or(&own)) {
+        (None, own) if !own.exists() => Listing::default(),
         (_, folder) => {
             runs_in(folder).map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))?
         }
     };
+    for sentence in unreadable {
+        tell(format_args!("note: {sentence}"));
+    }
     let mut out = io::stdout().lock();
     if json {
         for run in &runs {

@@ -159,10 +159,17 @@ pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: im
     format!("{moment}-{agent}-{table}-{reward}-{seed}")
 }
 
-/// The version of carom that the configuration in `folder` names, even where this one cannot read the rest.
-pub fn version_in(folder: &Path) -> Option<String> {
-    let config: Value = serde_json::from_slice(&std::fs::read(folder.join(FILE)).ok()?).ok()?;
-    Some(config.get("version")?.as_str()?.to_owned())
+/// A sentence on the configuration in `folder`, which cannot be read for this reason.
+pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
+    let version = || {
+        let config: Value = serde_json::from_slice(&std::fs::read(folder.join(FILE)).ok()?).ok()?;
+        let version = config.get("version")?.as_str()?.to_owned();
+        (version != VERSION).then_some(version)
+    };
+    match version() {
+        Some(version) => format!("{FILE} is of carom {version} and cannot be read by carom {VERSION}"),
+        None => format!("{FILE} cannot be read ({reason})"),
+    }
 }
 
 /// The numbers of a version, to be compared.

@@ -1,6 +1,7 @@
 //! What runs there are, and how far they have come.
 
 use std::{
+    collections::HashMap,
     io,
     path::{Path, PathBuf},
     time::SystemTime,
@@ -13,20 +14,30 @@ use super::{
     METRICS,
     checkpoint::shots_in,
     config::{self, Config},
-    holds_checkpoints, standing,
+    follow::{Condition, Signs, Stamp, condition},
+    holds_checkpoints,
+    standing::{self, Phase, Standing},
 };
-use crate::{game::Reward, learning::calendar::moment, storage::Lock};
+use crate::{game::Reward, learning::calendar::moment};
 
-/// Whether a run is at work.
+/// How a run is, in a word for lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
     /// A process is training it.
     Running,
+    /// Its process waits until it is told to go on.
+    Paused,
+    /// Its process is there and says nothing.
+    Stalled,
     /// All shots have been played.
     Finished,
-    /// It can go on.
+    /// It was stopped and can go on.
     Interrupted,
+    /// It broke down.
+    Failed,
+    /// Its process is gone without a word.
+    Died,
 }
 
 impl Stage {
@@ -34,8 +45,31 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Running => "running",
+            Self::Paused => "paused",
+            Self::Stalled => "stalled",
             Self::Finished => "finished",
             Self::Interrupted => "interrupted",
+            Self::Failed => "failed",
+            Self::Died => "died",
+        }
+    }
+
+    /// Whether a process works on it.
+    pub const fn is_at_work(self) -> bool {
+        matches!(self, Self::Running | Self::Paused | Self::Stalled)
+    }
+}
+
+impl From<Condition> for Stage {
+    fn from(condition: Condition) -> Self {
+        match condition {
+            Condition::Is(Phase::Training | Phase::Measuring) => Self::Running,
+            Condition::Is(Phase::Paused) => Self::Paused,
+            Condition::Stalled(_) => Self::Stalled,
+            Condition::Is(Phase::Finished) => Self::Finished,
+            Condition::Is(Phase::Failed) => Self::Failed,
+            Condition::Died => Self::Died,
+            _ => Self::Interrupted,
         }
     }
 }
@@ -53,7 +87,7 @@ pub struct Summary {
     pub table: String,
     /// Its seed.
     pub seed: u64,
-    /// Shots played, as of its last checkpoint.
+    /// Shots played.
     pub shots: u64,
     /// Shots planned.
     pub planned_shots: u64,
@@ -65,29 +99,129 @@ pub struct Summary {
     pub started: String,
     /// When it last wrote something, UTC.
     pub changed: String,
-    /// Whether it is at work.
+    /// How it is.
     pub state: Stage,
+    /// Its folder.
+    #[serde(skip)]
+    pub folder: PathBuf,
 }
 
 /// The runs in `folder`, those of a group of seeds included, by name. A folder that is a run itself is the only one.
 ///
 /// # Errors
-/// Whatever the file system reports of the folder. A run that cannot be read is left out.
-pub fn runs_in(folder: &Path) -> io::Result<Vec<Summary>> {
-    if let Some(summary) = summary(folder, &name_of(folder)) {
-        return Ok(vec![summary]);
+/// Whatever the file system reports of the folder.
+pub fn runs_in(folder: &Path) -> io::Result<Listing> {
+    RunList::new(folder).look()
+}
+
+/// The runs in a folder.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Listing {
+    /// Those that can be read.
+    pub runs: Vec<Summary>,
+    /// A sentence on each that cannot.
+    pub unreadable: Vec<String>,
+}
+
+impl From<Vec<Summary>> for Listing {
+    fn from(runs: Vec<Summary>) -> Self {
+        Self { runs, unreadable: Vec::new() }
     }
-    let mut runs = Vec::new();
-    for path in folders_in(folder)? {
-        let name = name_of(&path);
-        if let Some(summary) = summary(&path, &name) {
-            runs.push(summary);
-            continue;
+}
+
+/// The runs in a folder, looked at again and again: metrics are read only where they have changed.
+#[derive(Debug)]
+pub struct RunList {
+    folder: PathBuf,
+    known: HashMap<PathBuf, (Option<Stamp>, Rewards)>,
+}
+
+/// What a run's metrics say.
+#[derive(Clone, Copy, Debug, Default)]
+struct Rewards {
+    best: Option<f64>,
+    last: Option<f64>,
+    shots: u64,
+}
+
+impl RunList {
+    /// Of the runs in `folder`.
+    pub fn new(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), known: HashMap::new() }
+    }
+
+    /// Looks once.
+    ///
+    /// # Errors
+    /// As [`runs_in`].
+    pub fn look(&mut self) -> io::Result<Listing> {
+        let mut listing = Listing::default();
+        let folder = self.folder.clone();
+        if holds_checkpoints(&folder) {
+            self.add(&folder, name_of(&folder), &mut listing);
+            return Ok(listing);
         }
-        let members = folders_in(&path).unwrap_or_default();
-        runs.extend(members.iter().filter_map(|member| summary(member, &format!("{name}/{}", name_of(member)))));
+        for path in folders_in(&folder)? {
+            let name = name_of(&path);
+            if holds_checkpoints(&path) {
+                self.add(&path, name, &mut listing);
+                continue;
+            }
+            for member in folders_in(&path).unwrap_or_default().iter().filter(|path| holds_checkpoints(path)) {
+                self.add(member, format!("{name}/{}", name_of(member)), &mut listing);
+            }
+        }
+        Ok(listing)
     }
-    Ok(runs)
+
+    fn add(&mut self, folder: &Path, name: String, listing: &mut Listing) {
+        match Config::read(folder) {
+            Ok(config) => listing.runs.push(self.summary(folder, name, config)),
+            Err(error) => listing.unreadable.push(format!("{name}: {}", config::unreadable(folder, &error))),
+        }
+    }
+
+    fn summary(&mut self, folder: &Path, name: String, config: Config) -> Summary {
+        let Config { agent, plan, started, table, .. } = config;
+        let rewards = self.rewards(folder);
+        let standing = Standing::read(folder).ok();
+        let told = |of: fn(&Standing) -> Option<f64>| standing.as_ref().and_then(of);
+        let last = told(|standing| standing.held_out_reward).or(rewards.last);
+        let shots = standing.as_ref().map_or(0, |standing| standing.shots).max(rewards.shots);
+        let shots = if shots == 0 { shots_in(folder).unwrap_or(0) } else { shots };
+        let signs = Signs { shots: Some(shots), planned: Some(plan.shots), ..Signs::of(folder) };
+        Summary {
+            name,
+            agent,
+            reward: plan.reward,
+            table: table.name,
+            seed: plan.seed,
+            shots,
+            planned_shots: plan.shots,
+            best_reward: last.into_iter().chain(rewards.best).max_by(f64::total_cmp),
+            last_reward: last,
+            changed: last_written(folder).map_or_else(|| started.clone(), moment),
+            started,
+            state: condition(&signs).into(),
+            folder: folder.to_owned(),
+        }
+    }
+
+    fn rewards(&mut self, folder: &Path) -> Rewards {
+        let path = folder.join(METRICS);
+        let stamp = Stamp::of(&path);
+        if let Some((known, rewards)) = self.known.get(folder)
+            && *known == stamp
+        {
+            return *rewards;
+        }
+        let lines = metrics::read(&path).unwrap_or_default();
+        let all = || lines.iter().filter_map(|line| line.held_out_reward).filter(|reward| reward.is_finite());
+        let shots = lines.last().map_or(0, |line| line.shots);
+        let rewards = Rewards { best: all().max_by(f64::total_cmp), last: all().next_back(), shots };
+        self.known.insert(folder.to_owned(), (stamp, rewards));
+        rewards
+    }
 }
 
 /// The folder of the run in `folder`, groups of seeds included, that was the last to write something.
@@ -115,37 +249,4 @@ fn folders_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
 fn name_of(path: &Path) -> String {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
-fn summary(folder: &Path, name: &str) -> Option<Summary> {
-    if !holds_checkpoints(folder) {
-        return None;
-    }
-    let Config { agent, plan, started, table, .. } = Config::read(folder).ok()?;
-    let metrics_path = folder.join(METRICS);
-    let lines = metrics::read(&metrics_path).unwrap_or_default();
-    let shots = shots_in(folder).or_else(|| lines.last().map(|line| line.shots)).unwrap_or(0);
-    let rewards = || lines.iter().filter_map(|line| line.held_out_reward);
-    let changed = std::fs::metadata(&metrics_path).or_else(|_| std::fs::metadata(folder));
-    let state = if Lock::is_held(folder) {
-        Stage::Running
-    } else if shots >= plan.shots {
-        Stage::Finished
-    } else {
-        Stage::Interrupted
-    };
-    Some(Summary {
-        name: name.to_owned(),
-        agent,
-        reward: plan.reward,
-        table: table.name,
-        seed: plan.seed,
-        shots,
-        planned_shots: plan.shots,
-        best_reward: rewards().max_by(f64::total_cmp),
-        last_reward: rewards().next_back(),
-        changed: changed.and_then(|data| data.modified()).map_or_else(|_| started.clone(), moment),
-        started,
-        state,
-    })
 }

@@ -134,8 +134,13 @@ impl MetricsFile {
     fn write(&mut self) -> io::Result<fs::File> {
         let mut file = fs::OpenOptions::new().create(true).truncate(false).write(true).open(&self.path)?;
         if !self.waiting.is_empty() {
-            // Somebody may have emptied the file: it is not filled up with zeros.
-            self.length = self.length.min(file.metadata()?.len());
+            let length = file.metadata()?.len();
+            if length < self.length {
+                // Somebody has emptied the file or cut it off: it is not filled up with zeros, and no line is added to half
+                // a line.
+                let whole: usize = whole_lines(&content(&self.path)?).map(<[u8]>::len).sum();
+                self.length = self.length.min(whole as u64);
+            }
             file.set_len(self.length)?;
             file.seek(SeekFrom::End(0))?;
             // In one call: whoever follows the file sees whole lines.
@@ -213,6 +218,26 @@ mod tests {
         file.push(&record(4));
         file.sync().unwrap();
         assert_eq!(read(&path).unwrap(), [record(1), record(2), record(4)]);
+    }
+
+    #[test]
+    fn a_file_that_was_cut_off_meanwhile_goes_on_after_its_last_whole_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        let (mut file, _) = MetricsFile::open(&path, 0).unwrap();
+        for shots in [1, 2] {
+            file.push(&record(shots));
+        }
+        file.flush().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        fs::write(&path, &text[..text.len() - 20]).unwrap();
+        file.push(&record(3));
+        file.flush().unwrap();
+        assert_eq!(read(&path).unwrap(), [record(1), record(3)]);
+        fs::write(&path, "").unwrap();
+        file.push(&record(4));
+        file.flush().unwrap();
+        assert_eq!(read(&path).unwrap(), [record(4)]);
     }
 
     #[test]

@@ -114,6 +114,8 @@ impl Run {
             return Err(RunError::Missing(folder.display().to_string()));
         }
         let lock = lock(folder)?;
+        // What an earlier process said of itself holds no more.
+        let _ = std::fs::remove_file(folder.join(standing::FILE));
         let (checkpoints, Loaded { learner, state, fallback, .. }) = Checkpoints::open(folder)?;
         let mut notices = Vec::new();
         if let Some(damage) = fallback {

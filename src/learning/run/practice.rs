@@ -152,6 +152,7 @@ impl Run {
         let learner = self.learner.as_ref();
         session.pulse.beat(Phase::Measuring, learner, session.clock.seconds());
         let score = learner.score(&session.layouts)?;
+        session.pulse.measured(score.mean_reward);
         // They are for looking at: where they cannot be written, nothing is lost.
         let _ = Examples::of(learner, &session.layouts)?.write(&self.folder);
         Ok(score)

@@ -56,6 +56,11 @@ impl Pulse {
         self.tell(phase, learner, seconds);
     }
 
+    /// Keeps what the run has earned on the held-out layouts: a run that is stopped has no line of metrics for it.
+    pub const fn measured(&mut self, reward: f64) {
+        self.standing.held_out_reward = Some(reward);
+    }
+
     /// Keeps a sentence for those who watch.
     pub fn warn(&mut self, sentence: &str) {
         self.standing.warning = Some(sentence.to_owned());
@@ -67,9 +72,7 @@ impl Pulse {
             return None;
         }
         self.listened = Instant::now();
-        let request = Request::read(&self.folder)?;
-        Request::clear(&self.folder);
-        Some(request)
+        Request::take(&self.folder)
     }
 
     fn tell(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
@@ -116,7 +119,10 @@ mod tests {
     fn ask(folder: &Path, phase: Phase, request: Request) -> thread::JoinHandle<()> {
         let folder = folder.to_owned();
         thread::spawn(move || {
-            while Standing::read(&folder).map(|standing| standing.phase).ok() != Some(phase) {
+            for _ in 0..4000 {
+                if Standing::read(&folder).is_ok_and(|standing| standing.phase == phase) {
+                    break;
+                }
                 thread::sleep(Duration::from_millis(5));
             }
             request.send(&folder).unwrap();
@@ -167,7 +173,7 @@ mod tests {
         for thread in asking {
             thread.join().unwrap();
         }
-        assert_eq!(Request::read(folder.path()), None);
+        assert_eq!(Request::take(folder.path()), None);
         let (whole, other) = (folder.path().join("checkpoint.safetensors"), tempfile::tempdir().unwrap());
         small_run(other.path()).practise(&FOREVER, &mut Told::default()).unwrap();
         assert!(std::fs::read(whole).unwrap() == std::fs::read(other.path().join("checkpoint.safetensors")).unwrap());

@@ -8,6 +8,9 @@ use crate::storage::replace;
 /// The file's name.
 pub const FILE: &str = "request";
 
+/// The file while it is read; what a killed process leaves of it is told by the name ([`crate::storage`]).
+const TAKEN: &str = ".carom-request.partial";
+
 /// A request to a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
@@ -41,13 +44,17 @@ impl Request {
         replace(&folder.join(FILE), self.word().as_bytes())
     }
 
-    /// What the run in `folder` is asked to do; nothing where there is no request, or one that is not understood.
-    pub fn read(folder: &Path) -> Option<Self> {
-        let word = fs::read_to_string(folder.join(FILE)).ok()?;
+    /// Takes what the run in `folder` is asked to do; nothing where there is no request, or one that is not understood.
+    pub fn take(folder: &Path) -> Option<Self> {
+        // Away first: another request may come while this one is read.
+        let taken = folder.join(TAKEN);
+        fs::rename(folder.join(FILE), &taken).ok()?;
+        let word = fs::read_to_string(&taken).unwrap_or_default();
+        let _ = fs::remove_file(taken);
         Self::ALL.into_iter().find(|request| request.word() == word.trim())
     }
 
-    /// Takes the request back, if there is one: it is done, or it was meant for a process that is gone.
+    /// Removes the request, if there is one: it was meant for a process that is gone.
     pub fn clear(folder: &Path) {
         // Where it stays it is done again, which changes nothing.
         let _ = fs::remove_file(folder.join(FILE));

@@ -68,6 +68,9 @@ pub struct Standing {
     pub exploration: f64,
     /// Share of the memory of shots that is filled, for agents that have one.
     pub memory: Option<f64>,
+    /// What it earned at its last measurement on held-out layouts in this session.
+    #[serde(default)]
+    pub held_out_reward: Option<f64>,
     /// The process that trains.
     pub process: u32,
     /// The last warning, if there was one.

@@ -12,7 +12,12 @@ use super::{
     training::{Keeping, Launch, Reel, Report, Slot, Wanted},
 };
 use crate::{
-    learning::run::{examples::Examples, follow::Follower, list::runs_in, request::Request},
+    learning::run::{
+        examples::Examples,
+        follow::Follower,
+        list::{Listing, RunList},
+        request::Request,
+    },
     table::Table,
 };
 
@@ -134,11 +139,11 @@ impl Errands {
 
 /// Lists the runs, and reports where anything has changed.
 fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
-    let mut before = None;
+    let (mut runs, mut before) = (RunList::new(&folder), None);
     move || {
-        let found = match runs_in(&folder) {
+        let found = match runs.look() {
             // Nothing has ever been trained.
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Listing::default()),
             found => found.map_err(|error| format!("{}: {error}", folder.display())),
         };
         if before.as_ref() == Some(&found) {

@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn news_wait_until_the_last_have_been_taken_and_end_with_the_poll() {
         let (sender, receiver) = channel();
-        let look = || Some(Report::Runs(Ok(Vec::new())));
+        let look = || Some(Report::Runs(Err(String::new())));
         let poll = Poll::start("test", Duration::from_millis(1), sender, look).unwrap();
         let patience = Duration::from_secs(20);
         assert!(receiver.recv_timeout(patience).is_ok());

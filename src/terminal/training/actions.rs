@@ -73,8 +73,7 @@ impl TrainingScreen {
     }
 
     fn choose(&mut self) {
-        let Some(name) = self.list.marked().map(|run| run.name.clone()) else { return };
-        let folder = self.folder.join(&name);
+        let Some(folder) = self.list.marked().map(|run| run.folder.clone()) else { return };
         if self.page() != Page::Compare {
             self.show(&folder);
             return;
@@ -103,7 +102,7 @@ impl TrainingScreen {
 
     fn resume(&mut self) -> Option<Effect> {
         if self.page() == Page::Runs {
-            let folder = self.folder.join(&self.list.marked()?.name);
+            let folder = self.list.marked()?.folder.clone();
             self.show(&folder);
         }
         let folder = self.watch.as_ref()?.folder().to_owned();

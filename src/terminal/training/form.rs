@@ -1,6 +1,9 @@
 //! The form for a new run.
 
-use std::{ffi::OsString, path::Path};
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
 
 use super::{charts::around, report::Launch};
 use crate::{
@@ -69,8 +72,8 @@ pub struct Form {
     pub shots: String,
     /// The seed, as it was typed.
     pub seed: String,
-    /// Name of the run whose weights it starts with.
-    pub from: Option<String>,
+    /// Name and folder of the run whose weights it starts with.
+    pub from: Option<(String, PathBuf)>,
     /// When the form was opened: the run's name begins with it.
     opened: String,
 }
@@ -122,8 +125,11 @@ impl Form {
             }
             Field::From => {
                 let agent = AGENTS[self.agent].name;
-                let own = runs.iter().filter(|run| run.agent == agent).map(|run| Some(run.name.clone()));
-                let choices: Vec<Option<String>> = std::iter::once(None).chain(own).collect();
+                let own = runs
+                    .iter()
+                    .filter(|run| run.agent == agent)
+                    .map(|run| Some((run.name.clone(), run.folder.clone())));
+                let choices: Vec<Option<(String, PathBuf)>> = std::iter::once(None).chain(own).collect();
                 self.from = neighbour(&choices, self.from.clone(), step);
             }
         }
@@ -166,7 +172,7 @@ impl Form {
     pub fn command(&self) -> String {
         let Self { agent, reward, table, shots, seed, .. } = self;
         let agent = AGENTS[*agent].name;
-        let from = self.from.as_ref().map_or(String::new(), |from| format!(" --from {from}"));
+        let from = self.from.as_ref().map_or(String::new(), |(name, _)| format!(" --from {name}"));
         format!("carom train --agent {agent} --reward {reward} --table {table} --steps {shots} --seed {seed}{from}")
     }
 
@@ -193,8 +199,8 @@ impl Form {
         ] {
             arguments.extend([option.into(), value.into()]);
         }
-        if let Some(from) = &self.from {
-            arguments.extend(["--from".into(), runs.join(from).into()]);
+        if let Some((_, from)) = &self.from {
+            arguments.extend(["--from".into(), from.into()]);
         }
         arguments.extend(["--run".into(), folder.clone().into()]);
         Ok(Launch { arguments, folder })

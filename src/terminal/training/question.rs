@@ -29,7 +29,7 @@ impl Question {
             Self::Stop => format!("stop {name}: measure it, save it and end it? y/n"),
             Self::Abandon => {
                 let shots = count(watch.own.run.shots());
-                let best = watch.own.run.history.best();
+                let best = watch.own.run.best();
                 let best = best.map_or(String::new(), |best| format!(", with a best held-out reward of {best:.3}"));
                 format!("abandon {name}: end it now and delete its folder? {shots} shots are lost{best}. y/n")
             }

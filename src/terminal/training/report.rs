@@ -9,7 +9,7 @@ use std::{
 use super::Reel;
 use crate::learning::{
     Policy,
-    run::{follow::Update, list::Summary, request::Request},
+    run::{follow::Update, list::Listing, request::Request},
 };
 
 /// Which of the two runs that can be followed at once.
@@ -78,7 +78,7 @@ pub enum Kept {
 #[derive(Debug)]
 pub enum Report {
     /// The runs there are.
-    Runs(Result<Vec<Summary>, String>),
+    Runs(Result<Listing, String>),
     /// News of the run in a folder that is followed.
     Followed(Slot, PathBuf, Box<Update>),
     /// The latest shots of the run in a folder, recorded.

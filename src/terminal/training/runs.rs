@@ -1,6 +1,6 @@
 //! The list of runs and the mark in it.
 
-use crate::learning::run::list::{Stage, Summary};
+use crate::learning::run::list::{Listing, Stage, Summary};
 
 /// The list of runs.
 #[derive(Debug, Default)]
@@ -9,15 +9,18 @@ pub struct RunList {
     known: Option<Vec<Summary>>,
     /// Why they cannot be listed.
     trouble: Option<String>,
+    /// Sentences on those that cannot be read.
+    unreadable: Vec<String>,
     /// Name of the marked run: it keeps its mark where others come before it.
     marked: Option<String>,
 }
 
 impl RunList {
     /// Takes what was found.
-    pub fn take(&mut self, found: Result<Vec<Summary>, String>) {
+    pub fn take(&mut self, found: Result<Listing, String>) {
         match found {
-            Ok(mut runs) => {
+            Ok(Listing { mut runs, unreadable }) => {
+                self.unreadable = unreadable;
                 runs.sort_by(|one, other| (&other.started, &other.name).cmp(&(&one.started, &one.name)));
                 self.known = Some(runs);
                 self.trouble = None;
@@ -39,6 +42,11 @@ impl RunList {
     /// Why they cannot be listed.
     pub fn trouble(&self) -> Option<&str> {
         self.trouble.as_deref()
+    }
+
+    /// Sentences on those that cannot be read.
+    pub fn unreadable(&self) -> &[String] {
+        &self.unreadable
     }
 
     /// Place of the marked run in the list; the first where none was marked or it is gone.
@@ -68,9 +76,9 @@ impl RunList {
     pub fn refusal_to_go_on(&self) -> Option<&'static str> {
         match self.marked().map(|run| run.state) {
             None => Some("there is no run yet; n starts one"),
-            Some(Stage::Running) => Some("this run is at work; Enter watches it"),
+            Some(state) if state.is_at_work() => Some("this run is at work; Enter watches it"),
             Some(Stage::Finished) => Some("this run is finished; n starts a new one, with its weights if you like"),
-            Some(Stage::Interrupted) => None,
+            Some(_) => None,
         }
     }
 }

@@ -8,8 +8,6 @@ use crate::{
     learning::run::{
         POLICY,
         follow::{Condition, Followed, Update},
-        history::Point,
-        quantity::Quantity,
         standing::Phase,
     },
     table::Table,
@@ -89,12 +87,6 @@ impl Watch {
     /// Shots played by it or by the run that it is compared with: charts show both.
     pub fn most_shots(&self) -> u64 {
         self.own.run.shots().max(self.other.as_ref().map_or(0, |other| other.run.shots()))
-    }
-
-    /// The last measurement on held-out layouts.
-    pub fn held_out(&self) -> Option<f64> {
-        let points: Vec<Point> = self.own.run.history.points(Quantity::HeldOut, 0.0..=f64::MAX);
-        points.iter().rev().find_map(|point| point.finite).map(|span| span.mean)
     }
 
     /// Whether a process works on it.

@@ -1,8 +1,15 @@
 //! How a run is, as far as one can see from outside.
 
-use std::{fmt, time::Duration};
+use std::{fmt, path::Path, time::Duration};
 
-use crate::learning::run::standing::Phase;
+use super::stamp::Stamp;
+use crate::{
+    learning::run::{
+        holds_checkpoints,
+        standing::{self, Phase, Standing},
+    },
+    storage::Lock,
+};
 
 /// Silence after which a run that trains or waits is stalled: it should have said something each second.
 const PATIENCE: Duration = Duration::from_secs(15);
@@ -10,8 +17,8 @@ const PATIENCE: Duration = Duration::from_secs(15);
 /// The same while it plays the held-out layouts, which may be many.
 const MEASURING_PATIENCE: Duration = Duration::from_secs(600);
 
-/// Silence up to which a run is believed to be at work though nobody holds its lock: not every file system has locks.
-const FRESH: Duration = Duration::from_secs(3);
+/// Time in which a process begins, or ends, to hold the lock and to say what it does: the two are not seen at one moment.
+const FRESH: Duration = Duration::from_secs(2);
 
 /// How a run is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,8 +77,10 @@ pub struct Signs {
     pub is_there: bool,
     /// Whether it has been.
     pub was_there: bool,
-    /// Whether a process holds its lock.
-    pub is_held: bool,
+    /// Whether there is anything to go on from.
+    pub is_run: bool,
+    /// Whether a process holds its lock, if that can be known.
+    pub is_held: Option<bool>,
     /// What it says of itself.
     pub phase: Option<Phase>,
     /// How long it has said nothing new.
@@ -82,30 +91,50 @@ pub struct Signs {
     pub planned: Option<u64>,
 }
 
+impl Signs {
+    /// What one look at the run in `folder` shows, its metrics and its plan left out.
+    pub fn of(folder: &Path) -> Self {
+        let is_there = folder.is_dir();
+        Self {
+            is_there,
+            was_there: is_there,
+            is_run: holds_checkpoints(folder),
+            is_held: Lock::is_held(folder),
+            phase: Standing::read(folder).ok().map(|standing| standing.phase),
+            silent: Stamp::of(&folder.join(standing::FILE)).map_or(Duration::ZERO, |stamp| stamp.age()),
+            shots: None,
+            planned: None,
+        }
+    }
+}
+
 /// What follows from what is seen.
 pub fn condition(signs: &Signs) -> Condition {
-    let Signs { is_there, was_there, is_held, phase, silent, shots, planned, .. } = *signs;
+    let Signs { is_there, was_there, is_run, is_held, phase, silent, shots, planned } = *signs;
+    let held = is_held == Some(true);
     match phase {
-        _ if !is_there => {
-            if was_there {
-                Condition::Removed
-            } else {
-                Condition::Missing
+        _ if !is_there && was_there => Condition::Removed,
+        _ if !is_there => Condition::Missing,
+        // Somebody has taken it up again and has not said anything yet.
+        Some(phase) if phase.is_over() && held && silent >= FRESH => Condition::Is(Phase::Training),
+        Some(phase) if phase.is_over() => Condition::Is(phase),
+        Some(phase) => {
+            let patience = if phase == Phase::Measuring { MEASURING_PATIENCE } else { PATIENCE };
+            match is_held {
+                Some(true) if silent >= patience => Condition::Stalled(whole_seconds(silent)),
+                Some(false) if silent >= FRESH => Condition::Died,
+                // Where there are no locks, silence is all there is to tell by.
+                None if silent >= patience => Condition::Died,
+                _ => Condition::Is(phase),
             }
         }
-        Some(phase) if phase.is_over() => Condition::Is(phase),
-        Some(phase) if is_held || silent < FRESH => {
-            let patience = if phase == Phase::Measuring { MEASURING_PATIENCE } else { PATIENCE };
-            if silent < patience { Condition::Is(phase) } else { Condition::Stalled(whole_seconds(silent)) }
-        }
-        Some(_) => Condition::Died,
         // A run that has just begun, or of a carom that said nothing of itself.
-        None if is_held => Condition::Is(Phase::Training),
+        None if held => Condition::Is(Phase::Training),
         None if shots.is_some_and(|shots| planned.is_some_and(|planned| shots >= planned)) => {
             Condition::Is(Phase::Finished)
         }
-        None if planned.is_none() && shots.is_none() => Condition::Missing,
-        None => Condition::Interrupted,
+        None if is_run || planned.is_some() || shots.is_some() => Condition::Interrupted,
+        None => Condition::Missing,
     }
 }
 
@@ -118,33 +147,45 @@ const fn whole_seconds(duration: Duration) -> Duration {
 mod tests {
     use super::*;
 
-    fn signs(phase: Option<Phase>, is_held: bool, silent: u64) -> Signs {
+    fn signs(phase: Option<Phase>, is_held: Option<bool>, silent: u64) -> Signs {
         let silent = Duration::from_millis(1000 * silent + 300);
-        Signs { is_there: true, was_there: true, is_held, phase, silent, ..Signs::default() }
+        Signs { is_there: true, was_there: true, is_run: true, is_held, phase, silent, ..Signs::default() }
     }
 
     #[test]
     fn a_run_is_as_it_says_until_it_is_silent_or_its_process_is_gone() {
         let at = |phase, is_held, silent| condition(&signs(Some(phase), is_held, silent));
+        let (held, free) = (Some(true), Some(false));
         for phase in [Phase::Training, Phase::Paused, Phase::Measuring] {
-            assert_eq!(at(phase, true, 5), Condition::Is(phase));
-            assert_eq!(at(phase, false, 5), Condition::Died);
-            assert_eq!(at(phase, false, 1), Condition::Is(phase), "a file system without locks");
+            assert_eq!(at(phase, held, 5), Condition::Is(phase));
+            assert_eq!(at(phase, free, 5), Condition::Died);
+            assert_eq!(at(phase, free, 1), Condition::Is(phase), "it has just begun to hold the lock");
         }
-        assert_eq!(at(Phase::Training, true, 40), Condition::Stalled(Duration::from_secs(40)));
-        assert_eq!(at(Phase::Measuring, true, 40), Condition::Is(Phase::Measuring));
-        assert_eq!(at(Phase::Measuring, true, 700), Condition::Stalled(Duration::from_secs(700)));
-        assert_eq!(at(Phase::Stopped, false, 9999), Condition::Is(Phase::Stopped));
+        assert_eq!(at(Phase::Training, held, 40), Condition::Stalled(Duration::from_secs(40)));
+        assert_eq!(at(Phase::Measuring, held, 40), Condition::Is(Phase::Measuring));
+        assert_eq!(at(Phase::Measuring, held, 700), Condition::Stalled(Duration::from_secs(700)));
+        assert_eq!(at(Phase::Stopped, free, 9999), Condition::Is(Phase::Stopped));
+        assert_eq!(at(Phase::Stopped, held, 0), Condition::Is(Phase::Stopped), "it is about to let go of the lock");
+        assert_eq!(at(Phase::Stopped, held, 9), Condition::Is(Phase::Training), "it has been taken up again");
+    }
+
+    #[test]
+    fn without_locks_silence_tells() {
+        let at = |phase, silent| condition(&signs(Some(phase), None, silent));
+        assert_eq!(at(Phase::Training, 5), Condition::Is(Phase::Training));
+        assert_eq!(at(Phase::Training, 20), Condition::Died);
+        assert_eq!(at(Phase::Measuring, 60), Condition::Is(Phase::Measuring));
     }
 
     #[test]
     fn runs_that_say_nothing_of_themselves_are_judged_by_their_lock_and_their_lines() {
-        assert_eq!(condition(&signs(None, true, 0)), Condition::Is(Phase::Training));
-        let with = |shots, planned| condition(&Signs { shots, planned, ..signs(None, false, 0) });
+        assert_eq!(condition(&signs(None, Some(true), 0)), Condition::Is(Phase::Training));
+        let with = |shots, planned| condition(&Signs { shots, planned, ..signs(None, Some(false), 0) });
         assert_eq!(with(Some(10), Some(10)), Condition::Is(Phase::Finished));
         assert_eq!(with(Some(9), Some(10)), Condition::Interrupted);
-        assert_eq!(with(None, Some(10)), Condition::Interrupted);
-        assert_eq!(with(None, None), Condition::Missing);
+        assert_eq!(with(None, None), Condition::Interrupted, "nothing but a checkpoint");
+        let empty = Signs { is_run: false, ..signs(None, None, 0) };
+        assert_eq!(condition(&empty), Condition::Missing);
         assert_eq!(condition(&Signs::default()), Condition::Missing);
         assert_eq!(condition(&Signs { was_there: true, ..Signs::default() }), Condition::Removed);
     }

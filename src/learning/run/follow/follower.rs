@@ -3,7 +3,7 @@
 use std::{
     io,
     path::{Path, PathBuf},
-    time::{Duration, Instant, SystemTime},
+    time::{Duration, Instant},
 };
 
 use super::{
@@ -18,6 +18,7 @@ use crate::{
         config::{self, Config},
         examples::{self, Examples},
         history::History,
+        holds_checkpoints,
         metrics::Record,
         standing::{self, Standing},
     },
@@ -40,6 +41,10 @@ pub struct Follower {
     heard: Instant,
     /// Lines of metrics read.
     lines: u64,
+    /// Shots between two of them; 0 as long as that is not known.
+    log_every: u64,
+    /// Shots played as the run says itself.
+    said: u64,
     signs: Signs,
     condition: Condition,
     /// What is wrong with each file, in the order in which it is told.
@@ -59,6 +64,8 @@ impl Follower {
             examples: None,
             heard: Instant::now(),
             lines: 0,
+            log_every: 0,
+            said: 0,
             signs: Signs::default(),
             condition: Condition::Unknown,
             troubles: [const { None }; 3],
@@ -98,6 +105,7 @@ impl Follower {
     /// What changes once a minute or never.
     fn look_seldom(&mut self, update: &mut Update) {
         self.signs.is_held = Lock::is_held(&self.folder);
+        self.signs.is_run = holds_checkpoints(&self.folder);
         self.signs.is_there = self.folder.is_dir();
         self.signs.was_there |= self.signs.is_there;
         let stamp = Stamp::of(&self.folder.join(config::FILE));
@@ -106,6 +114,7 @@ impl Follower {
             match Config::read(&self.folder) {
                 Ok(config) => {
                     self.signs.planned = Some(config.plan.shots);
+                    self.log_every = config.schedule.log_every;
                     self.troubles[0] = config.newer_version().map(|version| {
                         format!(
                             "the run is of carom {version}, which is newer than this one: not all of it may be shown"
@@ -115,24 +124,16 @@ impl Follower {
                 }
                 // Nobody reads what is not there.
                 Err(_) if stamp.is_none() => self.troubles[0] = None,
-                Err(error) => self.troubles[0] = Some(self.unreadable_config(&error)),
+                Err(error) => {
+                    let reason = config::unreadable(&self.folder, &error);
+                    self.troubles[0] = Some(format!("{reason}; the charts are shown without it"));
+                }
             }
         }
         let stamp = Stamp::of(&self.folder.join(examples::FILE));
         if stamp != self.examples {
             self.examples = stamp;
             update.examples = Examples::read(&self.folder).ok();
-        }
-    }
-
-    fn unreadable_config(&self, error: &io::Error) -> String {
-        let file = config::FILE;
-        match config::version_in(&self.folder) {
-            Some(version) => format!(
-                "{file} is of carom {version} and cannot be read by carom {} ({error}); the charts are shown without it",
-                config::VERSION
-            ),
-            None => format!("{file} cannot be read ({error}); the charts are shown without it"),
         }
     }
 
@@ -144,12 +145,12 @@ impl Follower {
         let is_first = self.standing.is_none();
         self.standing = stamp;
         // A look at a run that has said nothing for an hour finds it an hour silent.
-        let age = stamp.and_then(|stamp| SystemTime::now().duration_since(stamp.modified()?).ok());
-        let age = if is_first { age.unwrap_or_default() } else { Duration::ZERO };
+        let age = stamp.filter(|_| is_first).map_or(Duration::ZERO, |stamp| stamp.age());
         self.heard = Instant::now().checked_sub(age).unwrap_or_else(Instant::now);
         match Standing::read(&self.folder) {
             Ok(standing) => {
                 self.signs.phase = Some(standing.phase);
+                self.said = standing.shots;
                 self.troubles[1] = None;
                 update.standing = Some(standing);
             }
@@ -165,12 +166,13 @@ impl Follower {
         // Millions of lines become a history at once; only those that come later are handed on one by one.
         let mut lines = self.lines;
         let mut history = (lines == 0).then(Box::<History>::default);
-        let (mut records, mut last) = (Vec::new(), None);
+        let (mut records, mut last, mut is_afresh) = (Vec::new(), None, false);
         let look = self.tail.look(|taken| match taken {
             Taken::Afresh => {
                 history = Some(Box::default());
                 records.clear();
                 lines = 0;
+                is_afresh = true;
             }
             Taken::Line(record) => {
                 see(&record);
@@ -185,24 +187,34 @@ impl Follower {
         let read = last.is_some() || matches!(look, Ok(Look::Afresh));
         update.history = history.filter(|_| read);
         self.lines = lines;
-        self.signs.shots = last.or(self.signs.shots);
+        self.signs.shots = if is_afresh { last } else { last.or(self.signs.shots) };
         update.records = records;
         look
     }
 
     fn trouble_of_metrics(&self, look: io::Result<Look>) -> Option<String> {
+        let read = self.signs.shots.unwrap_or(0);
+        // A line may be on its way, and another one due.
+        let is_behind = self.log_every > 0 && self.said > read + 3 * self.log_every;
         match look {
             Err(error) => Some(format!("{METRICS} cannot be read: {error}; what was read before is still shown")),
             Ok(Look::Missing) if self.lines > 0 => {
                 Some(format!("{METRICS} has been removed; what was read before is still shown"))
             }
+            Ok(Look::Missing) if is_behind => {
+                Some(format!("{METRICS} is missing: there is nothing to show of the {} shots played", self.said))
+            }
             Ok(_) => match self.tail.unreadable() {
                 0 if self.condition.is_over() && self.tail.is_torn() => {
                     Some(format!("the last line of {METRICS} is cut off and is left out"))
                 }
+                0 if is_behind => Some(format!(
+                    "{METRICS} has been emptied or cut off: it ends after {read} of the {} shots played",
+                    self.said
+                )),
                 0 => None,
-                1 => Some(format!("1 line of {METRICS} cannot be read by this version and is left out")),
-                lines => Some(format!("{lines} lines of {METRICS} cannot be read by this version and are left out")),
+                1 => Some(format!("1 line of {METRICS} cannot be read and is left out")),
+                lines => Some(format!("{lines} lines of {METRICS} cannot be read and are left out")),
             },
         }
     }

@@ -11,11 +11,16 @@ use std::{
 };
 
 pub use self::{condition::Condition, follower::Follower};
+pub(super) use self::{
+    condition::{Signs, condition},
+    stamp::Stamp,
+};
 use super::{
     config::Config,
     examples::Examples,
     history::History,
     metrics::Record,
+    quantity::Quantity,
     standing::{Phase, Standing},
 };
 
@@ -88,6 +93,17 @@ impl Followed {
     pub fn shots(&self) -> u64 {
         let told = self.standing.as_ref().map_or(0, |standing| standing.shots);
         self.history.last().map_or(told, |record| record.shots.max(told))
+    }
+
+    /// What it earned at its last measurement on held-out layouts.
+    pub fn held_out(&self) -> Option<f64> {
+        let told = self.standing.as_ref().and_then(|standing| standing.held_out_reward);
+        told.or_else(|| self.history.last_of(Quantity::HeldOut))
+    }
+
+    /// The most that it has earned on held-out layouts.
+    pub fn best(&self) -> Option<f64> {
+        self.history.best().into_iter().chain(self.held_out()).max_by(f64::total_cmp)
     }
 
     /// Time until all shots have been played, if it goes on as on average so far; none where nobody trains.

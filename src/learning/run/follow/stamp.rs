@@ -1,6 +1,10 @@
 //! Whether a file has changed, told without reading it.
 
-use std::{fs::Metadata, path::Path, time::SystemTime};
+use std::{
+    fs::Metadata,
+    path::Path,
+    time::{Duration, SystemTime},
+};
 
 /// What tells one state of a file from the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,9 +26,9 @@ impl Stamp {
         self.length
     }
 
-    /// When the file was written last, if the system tells.
-    pub const fn modified(&self) -> Option<SystemTime> {
-        self.modified
+    /// How long ago the file was written last; nothing where the system does not tell.
+    pub fn age(&self) -> Duration {
+        self.modified.and_then(|modified| SystemTime::now().duration_since(modified).ok()).unwrap_or_default()
     }
 }
 

@@ -82,9 +82,10 @@ impl Tail {
             *self = Self::new(&self.path);
             take(Taken::Afresh);
         }
-        self.stamp = Some(stamp);
         let before = self.offset;
         self.read(&mut file, &mut take)?;
+        // Not before: what could not be read is tried again.
+        self.stamp = Some(stamp);
         Ok(match () {
             () if afresh => Look::Afresh,
             () if self.offset > before => Look::More,
@@ -201,6 +202,21 @@ mod tests {
         look(&mut tail);
         fs::write(&path, line(1)).unwrap();
         assert_eq!(look(&mut tail), (Look::Afresh, vec![1]));
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_tried_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("metrics.jsonl");
+        std::fs::create_dir(&path).unwrap();
+        let mut tail = Tail::new(&path);
+        for _ in 0..2 {
+            assert!(tail.look(|_| ()).is_err());
+        }
+        assert!(!tail.is_torn());
+        std::fs::remove_dir(&path).unwrap();
+        fs::write(&path, line(1)).unwrap();
+        assert_eq!(look(&mut tail), (Look::More, vec![1]));
     }
 
     #[test]

@@ -107,6 +107,13 @@ impl History {
         self.best
     }
 
+    /// The last finite value of a quantity, or the mean of those that it was thinned to.
+    pub fn last_of(&self, quantity: Quantity) -> Option<f64> {
+        let recent = self.recent.iter().rev().filter_map(|line| line.point(quantity));
+        let before = self.thinned.stretches().iter().rev().filter_map(|stretch| stretch.point(quantity));
+        recent.chain(before).find_map(|point| point.finite).map(|span| span.mean)
+    }
+
     /// The points of a quantity between two numbers of shots and the next one beyond either end, in order: exact where
     /// the lines are recent. Stretches that do not report it are left out.
     pub fn points(&self, quantity: Quantity, shots: std::ops::RangeInclusive<f64>) -> Vec<Point> {

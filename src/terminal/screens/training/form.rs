@@ -107,7 +107,7 @@ fn words(form: &Form, field: Field) -> (String, String) {
         }
         Field::From => match &form.from {
             None => ("new weights".to_owned(), "or those of a run of this agent".to_owned()),
-            Some(name) => (name.clone(), String::new()),
+            Some((name, _)) => (name.clone(), String::new()),
         },
     }
 }

@@ -70,10 +70,10 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let memory = standing.and_then(|standing| standing.memory).or(last.and_then(|record| record.memory));
     let three = |value: f64| format!("{value:.3}");
     let config = run.config.as_ref();
-    let held_out = watch.held_out();
+    let held_out = run.held_out();
     let is_share = watch.reward().is_some_and(|reward| reward.rule().is_some());
     let measured = if is_share { "success" } else { "reward" };
-    let mut learnt = vec![(measured, known(held_out, three)), ("best", known(run.history.best(), three))];
+    let mut learnt = vec![(measured, known(held_out, three)), ("best", known(run.best(), three))];
     if is_share {
         learnt.insert(
             1,

@@ -90,8 +90,9 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         let run = &runs[n];
         let style = match run.state {
             _ if n == mark => theme.accent(),
-            Stage::Running => theme.good(),
-            _ => theme.text(),
+            Stage::Running | Stage::Paused => theme.good(),
+            Stage::Stalled | Stage::Failed | Stage::Died => theme.warning(),
+            Stage::Finished | Stage::Interrupted => theme.text(),
         };
         if n == mark {
             buffer.set_string(area.x + 1, y, app.look().pick("▸", ">"), theme.accent());
@@ -164,7 +165,10 @@ pub fn standing(app: &App) -> Message {
     if let Some(sentence) = list.trouble() {
         return Message::warning(sentence);
     }
-    let running = list.runs().iter().filter(|run| run.state == Stage::Running).count();
+    if !list.unreadable().is_empty() {
+        return Message::warning(list.unreadable().join("; "));
+    }
+    let running = list.runs().iter().filter(|run| run.state.is_at_work()).count();
     Message::plain(match running {
         0 => "no run is at work".to_owned(),
         1 => "1 run is at work".to_owned(),
