@@ -205,6 +205,20 @@ fn a_run_is_steered_by_requests() {
 }
 
 #[test]
+fn a_question_ends_with_what_it_is_about() {
+    for (keys, condition) in [("A", Condition::Is(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)] {
+        let player = Player::watching(TRUE_COLOUR).press(keys).condition(condition, None);
+        assert_eq!(player.app.place(), Place::Watch, "{keys}");
+        let player = player.press("y Enter");
+        assert!(player.effects.is_empty(), "{keys}: {:?}", player.effects);
+    }
+    let stopped = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Stopped), None);
+    stopped.says("the run is not at work");
+    let paused = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Paused), None);
+    assert!(matches!(&paused.press("y").effects[..], [Effect::Send(Request::Abandon, _)]));
+}
+
+#[test]
 fn abandoning_asks_first_and_says_what_is_lost() {
     let player = Player::watching(TRUE_COLOUR).press("A");
     check("abandon", &player);

@@ -144,9 +144,14 @@ impl TrainingScreen {
     }
 
     fn yes(&mut self) -> Option<Effect> {
-        let watch = self.watch.as_ref()?;
-        let folder = watch.folder().to_owned();
-        match self.question.take()? {
+        let question = self.question.take()?;
+        // Between the question and its answer the run may have ended.
+        if let Some(reason) = self.refusal(question.when()) {
+            self.message = Some(Message::warning(reason));
+            return None;
+        }
+        let folder = self.watch.as_ref()?.folder().to_owned();
+        match question {
             Question::Stop => Some(Effect::Send(Request::Stop, folder)),
             Question::Abandon => Some(Effect::Send(Request::Abandon, folder)),
             Question::Replace(name) => Some(self.keep(name, true)),

@@ -192,6 +192,7 @@ impl TrainingScreen {
                     if changed && self.message.as_ref().is_some_and(|message| !message.is_warning()) {
                         self.message = None;
                     }
+                    self.close_question();
                 }
             }
             Report::Followed(Slot::Compared, folder, update) => {
@@ -224,6 +225,15 @@ impl TrainingScreen {
             Report::Policy(folder, policy) => return self.policy(&folder, policy),
         }
         None
+    }
+
+    /// What makes no sense any more is not asked any more.
+    fn close_question(&mut self) {
+        let when = self.question.as_ref().map(Question::when);
+        if let Some(reason) = when.and_then(|when| self.refusal(when)) {
+            self.question = None;
+            self.message = Some(Message::warning(reason));
+        }
     }
 
     fn kept(&mut self, keeping: Keeping, outcome: Result<Kept, String>) {

@@ -1,7 +1,7 @@
 //! What the training screen asks before it does something.
 
 use super::watch::Watch;
-use crate::terminal::words::count;
+use crate::terminal::{keymap::TrainingWhen, words::count};
 
 /// What a name for a file may hold.
 const ACCEPTED: &str = "letters, digits, '-', '_' and '.', which does not come first";
@@ -35,6 +35,14 @@ impl Question {
             }
             Self::Name(typed) => format!("keep the weights under the name: {typed}_"),
             Self::Replace(name) => format!("there is a policy called {name} already; replace it? y/n"),
+        }
+    }
+
+    /// As long as what it may be asked and answered.
+    pub const fn when(&self) -> TrainingWhen {
+        match self {
+            Self::Stop | Self::Abandon => TrainingWhen::AtWork,
+            Self::Name(_) | Self::Replace(_) => TrainingWhen::Known,
         }
     }
 
