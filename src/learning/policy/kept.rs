@@ -11,8 +11,8 @@ use crate::storage::write_atomic;
 /// What the files are called after their names.
 const EXTENSION: &str = "safetensors";
 
-/// Longest name; file systems take some more.
-const LONGEST_NAME: usize = 100;
+/// Longest name, bytes; file systems take some more.
+pub const LONGEST_NAME: usize = 100;
 
 /// Why a policy cannot be kept.
 #[derive(Debug, thiserror::Error)]
@@ -66,9 +66,14 @@ fn file(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.{EXTENSION}"))
 }
 
-fn is_name(name: &str) -> bool {
-    let is_sign = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
-    (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_sign)
+/// Whether a policy may be called so.
+pub fn is_name(name: &str) -> bool {
+    (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_letter)
+}
+
+/// Whether the letter may stand in a policy's name.
+pub fn is_letter(letter: char) -> bool {
+    letter.is_alphanumeric() || "-_.".contains(letter)
 }
 
 #[cfg(test)]
