@@ -17,7 +17,7 @@ use carom::{
         },
     },
     table::Table,
-    terminal::{App, Effect, Kept, Launch, Office, Place, Report, Slot},
+    terminal::{App, Effect, Failure, Kept, Launch, Office, Place, Report, Slot},
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
@@ -30,6 +30,10 @@ fn check(name: &str, player: &Player) {
     for (width, height) in [(80, 24), (120, 40)] {
         insta::assert_snapshot!(format!("{name}_{width}x{height}"), without_moments(&player.text(width, height)));
     }
+}
+
+fn failure(process: Option<u32>, sentence: &str) -> Failure {
+    Failure { process, sentence: sentence.to_owned() }
 }
 
 /// The text with every moment of the form 20261120-143005 that is now replaced.
@@ -93,7 +97,7 @@ fn a_new_run_is_filled_in_and_started() {
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player
         .report(Report::Followed(Slot::Main, launch.folder.clone(), Box::new(missing)))
-        .report(Report::TrainerFailed(launch.folder.clone(), "the disk is full".into()));
+        .report(Report::TrainerFailed(launch.folder.clone(), failure(Some(7), "the disk is full")));
     failed.says("the disk is full");
 }
 
@@ -116,6 +120,15 @@ fn a_run_that_trains() {
     }
     insta::assert_snapshot!("watch_200x60", player.text(200, 60));
     check("watch_help", &player.press("?"));
+    let scrolled = Player::watching(TRUE_COLOUR).press("?");
+    let keys = |key: &str, times| vec![key; times].join(" ");
+    // Each time it is drawn it tells where its end is.
+    scrolled.text(80, 24);
+    let scrolled = scrolled.press(&keys("Down", 60));
+    check("watch_help_end", &scrolled);
+    let end = scrolled.text(80, 24);
+    let back = scrolled.press("Up");
+    assert_ne!(back.text(80, 24), end, "what is beyond the end is not counted");
 }
 
 #[test]
@@ -171,6 +184,7 @@ fn a_run_is_compared_with_another() {
     other.records = (1..=250).map(record).collect();
     let player = player.update(Slot::Compared, OTHER, other);
     check("compare", &player);
+    player.says("success 0.874 after 5,000,000 shots");
     let player = player.press("c");
     assert_eq!(player.app.wanted().followed[1], None);
     let same = Player::watching(TRUE_COLOUR).press("c Enter");
@@ -205,6 +219,108 @@ fn a_run_is_steered_by_requests() {
 }
 
 #[test]
+fn a_question_ends_with_what_it_is_about() {
+    for (keys, condition) in [("A", Condition::Is(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)] {
+        let player = Player::watching(TRUE_COLOUR).press(keys).condition(condition, None);
+        assert_eq!(player.app.place(), Place::Watch, "{keys}");
+        let player = player.press("y Enter");
+        assert!(player.effects.is_empty(), "{keys}: {:?}", player.effects);
+    }
+    let stopped = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Stopped), None);
+    stopped.says("the run is not at work");
+    let paused = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Paused), None);
+    assert!(matches!(&paused.press("y").effects[..], [Effect::Send(Request::Abandon, _)]));
+}
+
+#[test]
+fn a_run_is_started_once_however_long_the_key_is_held() {
+    let died = || Player::watching(TRUE_COLOUR).condition(Condition::Died, None);
+    let player = died().press("r r r");
+    assert_eq!(player.effects.len(), 1);
+    player.says("the run is being started");
+    let player = player.press("Esc").report(Report::Runs(Ok(vec![summary(NAME, 9, None, Stage::Interrupted)].into())));
+    assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
+    let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);
+    assert_eq!(again.press("r").effects.len(), 2, "it has come and gone");
+    let folder = Path::new(RUNS).join(NAME);
+    let failed = died().press("r").report(Report::TrainerFailed(folder, failure(Some(7), "the disk is full")));
+    failed.says("the disk is full");
+    assert_eq!(failed.press("r").effects.len(), 2);
+}
+
+#[test]
+fn a_second_process_that_is_refused_is_no_news_of_the_run() {
+    let folder = || Path::new(RUNS).join(NAME);
+    let refused = |process| Report::TrainerFailed(folder(), failure(Some(process), "another process is training"));
+    let silent = |player: &Player| !player.text(120, 40).contains("another process is training");
+    let at_work = Player::watching(TRUE_COLOUR).report(refused(7));
+    assert!(silent(&at_work));
+    at_work.report(refused(standing().process)).says("another process is training");
+    let early = Player::watching(TRUE_COLOUR).condition(Condition::Died, None).report(refused(7));
+    early.says("another process is training");
+    assert!(silent(&early.condition(Condition::Is(Phase::Training), None)));
+}
+
+#[test]
+fn weights_that_are_not_there_are_not_offered() {
+    let finished = || Player::watching(TRUE_COLOUR).condition(Condition::Is(Phase::Finished), None);
+    finished().says("w uses these weights in the coach");
+    let without = finished().has_policy(false);
+    without.says("finished; it has left no policy for the coach");
+    let hints = without.text(120, 40).lines().nth(39).map(str::to_owned).unwrap();
+    assert!(!hints.contains("w use") && !hints.contains("k keep"), "{hints}");
+    for key in ["w", "k"] {
+        let player = finished().has_policy(false).press(key);
+        assert!(player.effects.is_empty() && player.app.place() == Place::Watch);
+        player.says("the run has no policy for the coach");
+    }
+}
+
+#[test]
+fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
+    let broken = || {
+        let notices = Some(vec!["config.json cannot be read; the charts are shown without it".to_owned()]);
+        let update = Update { config: None, examples: None, notices, ..known() };
+        let list = Player::new().report(Report::Runs(Ok(summaries().into()))).press("Enter").has_policy(true);
+        list.update(Slot::Main, NAME, update)
+    };
+    check("watch_no_config", &broken());
+    broken().says("4 held-out reward");
+    for key in ["w", "k"] {
+        let player = broken().press(key);
+        assert!(player.effects.is_empty());
+        player.says("config.json of the run cannot be read");
+    }
+    assert_eq!(broken().press("c").app.place(), Place::Compare);
+}
+
+#[test]
+fn the_coach_takes_the_bundled_weights_again() {
+    let folder = Path::new(RUNS).join(NAME);
+    let table = Table::default();
+    let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
+    let config = Some(Box::new(config("three-cushion")));
+    let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
+    let player = player.report(Report::Policy(folder, Ok(Arc::new(policy))));
+    let asked = |player: &Player| (player.app.coach().tutor.name().to_owned(), player.app.coach().tutor.rule);
+    assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
+    player.says("b bundled weights");
+    let player = player.press("b");
+    assert_eq!(asked(&player), ("the bundled policy".to_owned(), Rule::default()));
+    assert!(!player.text(120, 40).contains("b bundled weights"));
+    player.press("b").says("the bundled weights are asked already");
+}
+
+#[test]
+fn a_reward_that_is_no_success_is_not_called_one() {
+    let config = Some(Box::new(config("r1-difficulty")));
+    let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
+    player.says("4 held-out reward");
+    let text = player.text(120, 40);
+    assert!(!text.contains("success") && !text.contains("95 %") && !text.contains("point"), "{text}");
+}
+
+#[test]
 fn abandoning_asks_first_and_says_what_is_lost() {
     let player = Player::watching(TRUE_COLOUR).press("A");
     check("abandon", &player);
@@ -223,7 +339,7 @@ fn a_policy_is_kept_under_a_name() {
         player = player.press("Backspace");
     }
     let player = player.press("Enter");
-    player.says("a name is needed");
+    player.says("\"\" is no name for a policy; accepted are 1 to 100 letters");
     let player = player.press("a / q Enter");
     player.says("\"a/q\" is no name for a policy");
     let mut player = player.press("Backspace Backspace q Enter");
@@ -374,7 +490,7 @@ proptest! {
                 3 => player.update(Slot::Compared, OTHER, known()),
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::Is(Phase::Finished), None),
-                6 => player.report(Report::TrainerFailed(Path::new(RUNS).join(NAME), "it failed".into())),
+                6 => player.report(Report::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
                 _ => player,
             };
             player.app.tick(0.7);

@@ -66,6 +66,7 @@ impl Camera {
 fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>> {
     let mut update = Follower::new(place).look().ok_or("nothing is to be seen of the run")?;
     let reel = update.examples.take().map(|examples| Reel::record(&examples, table));
+    app.receive_report(Report::HasPolicy(place.to_owned(), true));
     app.receive_report(Report::Followed(Slot::Main, place.to_owned(), Box::new(update)));
     app.receive_report(Report::Recorded(place.to_owned(), reel.ok_or("the run has no shots to show")?));
     Ok(())

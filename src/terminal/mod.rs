@@ -14,6 +14,7 @@ mod history;
 mod inbox;
 mod keymap;
 mod look;
+mod pace;
 mod painter;
 mod placing;
 mod playback;
@@ -40,7 +41,7 @@ pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, Training
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Effort, Job, Office, Tutor};
 pub use shot::Shot;
-pub use training::{Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
+pub use training::{Failure, Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
 
 /// Why the terminal program cannot run.
 #[derive(Debug, thiserror::Error)]

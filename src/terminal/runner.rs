@@ -16,6 +16,7 @@ use super::{
     app::{App, Effect},
     errands::Errands,
     inbox::{self, News},
+    pace::Pace,
     recommender::{self, Job},
     session::Session,
     training::Report,
@@ -65,22 +66,15 @@ impl Runner {
     /// The signal that ended the program, or `None` where the player did.
     fn until_the_end(&mut self, news: &Receiver<News>) -> io::Result<Option<i32>> {
         self.draw()?;
-        let mut drawn = Instant::now();
-        let mut ticked = drawn;
-        let mut due = drawn;
+        let mut pace = Pace::new(Instant::now());
+        let mut ticked = Instant::now();
         loop {
             self.errands.want(self.app.wanted())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
-            let first = match interval {
+            let first = match pace.wake(interval) {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Some(interval) => {
-                    // From when the last picture was due, not from when it was done: the rate is to be steady.
-                    if due <= drawn {
-                        due = (due + interval).max(drawn);
-                    }
-                    news.recv_timeout(due.saturating_duration_since(Instant::now()))
-                }
+                Some(due) => news.recv_timeout(due.saturating_duration_since(Instant::now())),
             };
             let first = match first {
                 Ok(first) => Some(first),
@@ -88,7 +82,7 @@ impl Runner {
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
             };
             if first.is_some() {
-                std::thread::sleep(LEAST_INTERVAL.saturating_sub(drawn.elapsed()));
+                std::thread::sleep(LEAST_INTERVAL.saturating_sub(pace.since(Instant::now())));
             }
             // Time that passed while nothing moved does not count.
             let passed = ticked.elapsed();
@@ -98,19 +92,18 @@ impl Runner {
             }
             let mut can_wait = first.is_some();
             for news in first.into_iter().chain(news.try_iter()) {
-                can_wait &= matches!(news, News::Report(Report::Followed(..)));
+                can_wait &= matches!(news, News::Report(Report::Followed(..) | Report::HasPolicy(..)));
                 match self.take(news)? {
                     Next::GoOn => {}
                     Next::Quit => return Ok(None),
                     Next::Die(signal) => return Ok(Some(signal)),
                 }
             }
-            // News of a run come with the next picture where something moves: one picture for both.
-            if can_wait && self.app.frame_interval().is_some() {
+            if can_wait && !pace.news(Instant::now(), self.app.frame_interval().is_some()) {
                 continue;
             }
             self.draw()?;
-            drawn = Instant::now();
+            pace.drew(Instant::now());
         }
     }
 

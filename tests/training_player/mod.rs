@@ -49,7 +49,7 @@ impl Player {
 
     /// At a run that has played 1.2 of 5 million shots.
     pub fn watching(look: Look) -> Self {
-        let player = Self::with(look).report(Report::Runs(Ok(summaries().into()))).press("Enter");
+        let player = Self::with(look).report(Report::Runs(Ok(summaries().into()))).press("Enter").has_policy(true);
         player.update(Slot::Main, NAME, known()).quiet()
     }
 
@@ -85,6 +85,10 @@ impl Player {
             NAME,
             Update { condition: Some(condition), standing: Some(standing), ..Update::default() },
         )
+    }
+
+    pub fn has_policy(self, has_policy: bool) -> Self {
+        self.report(Report::HasPolicy(Path::new(RUNS).join(NAME), has_policy))
     }
 
     /// The replay has come to its end.

@@ -4,7 +4,7 @@
 
 mod view;
 
-use std::path::PathBuf;
+use std::{cell::Cell, path::PathBuf};
 
 use crossterm::event::{KeyEvent, KeyEventKind};
 use ratatui::Frame;
@@ -69,6 +69,8 @@ pub struct App {
     coach: CoachScreen,
     training: TrainingScreen,
     help: Option<u16>,
+    /// The first line of the help when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
+    help_end: Cell<u16>,
     look: Look,
     theme: Theme,
 }
@@ -84,6 +86,7 @@ impl App {
             coach: CoachScreen::new(table, layout, seed)?,
             training: TrainingScreen::new(Places::of_this_user()),
             help: None,
+            help_end: Cell::new(u16::MAX),
             look,
             theme: Theme::new(look.depth),
         })
@@ -135,10 +138,14 @@ impl App {
         match action {
             Action::Quit => return Some(Effect::Quit),
             Action::Suspend => return Some(Effect::Suspend),
-            Action::OpenHelp => self.help = Some(0),
+            Action::OpenHelp => {
+                self.help = Some(0);
+                self.help_end.set(u16::MAX);
+            }
             Action::CloseHelp => self.help = None,
             Action::ScrollHelp(lines) => {
-                self.help = self.help.map(|top| top.saturating_add_signed(lines).min(screens::MOST_SCROLL));
+                let end = self.help_end.get();
+                self.help = self.help.map(|top| top.min(end).saturating_add_signed(lines).min(end));
             }
             Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
             Action::OpenTraining => {

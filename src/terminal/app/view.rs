@@ -92,6 +92,11 @@ impl App {
         self.help
     }
 
+    /// Drawing tells the help's first line when it is scrolled to its end.
+    pub fn set_help_end(&self, line: u16) {
+        self.help_end.set(line);
+    }
+
     /// What the terminal can show.
     pub const fn look(&self) -> Look {
         self.look

@@ -6,6 +6,7 @@ use ratatui::{
     buffer::{Buffer, Cell},
     layout::Rect,
     style::{Color, Modifier, Style},
+    text::Span,
 };
 
 use crate::terminal::{
@@ -200,6 +201,15 @@ impl Grid {
             }
         }
     }
+}
+
+/// Two cells of a layer, as they look beside text.
+pub fn sample(layer: Layer, look: Look, theme: &Theme) -> Span<'static> {
+    let mark = match Dots::of(look, theme) {
+        Dots::Marks => layer.mark(look.unicode).unwrap_or(' '),
+        Dots::Braille | Dots::Halves => '━',
+    };
+    Span::styled(mark.to_string().repeat(2), layer.style(theme))
 }
 
 /// The braille character with these dots, whose bits go row by row.

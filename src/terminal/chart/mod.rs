@@ -8,7 +8,7 @@ mod step;
 mod title;
 mod trace;
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::{buffer::Buffer, layout::Rect, text::Span};
 
 use self::{
     grid::{Grid, Layer},
@@ -114,6 +114,15 @@ pub fn whole(shots: u64, planned: Option<u64>) -> (f64, f64) {
     let next = Step::at_least(shots.max(FIRST) as f64).value();
     let planned = planned.filter(|planned| *planned >= shots.max(1)).map(|planned| planned as f64);
     (0.0, planned.map_or(next, |planned| planned.min(next)))
+}
+
+/// A piece of a curve, for a legend.
+pub fn curve_mark(whose: Whose, theme: &Theme, look: Look) -> Span<'static> {
+    let layer = match whose {
+        Whose::Own => Layer::Own,
+        Whose::Other => Layer::Other,
+    };
+    grid::sample(layer, look, theme)
 }
 
 /// What the numbers along the lower axis count: an episode is a shot.

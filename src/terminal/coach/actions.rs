@@ -15,7 +15,7 @@ use crate::{
         history::History,
         keymap::CoachAction as Action,
         placing,
-        recommender::Job,
+        recommender::{Job, Tutor},
         status::Message,
         words::{BALL_NAMES, step_words},
     },
@@ -42,6 +42,7 @@ impl CoachScreen {
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
             Action::Continue => self.go_on(),
+            Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
             other => self.play(other),
         }
         None

@@ -137,6 +137,7 @@ impl CoachScreen {
             CoachWhen::Idle | CoachWhen::Shot => None,
             CoachWhen::Watching => refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one"),
             CoachWhen::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
+            CoachWhen::Trained => refuse(self.tutor.policy.is_none(), "the bundled weights are asked already"),
             CoachWhen::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }
     }

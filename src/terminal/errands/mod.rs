@@ -2,17 +2,19 @@
 
 mod policies;
 mod polling;
+mod recorder;
 mod trainer;
 
 use std::{io, path::PathBuf, sync::mpsc::Sender, thread, time::Duration};
 
-use self::polling::Poll;
+use self::{polling::Poll, recorder::Recorder};
 use super::{
     inbox::News,
     training::{Keeping, Launch, Reel, Report, Slot, Wanted},
 };
 use crate::{
     learning::run::{
+        POLICY,
         examples::Examples,
         follow::Follower,
         list::{Listing, RunList},
@@ -60,7 +62,7 @@ impl Errands {
             if wanted.followed[n] != self.wanted.followed[n] {
                 self.followed[n] = None;
                 if let Some(folder) = wanted.followed[n].clone() {
-                    let look = follow(slot, folder, self.to_screen.clone());
+                    let look = follow(slot, folder, self.to_screen.clone())?;
                     self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
                 }
             }
@@ -154,29 +156,45 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
     }
 }
 
-/// Follows a run. The shots of the one that is watched are recorded apart: that may take seconds.
-fn follow(slot: Slot, folder: PathBuf, to_screen: Sender<News>) -> impl FnMut() -> Option<Report> {
+/// Follows a run. The shots of the one that is watched are recorded apart, and whether it has a policy is told.
+///
+/// # Errors
+/// A thread that could not be started.
+fn follow(
+    slot: Slot,
+    folder: PathBuf,
+    to_screen: Sender<News>,
+) -> io::Result<impl FnMut() -> Option<Report> + Send + 'static> {
+    let recorder = if slot == Slot::Main { Some(recorder(folder.clone(), to_screen.clone())?) } else { None };
     let mut follower = Follower::new(&folder);
-    let (mut table, mut examples) = (None, None);
-    move || {
-        let mut update = follower.look()?;
+    let (mut table, mut examples, mut had_policy) = (None, None, None);
+    Ok(move || {
+        let update = follower.look();
+        // Told first, so that a run that has just finished never seems to have left none.
+        if slot == Slot::Main {
+            let has_policy = folder.join(POLICY).exists();
+            if had_policy.replace(has_policy) != Some(has_policy) {
+                // A screen that is gone needs no news.
+                let _ = to_screen.send(News::Report(Report::HasPolicy(folder.clone(), has_policy)));
+            }
+        }
+        let mut update = update?;
         table = update.config.as_ref().map(|config| config.table.clone()).or(table.take());
         examples = update.examples.take().or(examples.take());
-        if slot == Slot::Main
+        if let Some(recorder) = &recorder
             && let Some(table) = table.clone()
             && let Some(examples) = examples.take()
         {
-            record(examples, table, folder.clone(), to_screen.clone());
+            recorder.take((examples, table));
         }
         Some(Report::Followed(slot, folder.clone(), Box::new(update)))
-    }
+    })
 }
 
-fn record(examples: Examples, table: Table, folder: PathBuf, to_screen: Sender<News>) {
-    let work = move || {
+/// Records the shots of the run in `folder`.
+fn recorder(folder: PathBuf, to_screen: Sender<News>) -> io::Result<Recorder<(Examples, Table)>> {
+    Recorder::start(move |(examples, table): (Examples, Table)| {
         // A screen that is gone needs no shots.
-        let _ = to_screen.send(News::Report(Report::Recorded(folder, Reel::record(&examples, &table))));
-    };
-    // Without a thread there is no replay, and all else goes on.
-    let _ = thread::Builder::new().name("recorder".into()).spawn(work);
+        let _ = to_screen.send(News::Report(Report::Recorded(folder.clone(), Reel::record(&examples, &table))));
+    })
 }

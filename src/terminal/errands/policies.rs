@@ -8,12 +8,8 @@ use crate::{
         policy::kept::{self, KeepError},
         run::POLICY,
     },
-    terminal::training::{Keeping, Kept},
+    terminal::training::{Keeping, Kept, NO_POLICY},
 };
-
-/// Where there is no policy.
-const NONE: &str = "the run has no policy for the coach: it comes with the first measurement, and the thesis' agents \
-                    have none";
 
 /// The policy of the run in `folder`.
 ///
@@ -22,7 +18,7 @@ const NONE: &str = "the run has no policy for the coach: it comes with the first
 pub fn load(folder: &Path) -> Result<Arc<Policy>, String> {
     let path = folder.join(POLICY);
     if !path.exists() {
-        return Err(NONE.to_owned());
+        return Err(NO_POLICY.to_owned());
     }
     Policy::load(&path).map(Arc::new).map_err(|error| error.to_string())
 }
@@ -34,7 +30,7 @@ pub fn load(folder: &Path) -> Result<Arc<Policy>, String> {
 pub fn keep(keeping: &Keeping) -> Result<Kept, String> {
     let Keeping { from, folder, name, replace } = keeping;
     if !from.exists() {
-        return Err(NONE.to_owned());
+        return Err(NO_POLICY.to_owned());
     }
     match kept::keep(folder, from, name, *replace) {
         Ok(_) => Ok(Kept::Done),

@@ -8,14 +8,16 @@ use std::{
     process::{Command, Stdio},
 };
 
+use crate::terminal::training::Failure;
+
 /// Bytes at the end of what a process says in which its last sentence is looked for.
 const LAST_BYTES: i64 = 4096;
 
 /// Runs this program with `arguments` until it ends.
 ///
 /// # Errors
-/// A sentence where it cannot be started or fails, its own where it says one.
-pub fn run(arguments: &[OsString]) -> Result<(), String> {
+/// Where it cannot be started or fails: with its own sentence where it says one.
+pub fn run(arguments: &[OsString]) -> Result<(), Failure> {
     let start = || {
         let program = std::env::current_exe()?;
         // What it says goes to a file that has no name. A pipe would break with the end of this screen, and a write to
@@ -26,13 +28,22 @@ pub fn run(arguments: &[OsString]) -> Result<(), String> {
         // Signals of the terminal go to a group of processes: not to this one.
         Ok((command.process_group(0).spawn()?, said))
     };
-    let (mut process, said) =
-        start().map_err(|error: std::io::Error| format!("training cannot be started: {error}"))?;
-    let status = process.wait().map_err(|error| format!("the training is lost from sight: {error}"))?;
-    if status.success() {
-        return Ok(());
+    let (mut process, said) = start().map_err(|error: std::io::Error| Failure {
+        process: None,
+        sentence: format!("training cannot be started: {error}"),
+    })?;
+    let failure = {
+        let process = Some(process.id());
+        move |sentence| Failure { process, sentence }
+    };
+    match process.wait() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => {
+            let killed = || format!("the process that trains has ended: {status}");
+            Err(failure(last_sentence(said).unwrap_or_else(killed)))
+        }
+        Err(error) => Err(failure(format!("the training is lost from sight: {error}"))),
     }
-    Err(last_sentence(said).unwrap_or_else(|| format!("the process that trains has ended: {status}")))
 }
 
 /// The last sentence in a file that says why the program has failed; what it says while it trains is none.

@@ -54,6 +54,8 @@ pub enum CoachAction {
     PlaceBalls,
     /// Takes the balls as the shot leaves them.
     Continue,
+    /// Asks the bundled policies again.
+    Bundled,
 }
 
 /// When a binding of the coach may be used.
@@ -75,6 +77,8 @@ pub enum CoachWhen {
     Undoable,
     /// Where a change was taken back.
     Redoable,
+    /// Where a policy is asked that somebody has trained.
+    Trained,
 }
 
 const fn bind(
@@ -107,6 +111,8 @@ use CoachWhen as W;
 pub const COACH: &[Binding] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
+    bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled weights", 1)),
+        "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
     bind(Balls, W::Placing, &[
         key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),

@@ -36,7 +36,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     draw_tip(app, panes.tip, buffer);
     draw_events(app, panes.events, buffer);
     let standing = || Message::plain(standing(app));
-    draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, app.theme(), buffer);
+    draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, app.theme(), app.look(), buffer);
     draw_hints(app, panes.hints, buffer);
 }
 

@@ -12,29 +12,28 @@ use crate::{
         app::App,
         chord::keys_text,
         keymap::{Place, Section, When, bindings},
-        widgets::draw_hints,
+        widgets::{draw_hints, wrap},
     },
 };
 
-/// Lines that the help can be scrolled by; a larger number would leave an empty page.
-pub const MOST_SCROLL: u16 = 36;
 /// Columns of the keys.
 const KEYS: usize = 22;
 
-const COACH_NOTES: [&str; 5] = [
-    "Places are measured from the middle of the table, x to the right, y up. The dots are the",
-    "predicted paths; rings are the first contact and where the balls stop. On a small screen",
-    "the balls are drawn larger than they are; they roll and touch at their true size.",
+/// Each is a paragraph.
+const COACH_NOTES: [&str; 3] = [
+    "Places are measured from the middle of the table, x to the right, y up. The dots are the predicted paths; rings are \
+     the first contact and where the balls stop. On a small screen the balls are drawn larger than they are; they roll \
+     and touch at their true size.",
     "Tip: the cue ball from behind the cue; in its grey part the tip would slip off.",
     "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
 ];
 
-const TRAINING_NOTES: [&str; 6] = [
+const TRAINING_NOTES: [&str; 4] = [
     "Training goes on in a process of its own: it needs neither this screen nor this terminal.",
-    "Held-out figures are of the agent's own choice on layouts that it has not trained on, with",
-    "Wilson's 95 % interval. Shots of a run that trains are replayed once, as they were measured.",
-    "A chart shows the smallest and largest value where many lines share a column, so that no",
-    "peak is lost; what is no number is a gap. Smoothing is over shots, and never looks ahead.",
+    "Held-out figures are of the agent's own choice on layouts that it has not trained on, with Wilson's 95 % interval. \
+     Shots of a run that trains are replayed once, as they were measured.",
+    "A chart shows the smallest and largest value where many lines share a column, so that no peak is lost; what is no \
+     number is a gap. Smoothing is over shots, and never looks ahead.",
     "The quantities and their keys:",
 ];
 
@@ -45,15 +44,16 @@ fn notes(place: Place) -> Vec<String> {
     }
     let quantities: Vec<_> =
         Quantity::ALL.iter().enumerate().map(|(n, one)| format!("{} {}", n + 1, one.name())).collect();
-    let rows = quantities.chunks(4).map(|row| format!("  {}", row.join(", ")));
+    let rows = quantities.chunks(4).map(|row| row.join(", "));
     TRAINING_NOTES.map(str::to_owned).into_iter().chain(rows).collect()
 }
 
 /// Draws the help from its line `top` on.
 pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
-    let lines = lines(app);
     let page = Rect::new(area.x + 2, area.y + 1, area.width.saturating_sub(4), area.height.saturating_sub(3));
+    let lines = lines(app, usize::from(page.width));
     let last = lines.len().saturating_sub(usize::from(page.height));
+    app.set_help_end(last as u16);
     let first = usize::from(top).min(last);
     for (line, row) in lines[first..].iter().zip(page.y..page.bottom()) {
         buffer.set_line(page.x, row, line, page.width);
@@ -66,7 +66,7 @@ pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
     draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, buffer);
 }
 
-fn lines(app: &App) -> Vec<Line<'static>> {
+fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, look) = (app.theme(), app.look());
     let mut lines = Vec::new();
     for section in Section::ALL {
@@ -78,15 +78,19 @@ fn lines(app: &App) -> Vec<Line<'static>> {
         lines.push(Line::styled(section.title(), theme.good()));
         for binding in own {
             let keys = keys_text(binding.keys.iter().map(|(chord, _)| *chord), look);
-            lines.push(Line::from(vec![
-                Span::styled(format!("  {keys:<KEYS$}"), theme.accent()),
-                Span::styled(binding.description, theme.text()),
-            ]));
+            let description = wrap(binding.description, width.saturating_sub(KEYS + 2));
+            for (n, words) in description.into_iter().enumerate() {
+                let keys = if n == 0 { keys.as_str() } else { "" };
+                lines.push(Line::from(vec![
+                    Span::styled(format!("  {keys:<KEYS$}"), theme.accent()),
+                    Span::styled(words, theme.text()),
+                ]));
+            }
         }
         lines.push(Line::default());
     }
     lines.push(Line::styled("What is drawn", theme.good()));
-    let notes = notes(app.place()).into_iter();
+    let notes = notes(app.place()).into_iter().flat_map(|note| wrap(&note, width.saturating_sub(2)));
     lines.extend(notes.map(|note| Line::styled(format!("  {note}"), theme.text())));
     lines
 }

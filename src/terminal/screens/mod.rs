@@ -10,8 +10,6 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::app::{App, Screen};
 
-pub use help::MOST_SCROLL;
-
 /// Columns and rows below which there is no room for the table and its panels.
 pub const SMALLEST: (u16, u16) = (80, 24);
 

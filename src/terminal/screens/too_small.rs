@@ -1,4 +1,4 @@
-//! The page for a terminal that has no room for the table: which size it has and which it needs.
+//! The page for a terminal that has no room for the screens: which size it has and which it needs.
 
 use ratatui::{
     buffer::Buffer,
@@ -15,7 +15,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let (width, height) = SMALLEST;
     let (times, theme) = (app.look().pick("×", "x"), app.theme());
     let lines = vec![
-        Line::styled("The table needs more room.", theme.text()),
+        Line::styled("This screen needs more room.", theme.text()),
         Line::styled(format!("This terminal: {}{times}{}", area.width, area.height), theme.warning()),
         Line::styled(format!("Needed:        {width}{times}{height}"), theme.good()),
         Line::styled("Make it larger, or press q to quit.", theme.faint()),

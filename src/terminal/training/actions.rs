@@ -1,13 +1,18 @@
 //! What each key does to the training screen, and when it may be used.
 
-use super::{Form, Keeping, Launch, Page, Question, TrainingScreen, Watch, question::wrong_name};
+use std::time::Instant;
+
+use super::{Form, Keeping, Launch, Page, Question, TrainingScreen, Watch, question::proposed_name};
 use crate::{
-    learning::run::{follow::Condition, request::Request},
+    learning::{
+        policy::kept::{KeepError, is_name},
+        run::{follow::Condition, request::Request},
+    },
     terminal::{
         app::Effect,
         keymap::{TrainingAction as Action, TrainingWhen as When},
         status::Message,
-        training::watch::Named,
+        training::watch::{NO_POLICY, Named},
     },
 };
 
@@ -19,14 +24,14 @@ impl TrainingScreen {
             return match when {
                 When::Here => None,
                 When::Marked => refuse(self.list.marked().is_none(), "there is no run yet; n starts one"),
-                When::MarkedCanGoOn => self.list.refusal_to_go_on(),
+                When::MarkedCanGoOn => self.refusal_of_marked(),
                 _ => Some("no run is watched"),
             };
         };
         match when {
             When::Here => None,
             When::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
-            When::MarkedCanGoOn => self.list.refusal_to_go_on(),
+            When::MarkedCanGoOn => self.refusal_of_marked(),
             When::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
             When::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
             When::Paused => refuse(!watch.is_paused(), "the run is not paused"),
@@ -34,11 +39,24 @@ impl TrainingScreen {
                 refuse(!watch.is_at_work(), "the run is not at work; r goes on with one that has not finished")
                     .or(refuse(when == When::Working && watch.is_paused(), "the run is paused"))
             }
-            When::CanGoOn => watch.refusal_to_go_on(),
-            When::Known => refuse(watch.own.run.config.is_none(), "there is no run yet")
+            When::CanGoOn => {
+                refuse(self.is_launched(watch.folder()), "the run is being started").or(watch.refusal_to_go_on())
+            }
+            When::Known => refuse(!watch.is_known(), "there is no run yet")
                 .or(refuse(watch.condition() == Condition::Removed, "the run has been removed")),
+            When::HasPolicy => self
+                .refusal(When::Known)
+                .or(refuse(watch.lacks_config(), "config.json of the run cannot be read: its table is not known"))
+                .or(refuse(!watch.has_policy, NO_POLICY)),
             When::Shots => refuse(watch.replay.reel().is_none(), "no shots yet: they come with the first measurement"),
         }
+    }
+
+    /// Why the marked run cannot go on.
+    fn refusal_of_marked(&self) -> Option<&'static str> {
+        let folder = self.list.marked().map(|run| self.folder.join(&run.name));
+        let is_launched = folder.is_some_and(|folder| self.is_launched(&folder));
+        is_launched.then_some("the run is being started").or(self.list.refusal_to_go_on())
     }
 
     /// Does what an enabled binding asks for.
@@ -91,6 +109,7 @@ impl TrainingScreen {
         match self.form.launch(&self.folder) {
             Ok(launch) => {
                 self.show(&launch.folder);
+                self.launched = Some((launch.folder.clone(), Instant::now()));
                 Some(Effect::Train(Box::new(launch)))
             }
             Err(sentence) => {
@@ -107,13 +126,14 @@ impl TrainingScreen {
         }
         let folder = self.watch.as_ref()?.folder().to_owned();
         self.message = Some(Message::plain("going on from the last checkpoint"));
+        self.launched = Some((folder.clone(), Instant::now()));
         Some(Effect::Train(Box::new(Launch::resume(&folder))))
     }
 
     /// What the keys do to the run that is watched, and to how it is shown.
     fn steer(&mut self, action: Action) -> Option<Effect> {
-        let Self { watch: Some(watch), question, .. } = self else { return None };
-        let (shots, planned) = (watch.most_shots(), watch.planned_end());
+        let Self { watch: Some(watch), question, message, .. } = self else { return None };
+        let progress = watch.progress();
         let Watch { charts, replay, .. } = watch;
         match action {
             Action::Show(n) => charts.toggle(n),
@@ -121,8 +141,8 @@ impl TrainingScreen {
             Action::Enlarge => charts.enlarge(),
             Action::Log => charts.toggle_log(),
             Action::Smooth => charts.smooth(),
-            Action::Zoom(steps) => charts.zoom(steps, shots, planned),
-            Action::Pan(steps) => charts.pan(steps, shots, planned),
+            Action::Zoom(steps) => *message = charts.zoom(steps, progress).err().map(Message::warning),
+            Action::Pan(steps) => charts.pan(steps, progress),
             Action::All => charts.show_all(),
             Action::Follow => charts.follow_end(),
             Action::Compare if watch.other.is_some() => watch.other = None,
@@ -134,7 +154,7 @@ impl TrainingScreen {
             Action::Stop => *question = Some(Question::Stop),
             Action::Abandon => *question = Some(Question::Abandon),
             Action::Use => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
-            Action::Keep => *question = Some(Question::Name(watch.own.name.replace(['/', '\\'], "-"))),
+            Action::Keep => *question = Some(Question::Name(proposed_name(&watch.own.name))),
             Action::Play => replay.toggle(),
             Action::Shot(shots) => replay.step(shots),
             _ => {}
@@ -143,20 +163,25 @@ impl TrainingScreen {
     }
 
     fn yes(&mut self) -> Option<Effect> {
-        let watch = self.watch.as_ref()?;
-        let folder = watch.folder().to_owned();
-        match self.question.take()? {
+        let question = self.question.take()?;
+        // Between the question and its answer the run may have ended.
+        if let Some(reason) = self.refusal(question.when()) {
+            self.message = Some(Message::warning(reason));
+            return None;
+        }
+        let folder = self.watch.as_ref()?.folder().to_owned();
+        match question {
             Question::Stop => Some(Effect::Send(Request::Stop, folder)),
             Question::Abandon => Some(Effect::Send(Request::Abandon, folder)),
             Question::Replace(name) => Some(self.keep(name, true)),
             Question::Name(typed) => {
                 let name = typed.trim().to_owned();
-                if let Some(sentence) = wrong_name(&name) {
-                    self.question = Some(Question::Name(typed));
-                    self.message = Some(Message::warning(sentence));
-                    return None;
+                if is_name(&name) {
+                    return Some(self.keep(name, false));
                 }
-                Some(self.keep(name, false))
+                self.question = Some(Question::Name(typed));
+                self.message = Some(Message::warning(KeepError::Name(name).to_string()));
+                None
             }
         }
     }

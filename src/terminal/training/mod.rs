@@ -15,6 +15,7 @@ mod watch;
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
+    time::{Duration, Instant},
 };
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -24,7 +25,10 @@ use crate::{
     game::Reward,
     learning::{
         Policy,
-        run::{follow::Condition, request::Request},
+        run::{
+            follow::{Condition, Update},
+            request::Request,
+        },
     },
     storage::Places,
     table::Table,
@@ -33,9 +37,12 @@ use crate::{
 pub use form::{Field, Form};
 pub use question::Question;
 pub use replay::{Reel, Scene};
-pub use report::{Keeping, Kept, Launch, Report, Slot, Wanted};
+pub use report::{Failure, Keeping, Kept, Launch, Report, Slot, Wanted};
 pub use runs::RunList;
-pub use watch::{Named, Watch};
+pub use watch::{NO_POLICY, Named, Watch};
+
+/// Time for which a run that is started is believed to come: within it nothing else is started in its folder.
+const LAUNCHING: Duration = Duration::from_secs(5);
 
 /// A page of the training screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,6 +88,8 @@ pub struct TrainingScreen {
     pub message: Option<Message>,
     /// Whether there is nothing behind the first page.
     pub alone: bool,
+    /// The folder of the run that was started last, and when, until it is seen to be at work or to have failed.
+    launched: Option<(PathBuf, Instant)>,
     /// The pages one has come through; the last one is open.
     pages: Vec<Page>,
 }
@@ -97,6 +106,7 @@ impl TrainingScreen {
             question: None,
             message: None,
             alone: false,
+            launched: None,
             pages: Vec::new(),
         }
     }
@@ -129,6 +139,11 @@ impl TrainingScreen {
         self.watch = Some(watch);
         self.pages.retain(|page| *page == Page::Runs);
         self.pages.push(Page::Watch);
+    }
+
+    /// Whether a process for the run in `folder` has been started and may still be on its way.
+    fn is_launched(&self, folder: &Path) -> bool {
+        self.launched.as_ref().is_some_and(|(launched, since)| launched == folder && since.elapsed() < LAUNCHING)
     }
 
     /// Whether one has gone back from the first page.
@@ -183,17 +198,7 @@ impl TrainingScreen {
     pub fn receive(&mut self, report: Report) -> Option<(Table, Tutor)> {
         match report {
             Report::Runs(found) => self.list.take(found),
-            Report::Followed(Slot::Main, folder, update) => {
-                if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
-                    let before = watch.condition();
-                    watch.apply(*update);
-                    let changed = watch.condition() != before && !matches!(before, Condition::Stalled(_));
-                    // What was said of what was is no news any more; a failure stays until it is read.
-                    if changed && self.message.as_ref().is_some_and(|message| !message.is_warning()) {
-                        self.message = None;
-                    }
-                }
-            }
+            Report::Followed(Slot::Main, folder, update) => self.followed(&folder, *update),
             Report::Followed(Slot::Compared, folder, update) => {
                 let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
                 if let Some(other) = other.filter(|other| other.run.folder == folder) {
@@ -205,10 +210,13 @@ impl TrainingScreen {
                     watch.replay.offer(reel);
                 }
             }
-            Report::TrainerFailed(folder, sentence) => {
-                let name = Named::new(&folder, &self.places.runs).name;
-                self.message = Some(Message::warning(format!("{name}: {sentence}")));
+            Report::HasPolicy(folder, has_policy) => {
+                if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
+                    watch.has_policy = has_policy;
+                }
+                self.close_question();
             }
+            Report::TrainerFailed(folder, failure) => self.failed(&folder, &failure),
             Report::Sent(request, Ok(())) => {
                 self.message = Some(Message::plain(match request {
                     Request::Pause => "the run is asked to pause",
@@ -224,6 +232,48 @@ impl TrainingScreen {
             Report::Policy(folder, policy) => return self.policy(&folder, policy),
         }
         None
+    }
+
+    /// News of the run in `folder`.
+    fn followed(&mut self, folder: &Path, update: Update) {
+        let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
+        let (before, was_at_work) = (watch.condition(), watch.is_at_work());
+        watch.apply(update);
+        let has_changed = !watch.condition().is_like(before);
+        let has_begun = watch.is_at_work() && !was_at_work;
+        // Before it is seen for the first time it may have been as it was still.
+        if has_changed && before != Condition::Unknown && self.is_launched(folder) {
+            self.launched = None;
+        }
+        // What was said of what was is no news any more; a failure stays until it is read, or somebody trains again.
+        let is_news = self.message.as_ref().is_some_and(|message| message.is_warning() && !has_begun);
+        if has_changed && !matches!(before, Condition::Stalled(_)) && !is_news {
+            self.message = None;
+        }
+        self.close_question();
+    }
+
+    /// A process that was to train in `folder` has failed. That is nothing to worry about where another one trains there.
+    fn failed(&mut self, folder: &Path, failure: &Failure) {
+        let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_at_work());
+        let at_work = watch.and_then(|watch| watch.own.run.standing.as_ref()).map(|standing| standing.process);
+        if at_work.is_some() && at_work != failure.process {
+            return;
+        }
+        if self.is_launched(folder) {
+            self.launched = None;
+        }
+        let name = Named::new(folder, &self.places.runs).name;
+        self.message = Some(Message::warning(format!("{name}: {}", failure.sentence)));
+    }
+
+    /// What makes no sense any more is not asked any more.
+    fn close_question(&mut self) {
+        let when = self.question.as_ref().map(Question::when);
+        if let Some(reason) = when.and_then(|when| self.refusal(when)) {
+            self.question = None;
+            self.message = Some(Message::warning(reason));
+        }
     }
 
     fn kept(&mut self, keeping: Keeping, outcome: Result<Kept, String>) {

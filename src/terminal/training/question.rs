@@ -1,12 +1,10 @@
 //! What the training screen asks before it does something.
 
 use super::watch::Watch;
-use crate::terminal::words::count;
-
-/// What a name for a file may hold.
-const ACCEPTED: &str = "letters, digits, '-', '_' and '.', which does not come first";
-/// Most letters of a name.
-const LONGEST_NAME: usize = 60;
+use crate::{
+    learning::policy::kept::{LONGEST_NAME, is_letter},
+    terminal::{keymap::TrainingWhen, words::count},
+};
 
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,10 +36,18 @@ impl Question {
         }
     }
 
+    /// As long as what it may be asked and answered.
+    pub const fn when(&self) -> TrainingWhen {
+        match self {
+            Self::Stop | Self::Abandon => TrainingWhen::AtWork,
+            Self::Name(_) | Self::Replace(_) => TrainingWhen::HasPolicy,
+        }
+    }
+
     /// A letter was typed; `false` where none is taken.
     pub fn typed(&mut self, letter: char) -> bool {
         let Self::Name(name) = self else { return false };
-        if !letter.is_control() && name.chars().count() < LONGEST_NAME {
+        if !letter.is_control() && name.len() + letter.len_utf8() <= LONGEST_NAME {
             name.push(letter);
         }
         true
@@ -55,12 +61,37 @@ impl Question {
     }
 }
 
-/// What is wrong with a name for a file; `None` where nothing is.
-pub fn wrong_name(name: &str) -> Option<String> {
-    if name.is_empty() {
-        return Some(format!("a name is needed; accepted are {ACCEPTED}"));
+/// A name for the policy of the run called `run`: the last part of that, as far as it may stand in a name.
+pub fn proposed_name(run: &str) -> String {
+    let last = run.rsplit(['/', '\\']).find(|part| !part.is_empty()).unwrap_or_default();
+    let letters = last.chars().enumerate().map(|(n, letter)| {
+        let is_kept = is_letter(letter) && (n > 0 || letter != '.');
+        if is_kept { letter } else { '-' }
+    });
+    let mut name: String = letters.collect();
+    while name.len() > LONGEST_NAME {
+        name.pop();
     }
-    let is_sign = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
-    let is_wrong = name.starts_with('.') || !name.chars().all(is_sign);
-    is_wrong.then(|| format!("{name:?} is no name for a policy; accepted are {ACCEPTED}"))
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::policy::kept::is_name;
+
+    #[test]
+    fn every_run_is_proposed_a_name_that_is_accepted() {
+        let long = "\u{e4}".repeat(80);
+        for (run, name) in [
+            ("20261120-ddpg", "20261120-ddpg"),
+            ("/home/me/runs/group/seed-1", "seed-1"),
+            ("runs/my run (2)/", "my-run--2-"),
+            (".hidden", "-hidden"),
+            (long.as_str(), &long[..100]),
+        ] {
+            assert_eq!(proposed_name(run), name);
+            assert!(is_name(name), "{name}");
+        }
+    }
 }

@@ -52,6 +52,15 @@ impl Launch {
     }
 }
 
+/// How a process that trains has failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// The process, where it could be started.
+    pub process: Option<u32>,
+    /// Why it has failed, in a sentence.
+    pub sentence: String,
+}
+
 /// A policy to be kept under a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keeping {
@@ -83,8 +92,10 @@ pub enum Report {
     Followed(Slot, PathBuf, Box<Update>),
     /// The latest shots of the run in a folder, recorded.
     Recorded(PathBuf, Reel),
-    /// The process that trained in a folder could not be started, or has ended with this sentence.
-    TrainerFailed(PathBuf, String),
+    /// The process that was to train in a folder has failed.
+    TrainerFailed(PathBuf, Failure),
+    /// Whether the run in a folder that is followed has a policy by now.
+    HasPolicy(PathBuf, bool),
     /// A run was asked for something.
     Sent(Request, Result<(), String>),
     /// A policy was to be kept.

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{charts::Charts, replay::Replay};
+use super::{
+    charts::{Charts, Progress},
+    replay::Replay,
+};
 use crate::{
     game::Reward,
     learning::run::{
@@ -12,6 +15,10 @@ use crate::{
     },
     table::Table,
 };
+
+/// Why a run's weights are of no use to the coach.
+pub const NO_POLICY: &str = "the run has no policy for the coach: it comes with the first measurement, and the thesis' \
+                             agents have none";
 
 /// A run and its name.
 #[derive(Debug)]
@@ -28,6 +35,11 @@ impl Named {
         let name = folder.strip_prefix(runs).unwrap_or(folder).display().to_string();
         Self { name, run: Followed::new(folder) }
     }
+
+    /// Whether what its shots earn is a success or none; that is not known before its reward is.
+    pub fn is_share(&self) -> bool {
+        self.run.config.as_ref().is_some_and(|config| config.plan.reward.rule().is_some())
+    }
 }
 
 /// A run that is watched.
@@ -41,12 +53,15 @@ pub struct Watch {
     pub charts: Charts,
     /// Its latest shots.
     pub replay: Replay,
+    /// Whether it has left a policy that the coach can use.
+    pub has_policy: bool,
 }
 
 impl Watch {
     /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
     pub fn new(folder: &Path, runs: &Path) -> Self {
-        Self { own: Named::new(folder, runs), other: None, charts: Charts::default(), replay: Replay::default() }
+        let (charts, replay) = (Charts::default(), Replay::default());
+        Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false }
     }
 
     /// Takes what has changed.
@@ -64,6 +79,16 @@ impl Watch {
         self.own.run.condition
     }
 
+    /// Whether there is anything in its folder.
+    pub const fn is_known(&self) -> bool {
+        !matches!(self.condition(), Condition::Unknown | Condition::Missing)
+    }
+
+    /// Whether it is there and its configuration cannot be read.
+    pub const fn lacks_config(&self) -> bool {
+        self.is_known() && self.own.run.config.is_none()
+    }
+
     /// Shots planned, where that is known.
     pub fn planned(&self) -> Option<u64> {
         self.own.run.config.as_ref().map(|config| config.plan.shots)
@@ -79,23 +104,29 @@ impl Watch {
         self.own.run.config.as_ref().map(|config| &config.table)
     }
 
-    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
-    pub fn planned_end(&self) -> Option<u64> {
-        self.planned().map(|planned| planned.max(self.own.run.shots()))
+    /// Whether what its shots earn is a success or none.
+    pub fn is_share(&self) -> bool {
+        self.own.is_share()
     }
 
-    /// Shots played by it or by the run that it is compared with: charts show both.
-    pub fn most_shots(&self) -> u64 {
-        self.own.run.shots().max(self.other.as_ref().map_or(0, |other| other.run.shots()))
+    /// How far it is, or the run that it is compared with: charts show both.
+    pub fn progress(&self) -> Progress {
+        let runs = || [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
+        Progress {
+            shots: runs().map(Followed::shots).max().unwrap_or(0),
+            planned: self.planned_end(),
+            speed: runs().map(speed).fold(0.0, f64::max),
+        }
+    }
+
+    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
+    fn planned_end(&self) -> Option<u64> {
+        self.planned().map(|planned| planned.max(self.own.run.shots()))
     }
 
     /// Whether a process works on it.
     pub const fn is_at_work(&self) -> bool {
-        match self.condition() {
-            Condition::Is(phase) => !phase.is_over(),
-            Condition::Stalled(_) => true,
-            _ => false,
-        }
+        is_at_work(self.condition())
     }
 
     /// Whether it waits to be told to go on.
@@ -133,7 +164,7 @@ impl Watch {
             Condition::Is(Phase::Failed) => {
                 (format!("{}; {resume}", reason.unwrap_or("the training has broken down")), true)
             }
-            Condition::Died => (format!("the process that trained is gone without having saved; {resume}"), true),
+            Condition::Died => (format!("the process that trained is gone without a word; {resume}"), true),
             Condition::Stalled(since) => {
                 let seconds = since.as_secs();
                 (format!("nothing has come for {seconds} s, and the process is there: it may be suspended"), true)
@@ -151,10 +182,28 @@ impl Watch {
             Condition::Is(Phase::Training) => {
                 (format!("it goes on without this screen: carom watch {}", quoted(name)), false)
             }
+            Condition::Is(Phase::Finished) if !self.has_policy => {
+                ("finished; it has left no policy for the coach".to_owned(), false)
+            }
             Condition::Is(Phase::Finished) => {
                 ("finished; w uses these weights in the coach, k keeps them under a name".to_owned(), false)
             }
         }
+    }
+}
+
+/// Shots that a run plays a second, on average; 0 where nobody trains.
+fn speed(run: &Followed) -> f64 {
+    let standing = run.standing.as_ref().filter(|_| is_at_work(run.condition));
+    standing.map_or(0.0, |standing| standing.shots as f64 / standing.seconds.max(1.0))
+}
+
+/// Whether a process works on a run that is so.
+const fn is_at_work(condition: Condition) -> bool {
+    match condition {
+        Condition::Is(phase) => !phase.is_over(),
+        Condition::Stalled(_) => true,
+        _ => false,
     }
 }
 

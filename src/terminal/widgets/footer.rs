@@ -11,6 +11,7 @@ use crate::terminal::{
     app::App,
     chord::keys_text,
     keymap::{Binding, Section, When, bindings},
+    look::Look,
     status::{Message, Tone},
     theme::Theme,
 };
@@ -18,19 +19,30 @@ use crate::terminal::{
 /// Columns between two hints.
 const GAP: usize = 3;
 
-/// Most rows that a long sentence on the status line may take.
+/// Most rows that a long sentence on the status line may take, and a question with what was answered wrongly.
 const STATUS_ROWS: u16 = 3;
+const QUESTION_ROWS: u16 = 8;
 
-/// Draws a sentence into the row `area`; one that is longer takes the rows above it as well.
-pub fn draw_status(message: &Message, area: Rect, theme: &Theme, buffer: &mut Buffer) {
+/// Draws a sentence into the row `area`; one that is longer takes some rows above it as well.
+pub fn draw_status(message: &Message, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    draw_rows(message, STATUS_ROWS, area, theme, look, buffer);
+}
+
+/// Draws a question like a sentence; its end, which is answered, is to be seen however long it is.
+pub fn draw_question(question: &Message, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    draw_rows(question, QUESTION_ROWS, area, theme, look, buffer);
+}
+
+fn draw_rows(message: &Message, most: u16, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let style = match message.tone {
         Tone::Plain => theme.text(),
         Tone::Good => theme.good(),
         Tone::Warning => theme.warning(),
     };
     let width = area.width.saturating_sub(2);
-    let lines = wrap(&message.text, usize::from(width));
-    let rows = (lines.len() as u16).min(STATUS_ROWS).min(area.bottom());
+    let most = most.min(area.bottom());
+    let lines = cut(wrap(&message.text, usize::from(width)), usize::from(most), usize::from(width), look);
+    let rows = lines.len() as u16;
     let place = Rect::new(area.x, area.bottom() - rows, area.width, rows);
     Clear.render(place, buffer);
     buffer.set_style(place, theme.text());
@@ -39,20 +51,37 @@ pub fn draw_status(message: &Message, area: Rect, theme: &Theme, buffer: &mut Bu
     }
 }
 
-/// The words of `text` in lines of at most `width` characters; a longer word has a line to itself.
+/// The first `rows` lines; the last of them says by its end if there are more.
+fn cut(mut lines: Vec<String>, rows: usize, width: usize, look: Look) -> Vec<String> {
+    if lines.len() <= rows {
+        return lines;
+    }
+    lines.truncate(rows);
+    let more = look.pick("…", "...");
+    if let Some(last) = lines.last_mut() {
+        let room = width.saturating_sub(more.chars().count());
+        *last = last.chars().take(room).collect::<String>().trim_end().to_owned() + more;
+    }
+    lines
+}
+
+/// The words of `text` in lines of at most `width` characters; a longer word begins a line and is broken.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
         let last = lines.len() - 1;
         let line = &mut lines[last];
-        if line.is_empty() {
-            line.push_str(word);
-        } else if line.chars().count() + 1 + word.chars().count() <= width {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() <= width {
             line.push(' ');
             line.push_str(word);
-        } else {
-            lines.push(word.to_owned());
+            continue;
         }
+        let letters: Vec<char> = word.chars().collect();
+        let mut pieces = letters.chunks(width.max(1)).map(String::from_iter);
+        if line.is_empty() {
+            line.extend(pieces.next());
+        }
+        lines.extend(pieces);
     }
     lines
 }
@@ -92,11 +121,21 @@ fn hint(app: &App, binding: &Binding) -> Option<Line<'static>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::terminal::look::{Depth, Glyphs};
 
     #[test]
     fn long_sentences_are_broken_between_words() {
         assert_eq!(wrap("", 5), [""]);
         assert_eq!(wrap("one two three", 7), ["one two", "three"]);
-        assert_eq!(wrap("unbreakable a b", 3), ["unbreakable", "a b"]);
+        assert_eq!(wrap("unbreakable a b", 4), ["unbr", "eaka", "ble", "a b"]);
+    }
+
+    #[test]
+    fn what_is_cut_says_so() {
+        let unicode = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+        let lines = wrap("one two three four", 7);
+        assert_eq!(cut(lines.clone(), 2, 7, unicode), ["one two", "three\u{2026}"]);
+        assert_eq!(cut(lines.clone(), 1, 7, Look { unicode: false, ..unicode }), ["one..."]);
+        assert_eq!(cut(lines.clone(), 3, 7, unicode), lines);
     }
 }

@@ -20,7 +20,7 @@ use super::{look::Look, theme::Theme};
 
 pub use balls::draw_balls;
 pub use events::draw_events;
-pub use footer::{draw_hints, draw_status, wrap};
+pub use footer::{draw_hints, draw_question, draw_status, wrap};
 pub use header::draw_header;
 pub use shot::draw_shot;
 pub use table::{TableView, draw_table};

@@ -17,7 +17,7 @@ use crate::{
 /// Draws those that are chosen.
 pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let charts = &watch.charts;
-    let shots = charts.range(watch.most_shots(), watch.planned_end());
+    let shots = charts.range(watch.progress());
     let range = shots.0..=shots.1;
     let drawn = charts.drawn();
     if drawn.is_empty() {
@@ -73,7 +73,6 @@ fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Ve
 /// The key and the quantity. What is measured is no share of successes where the reward says something else.
 fn title(n: usize, watch: &Watch) -> String {
     let quantity = Quantity::ALL[n];
-    let is_share = watch.reward().is_none_or(|reward| reward.rule().is_some());
-    let name = if quantity == Quantity::HeldOut && !is_share { "held-out reward" } else { quantity.name() };
+    let name = if quantity == Quantity::HeldOut && !watch.is_share() { "held-out reward" } else { quantity.name() };
     format!("{} {name}", n + 1)
 }

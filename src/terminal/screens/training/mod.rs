@@ -20,7 +20,7 @@ use crate::terminal::{
     app::App,
     status::Message,
     training::Page,
-    widgets::{draw_hints, draw_status},
+    widgets::{draw_hints, draw_question, draw_status},
 };
 
 /// Draws the page that is open.
@@ -48,14 +48,15 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         }
     };
     let message = app.message().cloned();
-    let message = match (&training.question, &training.watch) {
+    let (theme, look, status) = (app.theme(), app.look(), row(page.bottom()));
+    match (&training.question, &training.watch) {
         (Some(question), Some(watch)) => {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            Message::warning(before + &question.text(watch))
+            let question = Message::warning(before + &question.text(watch));
+            draw_question(&question, status, theme, look, buffer);
         }
-        _ => message.unwrap_or(standing),
-    };
-    draw_status(&message, row(page.bottom()), app.theme(), buffer);
+        _ => draw_status(&message.unwrap_or(standing), status, theme, look, buffer),
+    }
     draw_hints(app, row(page.bottom() + 1), buffer);
 }
 

@@ -15,7 +15,8 @@ use crate::{
     },
     terminal::{
         app::App,
-        training::Watch,
+        chart::{Whose, curve_mark},
+        training::{Named, Watch},
         widgets::{draw_title, write_right},
         words::{count, time_words},
     },
@@ -30,14 +31,15 @@ const UNKNOWN: &str = "-";
 pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme();
     let mut title = vec![Span::styled(if watch.other.is_some() { "Compared" } else { "Numbers" }, theme.text())];
-    if let Some(other) = &watch.other {
-        title.push(Span::styled(format!(" with {}", other.name), theme.faint()));
-    } else if let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref()) {
+    if watch.other.is_none()
+        && let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref())
+    {
         let path = Path::new(&from.path);
         let name = path.strip_prefix(&app.training().places.runs).unwrap_or(path).display();
         title.push(Span::styled(format!(" from {name}"), theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, app.look(), buffer);
+    let inner = draw_legend(app, watch, inner, buffer);
     let [left, right] = columns(watch);
     let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
     let lines = left.len().max(right.len());
@@ -49,6 +51,35 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
             write_right(buffer, x + name.len() as u16 + 1, x + width, y, &value, theme.text());
         }
     }
+}
+
+/// Whose curve is which, and how far the run is that this one is compared with; gives the rest of the panel.
+fn draw_legend(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) -> Rect {
+    let Some(other) = &watch.other else { return area };
+    let theme = app.theme();
+    let named = |whose, named: &Named| {
+        let mark = curve_mark(whose, theme, app.look());
+        let name = Span::styled(format!(" {}", named.name), mark.style);
+        Line::from(vec![mark, name])
+    };
+    let far = format!(
+        "{} {} after {} shots",
+        measured(other),
+        known(other.run.held_out(), |value| format!("{value:.3}")),
+        count(other.run.shots())
+    );
+    let far = Line::styled(format!("   {far}"), theme.text());
+    let lines = [named(Whose::Own, &watch.own), named(Whose::Other, other), far];
+    let rows = (lines.len() as u16).min(area.height);
+    for (line, y) in lines.iter().zip(area.y..area.y + rows) {
+        buffer.set_line(area.x + 1, y, line, area.width.saturating_sub(1));
+    }
+    Rect { y: area.y + rows, height: area.height - rows, ..area }
+}
+
+/// What the held-out layouts measure.
+fn measured(run: &Named) -> &'static str {
+    if run.is_share() { "success" } else { "reward" }
 }
 
 type Row = (&'static str, String);
@@ -71,10 +102,8 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let three = |value: f64| format!("{value:.3}");
     let config = run.config.as_ref();
     let held_out = run.held_out();
-    let is_share = watch.reward().is_some_and(|reward| reward.rule().is_some());
-    let measured = if is_share { "success" } else { "reward" };
-    let mut learnt = vec![(measured, known(held_out, three)), ("best", known(run.best(), three))];
-    if is_share {
+    let mut learnt = vec![(measured(&watch.own), known(held_out, three)), ("best", known(run.best(), three))];
+    if watch.is_share() {
         learnt.insert(
             1,
             (

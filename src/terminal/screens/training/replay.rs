@@ -20,15 +20,18 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), replay.reel(), replay.scene())
     else {
         let inner = draw_title(&Line::from(Span::styled("Shots", theme.text())), area, theme, look, buffer);
-        let words = ["", "shots come with the", "first measurement"];
+        let words = if watch.lacks_config() {
+            ["", "shots need the run's", "configuration"]
+        } else {
+            ["", "shots come with the", "first measurement"]
+        };
         for (text, y) in words.into_iter().zip(inner.y..inner.bottom()) {
             buffer.set_stringn(inner.x + 2, y, text, usize::from(inner.width.saturating_sub(2)), theme.faint());
         }
         return;
     };
-    let is_share = watch.reward().is_none_or(|reward| reward.rule().is_some());
     let (outcome, style) = match example.reward {
-        reward if !is_share => (format!("{reward:.2}"), theme.text()),
+        reward if !watch.is_share() => (format!("{reward:.2}"), theme.text()),
         reward if reward >= 1.0 => ("point".to_owned(), theme.good()),
         _ => ("miss".to_owned(), theme.warning()),
     };
