@@ -491,6 +491,7 @@ proptest! {
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::Is(Phase::Finished), None),
                 6 => player.report(Report::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
+                7 => player.has_policy(true),
                 _ => player,
             };
             player.app.tick(0.7);
