@@ -304,10 +304,10 @@ fn the_coach_takes_the_bundled_weights_again() {
     let player = player.report(Report::Policy(folder, Ok(Arc::new(policy))));
     let asked = |player: &Player| (player.app.coach().tutor.name().to_owned(), player.app.coach().tutor.rule);
     assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
-    player.says("b bundled weights");
+    player.says("b bundled");
     let player = player.press("b");
     assert_eq!(asked(&player), ("the bundled policy".to_owned(), Rule::default()));
-    assert!(!player.text(120, 40).contains("b bundled weights"));
+    assert!(!player.text(120, 40).contains("b bundled"));
     player.press("b").says("the bundled weights are asked already");
 }
 
@@ -491,6 +491,7 @@ proptest! {
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::Is(Phase::Finished), None),
                 6 => player.report(Report::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
+                7 => player.has_policy(true),
                 _ => player,
             };
             player.app.tick(0.7);

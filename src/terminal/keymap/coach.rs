@@ -111,7 +111,7 @@ use CoachWhen as W;
 pub const COACH: &[Binding] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
-    bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled weights", 1)),
+    bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
     bind(Balls, W::Placing, &[
