@@ -54,8 +54,7 @@ impl TrainingScreen {
 
     /// Why the marked run cannot go on.
     fn refusal_of_marked(&self) -> Option<&'static str> {
-        let folder = self.list.marked().map(|run| self.folder.join(&run.name));
-        let is_launched = folder.is_some_and(|folder| self.is_launched(&folder));
+        let is_launched = self.list.marked().is_some_and(|run| self.is_launched(&run.folder));
         is_launched.then_some("the run is being started").or(self.list.refusal_to_go_on())
     }
 
