@@ -1,0 +1,114 @@
+//! Candidates of a search and how they stand: ranked by the share of the same errors under which each makes the point.
+
+use super::{Kind, Source, Suggestion, errors::Errors, trial::Task};
+use crate::{game::Rule, physics::CueInputs};
+
+/// Every fourth of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
+/// forgives more.
+const WIDE: f64 = 1.8;
+
+/// What a point under the larger errors is worth against one under the player's own.
+const WORTH_OF_WIDE: f64 = 0.3;
+
+/// The errors that shots are compared on, the same for all of them.
+#[derive(Debug)]
+pub struct Contest {
+    errors: Vec<Errors>,
+}
+
+impl Contest {
+    /// With so many errors at most.
+    pub fn new(count: usize, seed: u64) -> Self {
+        let mut errors = super::errors::spread(count, seed);
+        for errors in errors.iter_mut().skip(3).step_by(4) {
+            *errors = errors.map(|error| WIDE * error);
+        }
+        Self { errors }
+    }
+
+    /// Tries a candidate at its errors up to the `count`th; `None` where time ran out.
+    pub fn go_on(&self, task: &Task, candidate: &Candidate, count: usize) -> Option<Candidate> {
+        let mut after = *candidate;
+        while after.tried < count.min(self.errors.len()) {
+            // Up to and with the next wide one.
+            let end = (after.tried / 4 * 4 + 4).min(count);
+            let wide = end % 4 == 0;
+            let narrow_end = if wide { end - 1 } else { end };
+            after.made += task.made(&after.shot.cue, &self.errors[after.tried..narrow_end])?;
+            if wide {
+                after.wide += task.made(&after.shot.cue, &self.errors[narrow_end..end])?;
+            }
+            after.tried = end;
+        }
+        Some(after)
+    }
+}
+
+/// A shot that makes the point when it is played as meant, and how it does in the contest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The shot.
+    pub shot: Suggestion,
+    /// What sort of shot.
+    pub kind: Kind,
+    /// Errors that it was tried at.
+    pub tried: usize,
+    /// Points under the player's errors, three quarters of those tried.
+    pub made: usize,
+    /// Points under the larger errors.
+    pub wide: usize,
+}
+
+impl Candidate {
+    /// `cue` as a candidate, if it makes the point under `rule`.
+    pub fn new(task: &Task, rule: Rule, cue: CueInputs, source: Source) -> Option<Self> {
+        let course = task.play(&cue)?;
+        task.clock.count(1);
+        let shot = Suggestion { cue, source };
+        course.tally.is_point(rule).then(|| Self { shot, kind: Kind::of(&course, &cue), tried: 0, made: 0, wide: 0 })
+    }
+
+    /// Share of points under the player's errors; it flatters whoever was chosen by it.
+    pub fn rate(&self) -> f64 {
+        self.made as f64 / self.narrow().max(1) as f64
+    }
+
+    /// Attempts under the player's errors.
+    pub const fn narrow(&self) -> usize {
+        self.tried - self.tried / 4
+    }
+
+    /// Whether it has made the point every time.
+    pub const fn is_flawless(&self) -> bool {
+        self.tried > 0 && self.made + self.wide == self.tried
+    }
+
+    /// What candidates are ranked by.
+    pub fn score(&self) -> f64 {
+        let wide = self.tried / 4;
+        let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
+        self.rate() + WORTH_OF_WIDE * share
+    }
+}
+
+/// Sorts the best first, and keeps the first `best` and the first `of_each` of every kind. Equals stay in their order.
+pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
+    candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    let mut seen: Vec<(Kind, usize)> = Vec::new();
+    let mut place = 0;
+    candidates.retain(|candidate| {
+        let known = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind);
+        let rank = match known {
+            Some((_, count)) => {
+                *count += 1;
+                *count
+            }
+            None => {
+                seen.push((candidate.kind, 1));
+                1
+            }
+        };
+        place += 1;
+        place <= best || rank <= of_each
+    });
+}
