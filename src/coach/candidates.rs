@@ -69,7 +69,13 @@ pub fn stratified(table: &Table, layout: &Layout, n: u64, rng: &mut Xoshiro256Pl
         _ => rng.random_range(-PI..PI),
     };
     let (a, b) = random_tip(table, rng);
-    CueInputs { a, b, theta: rng.random_range(0.0..USUAL_ELEVATION), phi, speed: rng.random_range(MIN_SPEED..MAX_SPEED) }
+    CueInputs {
+        a,
+        b,
+        theta: rng.random_range(0.0..USUAL_ELEVATION),
+        phi,
+        speed: rng.random_range(MIN_SPEED..MAX_SPEED),
+    }
 }
 
 /// A shot near `cue`: normal steps of `scale` times 0.15 R of the tip, 1.7° of elevation, 0.45° of direction and 0.6 m/s.

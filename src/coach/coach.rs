@@ -6,8 +6,8 @@ use super::{
     crew, errors,
     first::{Attempt, Found},
     next::Outlook,
-    pool::{Candidate, keep},
-    search::Search,
+    pool::Candidate,
+    search::{Plan, Search},
     trial::{ENDLESS, Task},
 };
 use crate::{
@@ -23,6 +23,9 @@ const ATTEMPTS: usize = 1000;
 
 /// The same for each alternative.
 const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
+
+/// Share of the budget after which the look ahead ends; what is left is for judging the answer.
+const OUTLOOK_ENDS: f64 = 0.93;
 
 /// Attempts of one piece of work.
 const PIECE: usize = 25;
@@ -116,17 +119,17 @@ impl Coach {
             first_point(&found)
         } else {
             let mut told = None;
-            let pool = Search::new(Task { patience: PATIENCE, ..task }, request.threads, request.seed).run(
-                &strokes,
-                &mut |leader| {
-                    // The same shot with more attempts is no news.
-                    if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
-                        tell(&improvement(leader, &clock));
-                    }
-                },
-            );
-            let outlook = request.plan.then(|| Outlook::new(task, policy, request.threads, request.seed));
-            self.robust(&found, pool, outlook, &task, request)
+            let plan = if request.plan { Plan::POSITION } else { Plan::POINT };
+            let task = Task { patience: PATIENCE, ..task };
+            let pool = Search::new(task, plan, request.threads, request.seed).run(&strokes, &mut |leader| {
+                // The same shot with more attempts is no news.
+                if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
+                    tell(&improvement(leader, &clock));
+                }
+            });
+            let ahead = Task { until: clock.moment(OUTLOOK_ENDS), ..task };
+            let outlook = request.plan.then(|| Outlook::new(ahead, policy, request.threads, request.seed));
+            self.robust(&found, pool, outlook, &Task { patience: ENDLESS, ..task }, request)
         };
         Ok(Recommendation {
             policy_success: proposals.first().map(|proposal| proposal.success),

@@ -18,7 +18,9 @@ pub fn spread(count: usize, seed: u64) -> Vec<Errors> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let shift: [f64; 5] = std::array::from_fn(|_| rng.random());
     let steps: [f64; 5] = std::array::from_fn(|index| GENERALISED_GOLDEN_RATIO.powi(-1 - index as i32));
-    (1..=count).map(|n| std::array::from_fn(|index| quantile((shift[index] + n as f64 * steps[index]).fract()))).collect()
+    (1..=count)
+        .map(|n| std::array::from_fn(|index| quantile((shift[index] + n as f64 * steps[index]).fract())))
+        .collect()
 }
 
 /// `count` independent errors, by Box and Muller (1958). For judging a shot: the interval of a share of successes
@@ -91,7 +93,8 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_the_tables() {
-        for (p, z) in [(0.5, 0.0), (0.975, 1.959_963_984_540_054), (0.001, -3.090_232_306_167_813), (0.84, 0.994_457_883)]
+        for (p, z) in
+            [(0.5, 0.0), (0.975, 1.959_963_984_540_054), (0.001, -3.090_232_306_167_813), (0.84, 0.994_457_883)]
         {
             assert!((quantile(p) - z).abs() < 1e-8, "{p}: {}", quantile(p));
         }

@@ -95,7 +95,9 @@ impl<'a> Outlook<'a> {
         let mut left = Vec::new();
         for (index, prospect) in prospects.iter_mut().enumerate() {
             let end = (prospect.drawn + layouts).min(self.errors.len());
-            left.extend(self.errors[prospect.drawn..end].iter().map(|errors| (index, prospect.candidate.shot.cue, *errors)));
+            left.extend(
+                self.errors[prospect.drawn..end].iter().map(|errors| (index, prospect.candidate.shot.cue, *errors)),
+            );
             prospect.drawn = end;
         }
         let chances = crew::map(self.threads, &left, |(index, cue, errors)| {

@@ -45,8 +45,13 @@ pub const ENDLESS: u32 = u32::MAX;
 impl Task<'_> {
     /// Plays one stroke; `None` where time ran out before it was decided.
     pub fn play(&self, cue: &CueInputs) -> Option<Course> {
-        let mut hurried =
-            Hurried { referee: Referee::default(), first: None, patience: Patience(self.patience), late: false, task: self };
+        let mut hurried = Hurried {
+            referee: Referee::default(),
+            first: None,
+            patience: Patience(self.patience),
+            late: false,
+            task: self,
+        };
         watch(self.table, self.layout, &strike(self.table, cue), &mut hurried);
         let Hurried { referee, first, late, .. } = hurried;
         (!late).then_some(Course { tally: referee.tally, first })

@@ -14,17 +14,12 @@ use super::{
     output::impulse_words,
 };
 use crate::{
-    coach::{Coach, Recommendation, Request, Skill, Source},
+    coach::{Coach, Kind, Recommendation, Request, Skill, Source},
     game::Rule,
+    learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
     table::{Layout, Table},
 };
-
-/// Attempts from which a make probability is estimated; its standard error is at most 2.5 %.
-const ATTEMPTS: u32 = 400;
-
-/// Alternatives that are listed.
-const ALTERNATIVES: usize = 5;
 
 /// Recommend a shot for a layout, or for a file of layouts.
 #[derive(Debug, clap::Args)]
@@ -34,12 +29,20 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Whose make probability is told: perfect, expert, club or beginner.
-    #[arg(long, default_value_t = Skill::Expert)]
+    /// Who plays the shot: perfect, expert, club, beginner, or a player's own standard errors in mm, degrees and m/s like
+    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one
+    /// the first that makes the point.
+    #[arg(long, default_value_t = Skill::EXPERT)]
     skill: Skill,
+    /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
+    #[arg(long, conflicts_with = "policy_only")]
+    plan: bool,
     /// Time to look for a shot, ms.
     #[arg(long, default_value_t = 500, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
     budget_ms: u64,
+    /// Simulations after which the search ends, if time has not ended it: then the answer is the same on every machine.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    simulations: Option<u64>,
     /// Give the networks' own shot, without any simulation.
     #[arg(long)]
     policy_only: bool,
@@ -73,10 +76,14 @@ struct Answer {
     /// Absent where nothing was simulated.
     #[serde(skip_serializing_if = "Option::is_none")]
     solved: Option<bool>,
-    /// Of a shot that makes the point.
+    #[serde(flatten)]
+    chance: Chance,
+    /// Of the next point, where it was looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    make_probability: Option<f64>,
+    next_probability: Option<f64>,
     source: Source,
+    #[serde(flatten)]
+    sort: Sort,
     simulations: u64,
     elapsed_ms: f64,
     alternatives: Vec<Alternative>,
@@ -85,8 +92,42 @@ struct Answer {
 #[derive(Serialize)]
 struct Alternative {
     cue: CueInputs,
-    make_probability: f64,
+    #[serde(flatten)]
+    chance: Chance,
     source: Source,
+    #[serde(flatten)]
+    sort: Sort,
+}
+
+/// How often the player makes it; empty where that is not known.
+#[derive(Default, Serialize)]
+struct Chance {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make_probability: Option<f64>,
+    /// The 95 % interval.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make_interval: Option<[f64; 2]>,
+}
+
+impl From<Option<SuccessRate>> for Chance {
+    fn from(rate: Option<SuccessRate>) -> Self {
+        Self { make_probability: rate.map(|rate| rate.rate), make_interval: rate.map(|rate| [rate.low, rate.high]) }
+    }
+}
+
+/// What sort of shot it is; empty where that is not known.
+#[derive(Default, Serialize)]
+struct Sort {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind: Option<Kind>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    description: Option<String>,
+}
+
+impl From<Option<Kind>> for Sort {
+    fn from(kind: Option<Kind>) -> Self {
+        Self { kind, description: kind.map(|kind| kind.to_string()) }
+    }
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -134,17 +175,25 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Ans
         return Ok(Answer {
             cue,
             solved: None,
-            make_probability: None,
+            chance: Chance::default(),
+            next_probability: None,
             source: Source::Policy,
+            sort: Sort::default(),
             simulations: 0,
             elapsed_ms: 1e3 * start.elapsed().as_secs_f64(),
             alternatives: Vec::new(),
         });
     }
-    let budget = Duration::from_millis(args.budget_ms);
-    let request = Request { rule, budget, seed: args.seed, ..Request::default() };
-    let advice = coach.recommend(layout, &request).map_err(Failure::wrong_input)?;
-    Ok(with_probabilities(args, coach.table(), layout, rule, &advice))
+    let request = Request {
+        rule,
+        skill: args.skill,
+        plan: args.plan,
+        budget: Duration::from_millis(args.budget_ms),
+        simulations: args.simulations.unwrap_or(u64::MAX),
+        seed: args.seed,
+        ..Request::default()
+    };
+    coach.recommend(layout, &request).map(Answer::from).map_err(Failure::wrong_input)
 }
 
 fn no_policy(table: &Table) -> Failure {
@@ -154,21 +203,25 @@ fn no_policy(table: &Table) -> Failure {
     ))
 }
 
-fn with_probabilities(args: &Args, table: &Table, layout: &Layout, rule: Rule, advice: &Recommendation) -> Answer {
-    let chance = |cue: &CueInputs| args.skill.make_probability(rule, table, layout, cue, ATTEMPTS, args.seed);
-    Answer {
-        cue: advice.cue,
-        solved: Some(advice.solved),
-        make_probability: advice.solved.then(|| chance(&advice.cue)),
-        source: advice.source,
-        simulations: advice.simulations,
-        elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
-        alternatives: advice
-            .alternatives
-            .iter()
-            .take(ALTERNATIVES)
-            .map(|shot| Alternative { cue: shot.cue, make_probability: chance(&shot.cue), source: shot.source })
-            .collect(),
+impl From<Recommendation> for Answer {
+    fn from(advice: Recommendation) -> Self {
+        let alternatives = advice.alternatives.into_iter().map(|shot| Alternative {
+            cue: shot.cue,
+            chance: shot.make_probability.into(),
+            source: shot.source,
+            sort: Some(shot.kind).into(),
+        });
+        Self {
+            cue: advice.cue,
+            solved: Some(advice.solved),
+            chance: advice.make_probability.into(),
+            next_probability: advice.next_probability,
+            source: advice.source,
+            sort: advice.kind.into(),
+            simulations: advice.simulations,
+            elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
+            alternatives: alternatives.collect(),
+        }
     }
 }
 
@@ -186,20 +239,33 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
     writeln!(out, "phi    {:>8.3} degrees", phi.to_degrees())?;
     writeln!(out, "V      {speed:>8.3} m/s")?;
     writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
-    match (answer.solved, answer.make_probability) {
-        (Some(true), Some(chance)) => writeln!(
-            out,
-            "a point by simulation; a player of skill \"{}\" makes it {:.0} % of the time",
-            args.skill,
-            100.0 * chance
-        )?,
-        (Some(_), _) => writeln!(out, "no point by simulation: the best attempt")?,
-        (None, _) => writeln!(out, "the networks' own shot, not simulated")?,
+    match answer.solved {
+        Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
+        Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
+        None => writeln!(out, "the networks' own shot, not simulated")?,
     }
-    let others = answer.alternatives.len();
-    writeln!(
-        out,
-        "source: {}, {} simulations in {:.1} ms, {others} alternatives",
-        answer.source, answer.simulations, answer.elapsed_ms
-    )
+    if let Some(next) = answer.next_probability {
+        writeln!(out, "after it the next point is made {:.1} % of the time", 100.0 * next)?;
+    }
+    for Alternative { cue, chance, sort, .. } in &answer.alternatives {
+        let CueInputs { a, b, theta, phi, speed } = *cue;
+        let (theta, phi) = (theta.to_degrees(), phi.to_degrees());
+        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi:.3},{speed:.3}: {}", words(sort, chance, args))?;
+    }
+    writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
+}
+
+/// What sort of shot, and how often the player makes it.
+fn words(sort: &Sort, chance: &Chance, args: &Args) -> String {
+    let description = sort.description.as_deref().unwrap_or_default();
+    match (chance.make_probability, chance.make_interval) {
+        (Some(rate), Some([low, high])) => format!(
+            "{description}; a player of skill \"{}\" makes it {:.1} % of the time ({:.1} to {:.1} %)",
+            args.skill,
+            100.0 * rate,
+            100.0 * low,
+            100.0 * high
+        ),
+        _ => description.to_owned(),
+    }
 }
