@@ -5,9 +5,8 @@ use super::{
     clock::Clock,
     crew, errors,
     first::{Attempt, Found},
-    next::Outlook,
     pool::Candidate,
-    search::{Plan, Search},
+    search::Search,
     trial::{ENDLESS, Task},
 };
 use crate::{
@@ -23,9 +22,6 @@ const ATTEMPTS: usize = 1000;
 
 /// The same for each alternative.
 const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
-
-/// Share of the budget after which the look ahead ends; what is left is for judging the answer.
-const OUTLOOK_ENDS: f64 = 0.93;
 
 /// Attempts of one piece of work.
 const PIECE: usize = 25;
@@ -119,17 +115,14 @@ impl Coach {
             first_point(&found)
         } else {
             let mut told = None;
-            let plan = if request.plan { Plan::POSITION } else { Plan::POINT };
             let task = Task { patience: PATIENCE, ..task };
-            let pool = Search::new(task, plan, request.threads, request.seed).run(&strokes, &mut |leader| {
+            let pool = Search::new(task, request.plan, request.threads, request.seed).run(&strokes, &mut |leader| {
                 // The same shot with more attempts is no news.
                 if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
                     tell(&improvement(leader, &clock));
                 }
             });
-            let ahead = Task { until: clock.moment(OUTLOOK_ENDS), ..task };
-            let outlook = request.plan.then(|| Outlook::new(ahead, policy, request.threads, request.seed));
-            self.robust(&found, pool, outlook, &Task { patience: ENDLESS, ..task }, request)
+            self.robust(&found, pool, &Task { patience: ENDLESS, ..task }, request)
         };
         Ok(Recommendation {
             policy_success: proposals.first().map(|proposal| proposal.success),
@@ -145,11 +138,9 @@ impl Coach {
         &self,
         found: &Found,
         mut pool: Vec<Candidate>,
-        outlook: Option<Outlook>,
         task: &Task,
         request: &Request,
     ) -> Recommendation {
-        let next_probability = outlook.and_then(|outlook| outlook.rank(&mut pool));
         if pool.is_empty() {
             return Recommendation { make_probability: None, ..first_point(found) };
         }
@@ -178,7 +169,7 @@ impl Coach {
             source: best.shot.source,
             kind: Some(best.kind),
             make_probability: probability(0),
-            next_probability,
+            next_probability: request.plan.then_some(best.next),
             alternatives: (1..pool.len())
                 .map(|index| Alternative {
                     cue: pool[index].shot.cue,

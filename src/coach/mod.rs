@@ -11,6 +11,7 @@ mod first;
 mod kind;
 mod next;
 mod pool;
+mod position;
 mod request;
 mod search;
 mod self_play;
@@ -19,6 +20,7 @@ mod trial;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
 pub use coach::{Coach, make_probability};
+pub use errors::one as one_error;
 pub use kind::{Kind, Pace, Way};
 pub use request::Request;
 pub use self_play::{Inning, inning};

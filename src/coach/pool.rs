@@ -1,6 +1,6 @@
 //! Candidates of a search and how they stand: ranked by the share of the same errors under which each makes the point.
 
-use super::{Kind, Source, Suggestion, errors::Errors, trial::Task};
+use super::{Kind, Source, Suggestion, errors::Errors, next::prospect, trial::Task};
 use crate::{game::Rule, physics::CueInputs};
 
 /// Every fourth of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
@@ -14,6 +14,8 @@ const WORTH_OF_WIDE: f64 = 0.3;
 #[derive(Debug)]
 pub struct Contest {
     errors: Vec<Errors>,
+    /// The player's own errors, for the layouts that shots leave.
+    aims: Vec<Errors>,
 }
 
 impl Contest {
@@ -23,7 +25,12 @@ impl Contest {
         for errors in errors.iter_mut().skip(3).step_by(4) {
             *errors = errors.map(|error| WIDE * error);
         }
-        Self { errors }
+        Self { errors, aims: super::errors::spread(64, !seed) }
+    }
+
+    /// Finds out how easy the next point is after a candidate; `None` where time ran out.
+    pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
+        Some(Candidate { next: prospect(task, &candidate.shot.cue, &self.aims)?, ..*candidate })
     }
 
     /// Tries a candidate at its errors up to the `count`th; `None` where time ran out.
@@ -57,6 +64,8 @@ pub struct Candidate {
     pub made: usize,
     /// Points under the larger errors.
     pub wide: usize,
+    /// Probability of the next point, where that counts; else 1.
+    pub next: f64,
 }
 
 impl Candidate {
@@ -65,7 +74,7 @@ impl Candidate {
         let course = task.play(&cue)?;
         task.clock.count(1);
         let shot = Suggestion { cue, source };
-        course.tally.is_point(rule).then(|| Self { shot, kind: Kind::of(&course, &cue), tried: 0, made: 0, wide: 0 })
+        course.tally.is_point(rule).then(|| Self { shot, kind: Kind::of(&course, &cue), tried: 0, made: 0, wide: 0, next: 1.0 })
     }
 
     /// Share of points under the player's errors; it flatters whoever was chosen by it.
@@ -87,7 +96,7 @@ impl Candidate {
     pub fn score(&self) -> f64 {
         let wide = self.tried / 4;
         let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
-        self.rate() + WORTH_OF_WIDE * share
+        (self.rate() + WORTH_OF_WIDE * share) * self.next
     }
 }
 

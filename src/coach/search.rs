@@ -15,27 +15,13 @@ use crate::physics::CueInputs;
 /// Errors of the contest, for those who get furthest.
 const MOST_ERRORS: usize = 768;
 
-/// Errors in each stage of the refinement, and the share of it at which the stage begins at the latest.
-const STAGES: [(usize, f64); 3] = [(96, 0.0), (256, 0.4), (MOST_ERRORS, 0.75)];
+/// Errors in each stage of the refinement, the share of it at which the stage begins at the latest, and the neighbours of
+/// each leader that are tried in a round.
+const STAGES: [(usize, f64, usize); 3] = [(96, 0.0, 10), (256, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
 
-/// Shares of the budget, and how many shots come out of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    /// Share after which the net is hauled in.
-    pub net_ends: f64,
-    /// Share after which the refinement ends.
-    pub refinement_ends: f64,
-    /// Shots that are refined, besides the best of each kind.
-    pub leaders: usize,
-}
-
-impl Plan {
-    /// For this point alone. What is left of the budget is for judging the answer.
-    pub const POINT: Self = Self { net_ends: 0.3, refinement_ends: 0.88, leaders: 10 };
-
-    /// For this point and the next: the other half of the budget is for looking ahead.
-    pub const POSITION: Self = Self { net_ends: 0.2, refinement_ends: 0.5, leaders: 24 };
-}
+/// Share of the budget after which the net is hauled in, the refinement ends. What is left is for judging the answer.
+const NET_ENDS: f64 = 0.3;
+const REFINEMENT_ENDS: f64 = 0.88;
 
 /// Shots of the net's first round; each later one has twice as many, up to [`LARGEST_CAST`].
 const FIRST_CAST: usize = 512;
@@ -45,14 +31,12 @@ const LARGEST_CAST: usize = 4096;
 const FIRST_LOOK: usize = 8;
 const SECOND_LOOK: usize = 32;
 
-/// Shots that leave the net, besides the best of each kind.
+/// Shots that leave the net, and then the contest, besides the best of each kind.
 const HAUL: usize = 128;
+const LEADERS: usize = 10;
 
 /// Shots of each kind that stay in, however they stand.
 const OF_EACH_KIND: usize = 3;
-
-/// Neighbours of each leader that are tried in a round.
-const NEIGHBOURS: usize = 10;
 
 /// Shots of one piece of work: enough that handing it out costs nothing.
 const PIECE: usize = 32;
@@ -62,14 +46,14 @@ pub struct Search<'a> {
     task: Task<'a>,
     threads: usize,
     rng: Xoshiro256PlusPlus,
-    plan: Plan,
+    plan: bool,
     contest: Contest,
     pool: Vec<Candidate>,
 }
 
 impl<'a> Search<'a> {
-    /// A search on a task, with so many threads.
-    pub fn new(task: Task<'a>, plan: Plan, threads: usize, seed: u64) -> Self {
+    /// A search on a task, with so many threads; with a `plan` for the next point too.
+    pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let contest = Contest::new(MOST_ERRORS, rng.random());
         Self { task, threads, rng, plan, contest, pool: Vec::new() }
@@ -78,14 +62,14 @@ impl<'a> Search<'a> {
     /// Looks for shots, starting from `proposals`; the best comes first. `tell` hears of every new leader.
     pub fn run(mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
         self.cast_nets(proposals, tell);
-        self.task.until = self.task.clock.moment(self.plan.refinement_ends);
+        self.task.until = self.task.clock.moment(REFINEMENT_ENDS);
         self.narrow_down(tell);
         self.refine(tell);
         self.pool
     }
 
     fn cast_nets(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
-        self.task.until = self.task.clock.moment(self.plan.net_ends);
+        self.task.until = self.task.clock.moment(NET_ENDS);
         let table = self.task.table;
         let mut shots: Vec<Suggestion> =
             proposals.iter().map(|&cue| Suggestion { cue, source: Source::Policy }).collect();
@@ -95,7 +79,7 @@ impl<'a> Search<'a> {
             shots.extend(varied);
         }
         let (mut drawn, mut cast) = (0, FIRST_CAST);
-        while self.task.clock.used() < self.plan.net_ends || drawn == 0 {
+        while self.task.clock.used() < NET_ENDS || drawn == 0 {
             shots.extend((0..cast as u64).map(|n| Suggestion {
                 cue: stratified(table, self.task.layout, drawn + n, &mut self.rng),
                 source: Source::Search,
@@ -128,12 +112,22 @@ impl<'a> Search<'a> {
 
     /// Tries the best at more errors, the best of those at more still.
     fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
-        for (errors, best) in [(SECOND_LOOK, 64), (96, self.plan.leaders)] {
+        for (errors, best) in [(SECOND_LOOK, 64), (96, LEADERS)] {
             keep(&mut self.pool, 2 * best, OF_EACH_KIND);
             self.pool = self.contested(&self.pool, errors);
+            if self.plan && errors == SECOND_LOOK {
+                self.look_ahead();
+            }
             keep(&mut self.pool, best, OF_EACH_KIND);
             self.tell(tell);
         }
+    }
+
+    /// Finds out how easy the next point is after each of the pool.
+    fn look_ahead(&mut self) {
+        self.pool = crew::map(self.threads, &self.pool, |candidate| {
+            self.contest.look_ahead(&self.task, candidate).unwrap_or(*candidate)
+        });
     }
 
     /// The candidates tried at so many errors; those that time did not suffice for are left as they are.
@@ -145,38 +139,39 @@ impl<'a> Search<'a> {
 
     /// Looks around the leaders, at first far, then near.
     fn refine(&mut self, tell: &mut dyn FnMut(&Candidate)) {
-        let Plan { net_ends, refinement_ends, leaders } = self.plan;
         let mut stage = 0;
         loop {
-            let progress = (self.task.clock.used() - net_ends) / (refinement_ends - net_ends);
+            let progress = (self.task.clock.used() - NET_ENDS) / (REFINEMENT_ENDS - NET_ENDS);
             if progress >= 1.0 || self.pool.is_empty() {
                 break;
             }
             if self.pool[0].is_flawless() && self.pool[0].tried >= STAGES[stage].0 {
                 // There is nothing to improve that these errors could show.
-                if stage + 1 == STAGES.len() {
+                if stage + 1 == STAGES.len() && !self.plan {
                     break;
                 }
-                stage += 1;
+                stage = (stage + 1).min(STAGES.len() - 1);
             }
-            stage = STAGES.iter().rposition(|(_, begins)| progress >= *begins).unwrap_or(0).max(stage);
-            let errors = STAGES[stage].0;
+            stage = STAGES.iter().rposition(|(_, begins, _)| progress >= *begins).unwrap_or(0).max(stage);
+            let (errors, _, neighbours) = STAGES[stage];
             self.pool = self.contested(&self.pool, errors);
-            keep(&mut self.pool, leaders, 1);
+            keep(&mut self.pool, LEADERS, 1);
             let scale = 1.0 - 0.8 * progress.max(0.0);
-            let mut tries = Vec::with_capacity(self.pool.len() * NEIGHBOURS);
+            let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
             for parent in &self.pool {
-                for _ in 0..NEIGHBOURS {
+                for _ in 0..neighbours {
                     tries.push((*parent, neighbour(self.task.table, &parent.shot.cue, scale, &mut self.rng)));
                 }
             }
-            let (task, contest) = (&self.task, &self.contest);
+            let (task, contest, plan) = (&self.task, &self.contest, self.plan);
             let found = crew::map(self.threads, &tries, |(parent, cue)| {
                 if task.clock.is_past(task.until) {
                     return None;
                 }
                 let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
                 let mut candidate = Candidate::new(task, task.rule, *cue, source)?;
+                // Until it is known, what comes next is what comes after the parent.
+                candidate.next = parent.next;
                 for look in [FIRST_LOOK, SECOND_LOOK, 96, 256, MOST_ERRORS] {
                     if look > errors
                         || candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried)
@@ -184,11 +179,14 @@ impl<'a> Search<'a> {
                         break;
                     }
                     candidate = contest.go_on(task, &candidate, look)?;
+                    if plan && look == SECOND_LOOK {
+                        candidate = contest.look_ahead(task, &candidate)?;
+                    }
                 }
                 (candidate.tried == errors).then_some(candidate)
             });
             self.pool.extend(found.into_iter().flatten());
-            keep(&mut self.pool, leaders, 1);
+            keep(&mut self.pool, LEADERS, 1);
             self.tell(tell);
         }
     }
