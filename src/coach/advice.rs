@@ -84,8 +84,7 @@ pub struct Recommendation {
     pub make_probability: Option<SuccessRate>,
     /// Probability of the point after this one, where that was asked for.
     pub next_probability: Option<f64>,
-    /// Other strokes that make the point, the best of each kind, the best first. For a perfect player: the policy's
-    /// other shots that make it, whatever their kind.
+    /// Other strokes that make the point, the best of each kind, the best first.
     pub alternatives: Vec<Alternative>,
     /// The critic's probability that the policy's favourite makes a point, where there is a policy.
     pub policy_success: Option<f64>,

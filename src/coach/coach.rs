@@ -78,7 +78,7 @@ impl Coach {
         self.policy(rule).map(|policy| policy.propose(&self.table, layout))
     }
 
-    /// Looks for the shot that the player makes most often. The shot never oversteps the table's miscue limit.
+    /// Looks for the shot that the player makes most often, or with [`Request::plan`] that leaves him best off. The shot never oversteps the table's miscue limit.
     ///
     /// # Errors
     /// Where the layout is impossible.
@@ -122,7 +122,7 @@ impl Coach {
                     tell(&improvement(leader, &clock));
                 }
             });
-            self.robust(&found, pool, &Task { patience: ENDLESS, ..task }, request)
+            robust(&found, pool, &Task { patience: ENDLESS, ..task }, request)
         };
         Ok(Recommendation {
             policy_success: proposals.first().map(|proposal| proposal.success),
@@ -131,55 +131,49 @@ impl Coach {
             ..answer
         })
     }
+}
 
-    /// The answer for a player who errs: the head of the pool, judged by errors that took no part in the choice, and the
-    /// heads of the other kinds.
-    fn robust(
-        &self,
-        found: &Found,
-        mut pool: Vec<Candidate>,
-        task: &Task,
-        request: &Request,
-    ) -> Recommendation {
-        if pool.is_empty() {
-            return Recommendation { make_probability: None, ..first_point(found) };
-        }
-        let best = pool[0];
-        keep_one_of_each(&mut pool);
-        pool.truncate(1 + ALTERNATIVES);
-        // Another stream than that of the search, whatever its seed.
-        let attempts = errors::independent(ATTEMPTS, request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17));
-        let pieces: Vec<(usize, &[errors::Errors])> = pool
-            .iter()
-            .enumerate()
-            .flat_map(|(index, _)| {
-                let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
-                attempts[..count].chunks(PIECE).map(move |piece| (index, piece))
+/// The answer for a player who errs: the head of the pool, judged by errors that took no part in the choice, and the
+/// heads of the other kinds.
+fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
+    if pool.is_empty() {
+        return Recommendation { make_probability: None, ..first_point(found) };
+    }
+    let best = pool[0];
+    keep_one_of_each(&mut pool);
+    pool.truncate(1 + ALTERNATIVES);
+    // Another stream than that of the search, whatever its seed.
+    let attempts = errors::independent(ATTEMPTS, request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17));
+    let pieces: Vec<(usize, &[errors::Errors])> = pool
+        .iter()
+        .enumerate()
+        .flat_map(|(index, _)| {
+            let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
+            attempts[..count].chunks(PIECE).map(move |piece| (index, piece))
+        })
+        .collect();
+    let made = crew::map(request.threads, &pieces, |(index, piece)| task.attempts(&pool[*index].shot.cue, piece));
+    let probability = |candidate: usize| {
+        let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
+        let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
+        (tried > 0).then(|| SuccessRate::new(made, tried))
+    };
+    Recommendation {
+        cue: best.shot.cue,
+        solved: true,
+        source: best.shot.source,
+        kind: Some(best.kind),
+        make_probability: probability(0),
+        next_probability: request.plan.then_some(best.next),
+        alternatives: (1..pool.len())
+            .map(|index| Alternative {
+                cue: pool[index].shot.cue,
+                source: pool[index].shot.source,
+                kind: pool[index].kind,
+                make_probability: probability(index),
             })
-            .collect();
-        let made = crew::map(request.threads, &pieces, |(index, piece)| task.attempts(&pool[*index].shot.cue, piece));
-        let probability = |candidate: usize| {
-            let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
-            let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
-            (tried > 0).then(|| SuccessRate::new(made, tried))
-        };
-        Recommendation {
-            cue: best.shot.cue,
-            solved: true,
-            source: best.shot.source,
-            kind: Some(best.kind),
-            make_probability: probability(0),
-            next_probability: request.plan.then_some(best.next),
-            alternatives: (1..pool.len())
-                .map(|index| Alternative {
-                    cue: pool[index].shot.cue,
-                    source: pool[index].shot.source,
-                    kind: pool[index].kind,
-                    make_probability: probability(index),
-                })
-                .collect(),
-            ..first_point(found)
-        }
+            .collect(),
+        ..first_point(found)
     }
 }
 
@@ -197,6 +191,14 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>) {
 
 /// The answer for a player without errors, or where no shot was found.
 fn first_point(found: &Found) -> Recommendation {
+    let mut seen = Vec::new();
+    let others = found.solutions.iter().map(|(shot, course)| (shot, Kind::of(course, &shot.cue)));
+    let others = others.filter(|(_, kind)| {
+        let is_new = !seen.contains(kind);
+        seen.push(*kind);
+        is_new
+    });
+    let others: Vec<_> = others.skip(1).take(ALTERNATIVES).collect();
     let certain = SuccessRate { layouts: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
     let first = found.solutions.first();
     let shot = first.map_or(found.attempt, |(shot, _)| *shot);
@@ -207,14 +209,12 @@ fn first_point(found: &Found) -> Recommendation {
         kind: first.map(|(shot, course)| Kind::of(course, &shot.cue)),
         make_probability: first.map(|_| certain),
         next_probability: None,
-        alternatives: found
-            .solutions
-            .iter()
-            .skip(1)
-            .map(|(shot, course)| Alternative {
+        alternatives: others
+            .into_iter()
+            .map(|(shot, kind)| Alternative {
                 cue: shot.cue,
                 source: shot.source,
-                kind: Kind::of(course, &shot.cue),
+                kind,
                 make_probability: Some(certain),
             })
             .collect(),

@@ -17,7 +17,7 @@ const GENERALISED_GOLDEN_RATIO: f64 = 1.134_724_138_401_519_5;
 pub fn spread(count: usize, seed: u64) -> Vec<Errors> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let shift: [f64; 5] = std::array::from_fn(|_| rng.random());
-    let steps: [f64; 5] = std::array::from_fn(|index| GENERALISED_GOLDEN_RATIO.powi(-1 - index as i32));
+    let steps = [1, 2, 3, 4, 5].map(|power| GENERALISED_GOLDEN_RATIO.powi(-power));
     (1..=count)
         .map(|n| std::array::from_fn(|index| quantile((shift[index] + n as f64 * steps[index]).fract())))
         .collect()
@@ -48,7 +48,7 @@ fn quantile(p: f64) -> f64 {
         -3.969_683_028_665_376e1,
         2.209_460_984_245_205e2,
         -2.759_285_104_469_687e2,
-        1.383_577_518_672_690e2,
+        1.383_577_518_672_69e2,
         -3.066_479_806_614_716e1,
         2.506_628_277_459_239,
     ];

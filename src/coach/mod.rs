@@ -1,6 +1,7 @@
 //! Recommendations: the shot that a player makes most often, how far off it may be, and what comes next.
 
 mod advice;
+mod aim;
 mod candidates;
 mod clock;
 #[expect(clippy::module_inception, reason = "`coach::Coach` is what a reader expects")]
@@ -9,6 +10,7 @@ mod crew;
 mod errors;
 mod first;
 mod kind;
+mod margins;
 mod next;
 mod pool;
 mod position;
@@ -16,12 +18,15 @@ mod request;
 mod search;
 mod self_play;
 mod skill;
+#[cfg(test)]
+mod tests;
 mod trial;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
+pub use aim::{Aim, Hit, Mark, aim};
 pub use coach::{Coach, make_probability};
-pub use errors::one as one_error;
 pub use kind::{Kind, Pace, Way};
+pub use margins::{Input, Map, Margin, Outcome, map, margins, outcome};
 pub use request::Request;
 pub use self_play::{Inning, inning};
 pub use skill::{Skill, SkillError};

@@ -39,7 +39,7 @@ impl Contest {
         while after.tried < count.min(self.errors.len()) {
             // Up to and with the next wide one.
             let end = (after.tried / 4 * 4 + 4).min(count);
-            let wide = end % 4 == 0;
+            let wide = end.is_multiple_of(4);
             let narrow_end = if wide { end - 1 } else { end };
             after.made += task.made(&after.shot.cue, &self.errors[after.tried..narrow_end])?;
             if wide {
@@ -74,7 +74,14 @@ impl Candidate {
         let course = task.play(&cue)?;
         task.clock.count(1);
         let shot = Suggestion { cue, source };
-        course.tally.is_point(rule).then(|| Self { shot, kind: Kind::of(&course, &cue), tried: 0, made: 0, wide: 0, next: 1.0 })
+        course.tally.is_point(rule).then(|| Self {
+            shot,
+            kind: Kind::of(&course, &cue),
+            tried: 0,
+            made: 0,
+            wide: 0,
+            next: 1.0,
+        })
     }
 
     /// Share of points under the player's errors; it flatters whoever was chosen by it.
@@ -106,16 +113,12 @@ pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     let mut seen: Vec<(Kind, usize)> = Vec::new();
     let mut place = 0;
     candidates.retain(|candidate| {
-        let known = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind);
-        let rank = match known {
-            Some((_, count)) => {
-                *count += 1;
-                *count
-            }
-            None => {
-                seen.push((candidate.kind, 1));
-                1
-            }
+        let rank = if let Some((_, count)) = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind) {
+            *count += 1;
+            *count
+        } else {
+            seen.push((candidate.kind, 1));
+            1
         };
         place += 1;
         place <= best || rank <= of_each

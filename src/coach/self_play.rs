@@ -1,17 +1,21 @@
 //! Innings that the coach plays against nobody: its shots, played with a player's errors, until one misses.
 
 use std::{
-    ops::ControlFlow,
+    sync::atomic::AtomicBool,
     time::{Duration, Instant},
 };
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Coach, Request, Skill, errors};
+use super::{
+    Coach, Request,
+    clock::Clock,
+    errors::{self, Errors},
+    next::end_of,
+    trial::{ENDLESS, Task},
+};
 use crate::{
-    game::{Rule, Tally},
-    physics::{CueInputs, strike},
-    simulation::{Event, Observer, simulate},
+    physics::CueInputs,
     table::{Layout, LayoutError, Table},
 };
 
@@ -43,13 +47,13 @@ pub fn inning(
     tell: &mut dyn FnMut(&Inning),
 ) -> Result<Inning, LayoutError> {
     let mut inning = Inning::default();
-    let mut layout = layout.clone();
+    let mut layout = *layout;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
         let advice = coach.recommend(&layout, &request)?;
         inning.simulations += advice.simulations;
         inning.slowest = inning.slowest.max(advice.elapsed);
-        let end = turn(coach.table(), &layout, request.rule, &request.skill, &advice.cue, rng);
+        let end = turn(coach.table(), &layout, &request, &advice.cue, &errors::one(rng));
         let Some(end) = end else {
             inning.missed = true;
             break;
@@ -62,32 +66,11 @@ pub fn inning(
 }
 
 /// Plays one stroke with a player's errors: where the balls come to rest if it makes the point, else `None`.
-fn turn(
-    table: &Table,
-    layout: &Layout,
-    rule: Rule,
-    skill: &Skill,
-    cue: &CueInputs,
-    rng: &mut Xoshiro256PlusPlus,
-) -> Option<Layout> {
-    let stroke = skill.stroke(table.radius, cue, &errors::one(rng));
-    if stroke.tip_offset_squared() > table.miscue_limit {
-        return None;
-    }
-    let mut whole = Whole::default();
-    let end = simulate(table, layout, &strike(table, &stroke), &mut whole);
-    whole.tally.is_point(rule).then(|| end.layout())
-}
-
-/// Watches a shot to its end.
-#[derive(Default)]
-struct Whole {
-    tally: Tally,
-}
-
-impl Observer for Whole {
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.tally.note(&event);
-        ControlFlow::Continue(())
-    }
+fn turn(table: &Table, layout: &Layout, request: &Request, cue: &CueInputs, errors: &Errors) -> Option<Layout> {
+    // Nothing breaks a stroke off that has been made.
+    let (always, never) = (Duration::MAX, AtomicBool::new(false));
+    let clock = Clock::start(always, u64::MAX, &never);
+    let Request { rule, skill, .. } = *request;
+    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: ENDLESS };
+    end_of(&task, &skill.stroke(table.radius, cue, errors))
 }

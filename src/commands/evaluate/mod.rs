@@ -34,6 +34,7 @@ use crate::{
 /// Measure the recommender, or with --policy-only the networks alone, on layouts that nobody has practised: the share on
 /// which the shot succeeds, with the 95 % confidence interval.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// Number of layouts.
     #[arg(long, default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]

@@ -1,5 +1,7 @@
 //! `carom recommend`: a shot for a layout, or for a file of layouts.
 
+mod margins;
+
 use std::{
     io::{self, Write},
     time::{Duration, Instant},
@@ -7,6 +9,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
+use self::margins::Margins;
 use super::{
     Failure,
     input::{ByTable, Scene, answer_lines, note_doubts},
@@ -23,6 +26,7 @@ use crate::{
 
 /// Recommend a shot for a layout, or for a file of layouts.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     #[command(flatten)]
     scene: Scene,
@@ -37,6 +41,9 @@ pub struct Args {
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
     #[arg(long, conflicts_with = "policy_only")]
     plan: bool,
+    /// Say also how far off each input may be, with maps of the outcome, and where to aim.
+    #[arg(long)]
+    margins: bool,
     /// Time to look for a shot, ms.
     #[arg(long, default_value_t = 500, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
     budget_ms: u64,
@@ -87,6 +94,9 @@ struct Answer {
     simulations: u64,
     elapsed_ms: f64,
     alternatives: Vec<Alternative>,
+    /// Where they were asked for.
+    #[serde(flatten)]
+    margins: Option<Margins>,
 }
 
 #[derive(Serialize)]
@@ -166,6 +176,14 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 }
 
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
+    let mut answer = shot(args, coach, layout, rule)?;
+    if args.margins {
+        answer.margins = Some(Margins::of(rule, coach.table(), layout, &answer.cue)?);
+    }
+    Ok(answer)
+}
+
+fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
     if args.policy_only {
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
@@ -182,6 +200,7 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Ans
             simulations: 0,
             elapsed_ms: 1e3 * start.elapsed().as_secs_f64(),
             alternatives: Vec::new(),
+            margins: None,
         });
     }
     let request = Request {
@@ -221,6 +240,7 @@ impl From<Recommendation> for Answer {
             simulations: advice.simulations,
             elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
             alternatives: alternatives.collect(),
+            margins: None,
         }
     }
 }
@@ -246,6 +266,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
     }
     if let Some(next) = answer.next_probability {
         writeln!(out, "after it the next point is made {:.1} % of the time", 100.0 * next)?;
+    }
+    if let Some(margins) = &answer.margins {
+        write!(out, "{margins}")?;
     }
     for Alternative { cue, chance, sort, .. } in &answer.alternatives {
         let CueInputs { a, b, theta, phi, speed } = *cue;
