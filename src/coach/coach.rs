@@ -1,5 +1,7 @@
 //! The recommender: from a layout and a request to the shot that this player makes most often.
 
+use std::time::{Duration, Instant};
+
 use super::{
     Alternative, Improvement, Kind, Recommendation, Request, Skill,
     clock::Clock,
@@ -22,6 +24,10 @@ const ATTEMPTS: usize = 1000;
 
 /// The same for each alternative.
 const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
+
+/// Time that judging the answer has at least, however late it is: where other programs hold a thread up, a shot whose
+/// probability nobody knows would be the price of these milliseconds.
+const GRACE: Duration = Duration::from_millis(3);
 
 /// Attempts of one piece of work.
 const PIECE: usize = 25;
@@ -122,7 +128,8 @@ impl Coach {
                     tell(&improvement(leader, &clock));
                 }
             });
-            robust(&found, pool, &Task { patience: ENDLESS, ..task }, request)
+            let until = task.until.max(Instant::now() + GRACE);
+            robust(&found, pool, &Task { patience: ENDLESS, until, ..task }, request)
         };
         Ok(Recommendation {
             policy_success: proposals.first().map(|proposal| proposal.success),
@@ -220,7 +227,7 @@ fn first_point(found: &Found) -> Recommendation {
             .collect(),
         policy_success: None,
         simulations: 0,
-        elapsed: std::time::Duration::ZERO,
+        elapsed: Duration::ZERO,
     }
 }
 

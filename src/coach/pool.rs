@@ -1,51 +1,54 @@
 //! Candidates of a search and how they stand: ranked by the share of the same errors under which each makes the point.
 
-use super::{Kind, Source, Suggestion, errors::Errors, next::prospect, trial::Task};
+use super::{
+    Kind, Source, Suggestion,
+    errors::{Errors, spread},
+    next::prospect,
+    trial::Task,
+};
 use crate::{game::Rule, physics::CueInputs};
 
-/// Every fourth of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
+/// One in four of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
 /// forgives more.
 const WIDE: f64 = 1.8;
 
 /// What a point under the larger errors is worth against one under the player's own.
 const WORTH_OF_WIDE: f64 = 0.3;
 
-/// The errors that shots are compared on, the same for all of them.
+/// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
 #[derive(Debug)]
 pub struct Contest {
-    errors: Vec<Errors>,
-    /// The player's own errors, for the layouts that shots leave.
-    aims: Vec<Errors>,
+    own: Vec<Errors>,
+    larger: Vec<Errors>,
 }
 
 impl Contest {
-    /// With so many errors at most.
+    /// With so many errors at most, a multiple of four.
     pub fn new(count: usize, seed: u64) -> Self {
-        let mut errors = super::errors::spread(count, seed);
-        for errors in errors.iter_mut().skip(3).step_by(4) {
+        let mut larger = spread(count / 4, !seed);
+        for errors in &mut larger {
             *errors = errors.map(|error| WIDE * error);
         }
-        Self { errors, aims: super::errors::spread(64, !seed) }
+        Self { own: spread(count / 4 * 3, seed), larger }
     }
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
     pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
-        Some(Candidate { next: prospect(task, &candidate.shot.cue, &self.aims)?, ..*candidate })
+        Some(Candidate { next: prospect(task, &candidate.shot.cue, &self.own)?, ..*candidate })
     }
 
-    /// Tries a candidate at its errors up to the `count`th; `None` where time ran out.
+    /// Tries a candidate at the errors up to the `count`th, a multiple of four; `None` where time ran out.
     pub fn go_on(&self, task: &Task, candidate: &Candidate, count: usize) -> Option<Candidate> {
         let mut after = *candidate;
-        while after.tried < count.min(self.errors.len()) {
-            // Up to and with the next wide one.
-            let end = (after.tried / 4 * 4 + 4).min(count);
-            let wide = end.is_multiple_of(4);
-            let narrow_end = if wide { end - 1 } else { end };
-            after.made += task.made(&after.shot.cue, &self.errors[after.tried..narrow_end])?;
-            if wide {
-                after.wide += task.made(&after.shot.cue, &self.errors[narrow_end..end])?;
-            }
-            after.tried = end;
+        while after.tried < count {
+            let block = after.tried / 4;
+            let (Some(own), Some(larger)) = (self.own.get(3 * block..3 * block + 3), self.larger.get(block..=block))
+            else {
+                break;
+            };
+            after.made += task.made(&after.shot.cue, own)?;
+            after.wide += task.made(&after.shot.cue, larger)?;
+            after.tried += 4;
         }
         Some(after)
     }
