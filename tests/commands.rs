@@ -85,6 +85,34 @@ fn recommend_gives_a_shot_that_simulates_to_a_point() {
 }
 
 #[test]
+fn a_recommendation_says_how_sure_it_is_how_far_off_one_may_be_and_what_else_there_is() {
+    let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
+    let args = ["recommend", "--layout", LAYOUT, "--skill", own, "--budget-ms", "200", "--margins", "--plan", "--json"];
+    let answer = json(&args);
+    let [rate, low, high] = [&answer["make_probability"], &answer["make_interval"][0], &answer["make_interval"][1]]
+        .map(|n| n.as_f64().unwrap());
+    assert!(0.0 < low && low <= rate && rate <= high && high <= 1.0);
+    let kinds: Vec<_> = answer["alternatives"].as_array().unwrap().iter().map(|other| &other["kind"]).collect();
+    assert!(!kinds.is_empty() && !kinds.contains(&&answer["kind"]), "{answer}");
+    assert!(answer["next_probability"].as_f64().is_some_and(|next| next > 0.5));
+    assert_eq!(answer["margins"].as_array().unwrap().len(), 5);
+    assert_eq!(answer["maps"][0]["outcomes"][20][20], "point", "the shot is in the middle");
+    assert!(answer["aim"]["hit"]["fullness"].is_number());
+    let (code, said) = refusal(&mut carom(&["recommend", "--skill", "a=0.7,b=0.7,theta=0.2,phi=-1,V=0.1"]));
+    assert!(code == 2 && said.contains("phi = -1") && said.contains("0 to 45 degrees"), "{said}");
+}
+
+#[test]
+fn self_play_counts_points_and_misses() {
+    let args = ["evaluate", "--self-play", "--rule", "three-cushion", "--skill", "beginner", "--layouts", "3"];
+    let report = json(&[&args[..], &["--budget-ms", "20", "--most-points", "2", "--json"]].concat());
+    let number = |key: &str| report[key].as_u64().unwrap();
+    assert_eq!(report["runs"].as_array().unwrap().len(), 3);
+    assert_eq!(number("misses") + number("broken_off"), 3);
+    assert!(number("longest") <= 2 && number("points") <= 6);
+}
+
+#[test]
 fn the_networks_alone_answer_without_a_simulation() {
     let answer = json(&["recommend", "--policy-only", "--json"]);
     assert_eq!((&answer["source"], &answer["simulations"]), (&"policy".into(), &0.into()));
@@ -96,7 +124,10 @@ fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
 {"preset":"thesis","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
 {"preset":"snooker","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
 {"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}"#;
-    let output = carom(&["recommend", "--batch", "-", "--budget-ms", "5000"]).write_stdin(input).assert().code(2);
+    let output = carom(&["recommend", "--batch", "-", "--budget-ms", "5000", "--simulations", "20000"])
+        .write_stdin(input)
+        .assert()
+        .code(2);
     let answers = lines(&output.get_output().stdout);
     assert_eq!((&answers[0]["solved"], &answers[1]["solved"]), (&true.into(), &true.into()));
     assert!(answers[2]["error"].as_str().unwrap().contains("snooker"));

@@ -1,8 +1,32 @@
-//! Recommendations: the policy's shot, checked by simulation, then the thesis' variation of it, then a wider search.
+//! Recommendations: the shot that a player makes most often, how far off it may be, and what comes next.
 
-mod advisor;
+mod advice;
+mod aim;
+mod candidates;
+mod clock;
+#[expect(clippy::module_inception, reason = "`coach::Coach` is what a reader expects")]
+mod coach;
+mod crew;
+mod errors;
+mod first;
+mod kind;
+mod margins;
+mod next;
+mod pool;
+mod position;
+mod request;
 mod search;
+mod self_play;
 mod skill;
+#[cfg(test)]
+mod tests;
+mod trial;
 
-pub use advisor::{Coach, Recommendation, Request, Source, Suggestion};
-pub use skill::{Skill, UnknownSkill};
+pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
+pub use aim::{Aim, Hit, Mark, aim};
+pub use coach::{Coach, make_probability};
+pub use kind::{Kind, Pace, Way};
+pub use margins::{Input, Map, Margin, Outcome, map, margins, outcome};
+pub use request::Request;
+pub use self_play::{Inning, inning};
+pub use skill::{Skill, SkillError};

@@ -1,74 +1,204 @@
-//! Shots to try: variations of a good one, and a wide net over all that a player could do.
+//! The search for the shot that a player makes most often: a wide net, a contest on common errors, refinement.
 
-use std::f64::consts::{PI, TAU};
-
-use rand::RngExt;
+use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::{
-    physics::CueInputs,
-    table::{Layout, Table},
+use super::{
+    Source, Suggestion,
+    candidates::{neighbour, stratified, variation},
+    crew,
+    pool::{Candidate, Contest, keep},
+    trial::Task,
 };
+use crate::physics::CueInputs;
 
-/// Fastest stroke that is recommended, m/s: the thesis' limit (its 4.1.3).
-const MAX_SPEED: f64 = 6.0;
+/// Errors of the contest, for those who get furthest.
+const MOST_ERRORS: usize = 768;
 
-/// Slowest stroke that is tried, m/s.
-const MIN_SPEED: f64 = 0.4;
+/// Errors in each stage of the refinement, the share of it at which the stage begins at the latest, and the neighbours of
+/// each leader that are tried in a round.
+const STAGES: [(usize, f64, usize); 3] = [(96, 0.0, 10), (256, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
 
-/// Steepest cue that is tried, rad: 30°, beyond which a stroke is a massé.
-const MAX_ELEVATION: f64 = PI / 6.0;
+/// Share of the budget after which the net is hauled in, the refinement ends. What is left is for judging the answer.
+const NET_ENDS: f64 = 0.3;
+const REFINEMENT_ENDS: f64 = 0.88;
 
-/// Tips are tried up to this share of the miscue limit's radius, so that rounding never oversteps it.
-const TIP_SHARE: f64 = 0.98;
+/// Shots of the net's first round; each later one has twice as many, up to [`LARGEST_CAST`].
+const FIRST_CAST: usize = 512;
+const LARGEST_CAST: usize = 4096;
 
-/// The thesis' way out where the policy's shot misses (its 5.1): the same direction and speed, another tip position and
-/// elevation.
-pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
-    let (a, b) = random_tip(table, rng);
-    CueInputs { a, b, theta: rng.random_range(0.0..MAX_ELEVATION), ..*cue }
+/// Errors by which a shot of the net is first judged, and then if it is among the better ones.
+const FIRST_LOOK: usize = 8;
+const SECOND_LOOK: usize = 32;
+
+/// Shots that leave the net, and then the contest, besides the best of each kind.
+const HAUL: usize = 128;
+const LEADERS: usize = 10;
+
+/// Shots of each kind that stay in, however they stand.
+const OF_EACH_KIND: usize = 3;
+
+/// Shots of one piece of work: enough that handing it out costs nothing.
+const PIECE: usize = 32;
+
+/// A search on its way.
+pub struct Search<'a> {
+    task: Task<'a>,
+    threads: usize,
+    rng: Xoshiro256PlusPlus,
+    plan: bool,
+    contest: Contest,
+    pool: Vec<Candidate>,
 }
 
-/// Any shot: half of them at one of the object balls, thick or thin, the others in any direction.
-pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
-    let [cue_ball, first, second] = layout.balls;
-    let phi = if rng.random() {
-        let target = if rng.random() { first } else { second };
-        let apart = target - cue_ball;
-        let widest = (2.0 * table.radius / apart.length()).min(1.0).asin();
-        apart.to_angle() + rng.random_range(-widest..=widest)
-    } else {
-        rng.random_range(-PI..PI)
-    };
-    let (a, b) = if rng.random() { random_tip(table, rng) } else { (0.0, 0.0) };
-    CueInputs { a, b, theta: rng.random_range(0.0..0.2), phi, speed: rng.random_range(MIN_SPEED..MAX_SPEED) }
-}
+impl<'a> Search<'a> {
+    /// A search on a task, with so many threads; with a `plan` for the next point too.
+    pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let contest = Contest::new(MOST_ERRORS, rng.random());
+        Self { task, threads, rng, plan, contest, pool: Vec::new() }
+    }
 
-/// A point of the tip's disc, each area alike.
-fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
-    let radius = TIP_SHARE * (table.miscue_limit * rng.random::<f64>()).sqrt();
-    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
-    (radius * cos, radius * sin)
-}
+    /// Looks for shots, starting from `proposals`; the best comes first. `tell` hears of every new leader.
+    pub fn run(mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+        self.cast_nets(proposals, tell);
+        self.task.until = self.task.clock.moment(REFINEMENT_ENDS);
+        self.narrow_down(tell);
+        self.refine(tell);
+        self.pool
+    }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rand::SeedableRng;
-
-    #[test]
-    fn nothing_that_is_tried_oversteps_the_miscue_limit() {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        for name in crate::table::PRESETS {
-            let table = Table::preset(name).unwrap();
-            for _ in 0..2000 {
-                let layout = Layout::random(&table, &mut rng);
-                let cue = anything(&table, &layout, &mut rng);
-                for cue in [cue, variation(&table, &cue, &mut rng)] {
-                    cue.validate().unwrap();
-                    cue.validate_tip(table.miscue_limit).unwrap();
-                }
-            }
+    fn cast_nets(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
+        self.task.until = self.task.clock.moment(NET_ENDS);
+        let table = self.task.table;
+        let mut shots: Vec<Suggestion> =
+            proposals.iter().map(|&cue| Suggestion { cue, source: Source::Policy }).collect();
+        for cue in proposals.iter().take(4) {
+            let varied =
+                (0..16).map(|_| Suggestion { cue: variation(table, cue, &mut self.rng), source: Source::Variation });
+            shots.extend(varied);
+        }
+        let (mut drawn, mut cast) = (0, FIRST_CAST);
+        while self.task.clock.used() < NET_ENDS || drawn == 0 {
+            shots.extend((0..cast as u64).map(|n| Suggestion {
+                cue: stratified(table, self.task.layout, drawn + n, &mut self.rng),
+                source: Source::Search,
+            }));
+            drawn += cast as u64;
+            cast = (2 * cast).min(LARGEST_CAST);
+            self.haul(&shots);
+            shots.clear();
+            self.tell(tell);
         }
     }
+
+    /// Judges the net's catch.
+    fn haul(&mut self, shots: &[Suggestion]) {
+        keep(&mut self.pool, HAUL, OF_EACH_KIND);
+        // Who does not come near those who stay in is not looked at twice.
+        let bar = self.pool.get(HAUL / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
+        let (task, contest) = (&self.task, &self.contest);
+        let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
+        let judge = |shot: &Suggestion| {
+            let candidate = Candidate::new(task, task.rule, shot.cue, shot.source)?;
+            let candidate = contest.go_on(task, &candidate, FIRST_LOOK)?;
+            if candidate.score() < bar { Some(candidate) } else { contest.go_on(task, &candidate, SECOND_LOOK) }
+        };
+        let found = crew::map(self.threads, &pieces, |piece| {
+            piece.iter().take_while(|_| !task.clock.is_past(task.until)).filter_map(judge).collect::<Vec<_>>()
+        });
+        self.pool.extend(found.into_iter().flatten());
+    }
+
+    /// Tries the best at more errors, the best of those at more still.
+    fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
+        for (errors, best) in [(SECOND_LOOK, 64), (96, LEADERS)] {
+            keep(&mut self.pool, 2 * best, OF_EACH_KIND);
+            self.pool = self.contested(&self.pool, errors);
+            if self.plan && errors == SECOND_LOOK {
+                self.look_ahead();
+            }
+            keep(&mut self.pool, best, OF_EACH_KIND);
+            self.tell(tell);
+        }
+    }
+
+    /// Finds out how easy the next point is after each of the pool.
+    fn look_ahead(&mut self) {
+        self.pool = crew::map(self.threads, &self.pool, |candidate| {
+            self.contest.look_ahead(&self.task, candidate).unwrap_or(*candidate)
+        });
+    }
+
+    /// The candidates tried at so many errors; those that time did not suffice for are left as they are.
+    fn contested(&self, candidates: &[Candidate], errors: usize) -> Vec<Candidate> {
+        crew::map(self.threads, candidates, |candidate| {
+            self.contest.go_on(&self.task, candidate, errors).unwrap_or(*candidate)
+        })
+    }
+
+    /// Looks around the leaders, at first far, then near.
+    fn refine(&mut self, tell: &mut dyn FnMut(&Candidate)) {
+        let mut stage = 0;
+        loop {
+            let progress = (self.task.clock.used() - NET_ENDS) / (REFINEMENT_ENDS - NET_ENDS);
+            if progress >= 1.0 || self.pool.is_empty() {
+                break;
+            }
+            if self.pool[0].is_flawless() && self.pool[0].tried >= STAGES[stage].0 {
+                // There is nothing to improve that these errors could show.
+                if stage + 1 == STAGES.len() && !self.plan {
+                    break;
+                }
+                stage = (stage + 1).min(STAGES.len() - 1);
+            }
+            stage = STAGES.iter().rposition(|(_, begins, _)| progress >= *begins).unwrap_or(0).max(stage);
+            let (errors, _, neighbours) = STAGES[stage];
+            self.pool = self.contested(&self.pool, errors);
+            keep(&mut self.pool, LEADERS, 1);
+            let scale = 1.0 - 0.8 * progress.max(0.0);
+            let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
+            for parent in &self.pool {
+                for _ in 0..neighbours {
+                    tries.push((*parent, neighbour(self.task.table, &parent.shot.cue, scale, &mut self.rng)));
+                }
+            }
+            let (task, contest, plan) = (&self.task, &self.contest, self.plan);
+            let found = crew::map(self.threads, &tries, |(parent, cue)| {
+                if task.clock.is_past(task.until) {
+                    return None;
+                }
+                let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
+                let mut candidate = Candidate::new(task, task.rule, *cue, source)?;
+                // Until it is known, what comes next is what comes after the parent.
+                candidate.next = parent.next;
+                for look in [FIRST_LOOK, SECOND_LOOK, 96, 256, MOST_ERRORS] {
+                    if look > errors
+                        || candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried)
+                    {
+                        break;
+                    }
+                    candidate = contest.go_on(task, &candidate, look)?;
+                    if plan && look == SECOND_LOOK {
+                        candidate = contest.look_ahead(task, &candidate)?;
+                    }
+                }
+                (candidate.tried == errors).then_some(candidate)
+            });
+            self.pool.extend(found.into_iter().flatten());
+            keep(&mut self.pool, LEADERS, 1);
+            self.tell(tell);
+        }
+    }
+
+    fn tell(&self, tell: &mut dyn FnMut(&Candidate)) {
+        if let Some(best) = self.pool.iter().max_by(|a, b| a.score().total_cmp(&b.score())) {
+            tell(best);
+        }
+    }
+}
+
+/// By how much a shot may lag behind its parent after so many errors and still be followed.
+fn slack(tried: usize) -> f64 {
+    0.5 / (tried as f64).sqrt()
 }

@@ -1,148 +1,213 @@
-//! How well a player does what the coach says: execution noise, and the probability of a point under it.
+//! How well a player does what the coach says: the standard errors of the five cue inputs.
 
-use std::{f64::consts::TAU, fmt, str::FromStr};
+use std::{fmt, str::FromStr};
 
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    game::{Rule, scores},
-    physics::CueInputs,
-    table::{Layout, Table},
-};
+use super::errors::Errors;
+use crate::physics::CueInputs;
 
-/// A player's standard errors in the five cue inputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Skill {
-    /// No errors.
-    Perfect,
-    /// The errors of the Computer Olympiad's pool tournaments: 0.5 mm, 0.5 mm, 0.1°, 0.125°, 0.075 m/s.
-    #[default]
-    Expert,
-    /// Twice an expert's errors.
-    Club,
-    /// Four times an expert's errors.
-    Beginner,
+/// A player's standard errors in the five cue inputs. They are independent and normally distributed.
+///
+/// On the command line and in JSON it is a name, or five numbers as people say them: millimetres, degrees and m/s, like
+/// `a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct Skill {
+    /// Of the tip to the side, m.
+    pub a: f64,
+    /// Of the tip's height, m.
+    pub b: f64,
+    /// Of the elevation, rad.
+    pub theta: f64,
+    /// Of the direction, rad.
+    pub phi: f64,
+    /// Of the speed, m/s.
+    pub speed: f64,
 }
 
-/// A skill's name that is not known.
+/// Why a skill is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("there is no skill \"{0}\"; use perfect, expert, club or beginner")]
-pub struct UnknownSkill(String);
+pub enum SkillError {
+    /// Neither a name nor five numbers.
+    #[error(
+        "there is no skill \"{0}\"; use perfect, expert, club or beginner, or a player's own standard errors in mm, \
+         degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\""
+    )]
+    Unknown(String),
+    /// An error that nobody has.
+    #[error("the skill has {name} = {value}; accepted is 0 to {most} {unit}")]
+    Range {
+        /// Name of the cue input.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// The largest that is accepted.
+        most: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+}
+
+/// The five errors as people say them: name, unit, SI units in one of it, and the largest that is accepted. A player who
+/// errs by more than a ball's radius, a right angle's half or 5 m/s plays no shot at all.
+const FORMS: [(&str, &str, f64, f64); 5] = [
+    ("a", "mm", 1e-3, 30.0),
+    ("b", "mm", 1e-3, 30.0),
+    ("theta", "degrees", std::f64::consts::PI / 180.0, 45.0),
+    ("phi", "degrees", std::f64::consts::PI / 180.0, 45.0),
+    ("V", "m/s", 1.0, 5.0),
+];
 
 impl Skill {
-    /// All skills, the best first.
-    pub const ALL: [Self; 4] = [Self::Perfect, Self::Expert, Self::Club, Self::Beginner];
+    /// No errors.
+    pub const PERFECT: Self = Self::EXPERT.scaled(0.0);
 
-    /// Name on the command line and in JSON.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Perfect => "perfect",
-            Self::Expert => "expert",
-            Self::Club => "club",
-            Self::Beginner => "beginner",
+    /// The errors of the Computer Olympiad's pool tournaments: 0.5 mm, 0.5 mm, 0.1°, 0.125°, 0.075 m/s.
+    pub const EXPERT: Self =
+        Self { a: 0.5e-3, b: 0.5e-3, theta: 0.1_f64.to_radians(), phi: 0.125_f64.to_radians(), speed: 0.075 };
+
+    /// Twice an expert's errors.
+    pub const CLUB: Self = Self::EXPERT.scaled(2.0);
+
+    /// Four times an expert's errors.
+    pub const BEGINNER: Self = Self::EXPERT.scaled(4.0);
+
+    /// Those that have a name, the best first.
+    pub const NAMED: [(&'static str, Self); 4] =
+        [("perfect", Self::PERFECT), ("expert", Self::EXPERT), ("club", Self::CLUB), ("beginner", Self::BEGINNER)];
+
+    /// The same player with all errors so many times as large.
+    #[must_use]
+    pub const fn scaled(self, factor: f64) -> Self {
+        Self {
+            a: factor * self.a,
+            b: factor * self.b,
+            theta: factor * self.theta,
+            phi: factor * self.phi,
+            speed: factor * self.speed,
         }
     }
 
-    /// The errors in units of an expert's.
-    const fn scale(self) -> f64 {
-        match self {
-            Self::Perfect => 0.0,
-            Self::Expert => 1.0,
-            Self::Club => 2.0,
-            Self::Beginner => 4.0,
-        }
+    /// Whether there are no errors.
+    pub fn is_perfect(&self) -> bool {
+        *self == Self::PERFECT
     }
 
-    /// The stroke that comes of trying `cue`.
-    fn attempt(self, radius: f64, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
-        let scale = self.scale();
-        let mut error = |sigma: f64| scale * sigma * normal(rng);
+    /// The stroke that comes of trying `cue` with these standard normal errors, on balls of `radius` m.
+    #[inline]
+    pub fn stroke(&self, radius: f64, cue: &CueInputs, errors: &Errors) -> CueInputs {
         CueInputs {
-            a: cue.a + error(0.5e-3) / radius,
-            b: cue.b + error(0.5e-3) / radius,
+            a: cue.a + self.a / radius * errors[0],
+            b: cue.b + self.b / radius * errors[1],
             // A cue cannot be held below the cloth.
-            theta: (cue.theta + error(0.1_f64.to_radians())).max(0.0),
-            phi: cue.phi + error(0.125_f64.to_radians()),
-            speed: (cue.speed + error(0.075)).max(1e-3),
+            theta: (cue.theta + self.theta * errors[2]).max(0.0),
+            phi: cue.phi + self.phi * errors[3],
+            // Nor does a stroke go backwards.
+            speed: (cue.speed + self.speed * errors[4]).max(1e-3),
         }
     }
 
-    /// Share of `attempts` at `cue` that make a point. A tip beyond the table's miscue limit makes none. The same seed
-    /// draws the same errors for every shot, so that shots compare fairly.
-    pub fn make_probability(
-        self,
-        rule: Rule,
-        table: &Table,
-        layout: &Layout,
-        cue: &CueInputs,
-        attempts: u32,
-        seed: u64,
-    ) -> f64 {
-        if self == Self::Perfect {
-            return f64::from(u8::from(scores(rule, table, layout, cue)));
-        }
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let made = (0..attempts)
-            .filter(|_| {
-                let stroke = self.attempt(table.radius, cue, &mut rng);
-                stroke.tip_offset_squared() <= table.miscue_limit && scores(rule, table, layout, &stroke)
-            })
-            .count();
-        made as f64 / f64::from(attempts.max(1))
+    /// The five in the order of [`FORMS`], SI.
+    const fn values(&self) -> [f64; 5] {
+        [self.a, self.b, self.theta, self.phi, self.speed]
+    }
+}
+
+impl Default for Skill {
+    fn default() -> Self {
+        Self::EXPERT
     }
 }
 
 impl fmt::Display for Skill {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.pad(self.name())
+        if let Some((name, _)) = Self::NAMED.iter().find(|(_, skill)| skill == self) {
+            return formatter.pad(name);
+        }
+        let part = |((name, _, unit, _), value): (&(&str, &str, f64, f64), f64)| {
+            // Twelve digits: what was read in degrees is written as it was.
+            format!("{name}={}", (value / unit * 1e12).round() / 1e12)
+        };
+        formatter.pad(&FORMS.iter().zip(self.values()).map(part).collect::<Vec<_>>().join(","))
     }
 }
 
 impl FromStr for Skill {
-    type Err = UnknownSkill;
+    type Err = SkillError;
 
-    fn from_str(text: &str) -> Result<Self, UnknownSkill> {
-        Self::ALL.into_iter().find(|skill| skill.name() == text).ok_or_else(|| UnknownSkill(text.to_owned()))
+    fn from_str(text: &str) -> Result<Self, SkillError> {
+        if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
+            return Ok(*skill);
+        }
+        let unknown = || SkillError::Unknown(text.to_owned());
+        let mut values = [None; 5];
+        for part in text.split(',') {
+            let (name, number) = part.split_once('=').ok_or_else(unknown)?;
+            let index = FORMS.iter().position(|form| form.0 == name.trim()).ok_or_else(unknown)?;
+            let value: f64 = number.trim().parse().map_err(|_| unknown())?;
+            let (name, unit, si, most) = FORMS[index];
+            // Written so that NaN is refused.
+            if !(0.0..=most).contains(&value) {
+                return Err(SkillError::Range { name, value, most, unit });
+            }
+            if values[index].replace(value * si).is_some() {
+                return Err(unknown());
+            }
+        }
+        let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else { return Err(unknown()) };
+        Ok(Self { a, b, theta, phi, speed })
     }
 }
 
-/// A standard normal number, by Box and Muller (1958).
-fn normal(rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-    radius * (TAU * rng.random::<f64>()).cos()
+impl From<Skill> for String {
+    fn from(skill: Skill) -> Self {
+        skill.to_string()
+    }
+}
+
+impl TryFrom<String> for Skill {
+    type Error = SkillError;
+
+    fn try_from(text: String) -> Result<Self, SkillError> {
+        text.parse()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec2;
 
     #[test]
-    fn errors_have_the_stated_spread() {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
-        let cue = CueInputs { a: 0.0, b: 0.1, theta: 0.5, phi: 1.0, speed: 3.0 };
-        let count = 20_000;
-        let variance: f64 = (0..count)
-            .map(|_| Skill::Club.attempt(0.03, &cue, &mut rng).phi - cue.phi)
-            .map(|error| error * error)
-            .sum::<f64>()
-            / f64::from(count);
-        assert!((variance.sqrt().to_degrees() - 0.25).abs() < 0.005);
+    fn a_players_own_errors_are_read_in_millimetres_and_degrees_and_written_back() {
+        let text = "a=0.7,b=0.6,theta=0.2,phi=0.15,V=0.1";
+        let skill: Skill = text.parse().unwrap();
+        assert!((skill.a - 0.7e-3).abs() < 1e-15 && (skill.phi.to_degrees() - 0.15).abs() < 1e-12);
+        assert_eq!(skill.to_string(), text);
+        assert_eq!("V=0.1, phi=0.15,a=0.7,b=0.6,theta=0.2".parse(), Ok(skill));
+        for (name, skill) in Skill::NAMED {
+            assert_eq!((skill.to_string().as_str(), name.parse()), (name, Ok(skill)));
+        }
     }
 
     #[test]
-    fn a_better_player_makes_more() {
-        let table = Table::default();
-        let layout = Layout::new([DVec2::new(-0.8, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.5, 0.25)]);
-        let cue = (0..2000)
-            .map(|step| CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: -0.04 + 4e-5 * f64::from(step), speed: 3.0 })
-            .find(|cue| scores(Rule::StraightRail, &table, &layout, cue))
-            .unwrap();
-        let chance = |skill: Skill| skill.make_probability(Rule::StraightRail, &table, &layout, &cue, 500, 1);
-        assert_eq!(chance(Skill::Perfect), 1.0);
-        assert!(chance(Skill::Expert) > chance(Skill::Beginner));
+    fn a_bad_skill_is_named_with_what_would_be_accepted() {
+        let said = |text: &str| text.parse::<Skill>().unwrap_err().to_string();
+        assert!(said("master").contains("master") && said("master").contains("expert"));
+        assert!(said("a=0.7,b=0.7,theta=0.2,phi=0.2").contains("V="), "one is missing");
+        assert!(said("a=1,a=1,theta=0.2,phi=0.2,V=0.1").contains("a=1,a=1"));
+        for bad in ["-0.1", "46", "NaN", "inf"] {
+            let said = said(&format!("a=0.7,b=0.7,theta=0.2,phi={bad},V=0.1"));
+            assert!(said.contains(&format!("phi = {bad}")) && said.contains("0 to 45 degrees"), "{said}");
+        }
+    }
+
+    #[test]
+    fn the_errors_are_in_their_units() {
+        let cue = CueInputs { a: 0.1, b: 0.0, theta: 0.0, phi: 1.0, speed: 2.0 };
+        let stroke = Skill::EXPERT.stroke(0.03, &cue, &[3.0, 0.0, -2.0, 1.0, -1.0]);
+        assert!((stroke.a - 0.15).abs() < 1e-12, "1.5 mm on a radius of 30 mm");
+        assert_eq!((stroke.b, stroke.theta), (0.0, 0.0), "a cue is not held below the cloth");
+        assert!((stroke.phi - 1.0).to_degrees() - 0.125 < 1e-12 && (stroke.speed - 1.925).abs() < 1e-12);
     }
 }

@@ -102,7 +102,13 @@ impl Office {
     }
 
     fn shot(&mut self, job: &Job) -> Result<(Shot, Effort), String> {
-        let request = Request { rule: job.tutor.rule, budget: BUDGET, seed: job.seed, cancel: Arc::clone(&job.cancel) };
+        let request = Request {
+            rule: job.tutor.rule,
+            budget: BUDGET,
+            seed: job.seed,
+            cancel: Arc::clone(&job.cancel),
+            ..Request::default()
+        };
         let found = self.coach(job)?.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
         let effort = Effort { simulations: found.simulations, elapsed: found.elapsed };
         Shot::new(&job.table, &job.layout, found.cue, found.solved, found.source.to_string())

@@ -10,6 +10,10 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;
 
+mod robustness;
+mod self_play;
+
+use self::robustness::Robustness;
 use super::{
     Failure,
     input::{note_doubts, table_named},
@@ -17,7 +21,7 @@ use super::{
     recommend::coach_for,
 };
 use crate::{
-    coach::Request,
+    coach::{Request, Skill},
     game::{Reward, Rule, scores},
     learning::{
         Policy, PolicyError,
@@ -30,6 +34,7 @@ use crate::{
 /// Measure the recommender, or with --policy-only the networks alone, on layouts that nobody has practised: the share on
 /// which the shot succeeds, with the 95 % confidence interval.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// Number of layouts.
     #[arg(long, default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
@@ -57,6 +62,23 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
         value_parser = clap::value_parser!(u32).range(1..))]
     random_search: Option<u32>,
+    /// Who plays the shots: perfect, expert, club, beginner, or a player's own standard errors in mm, degrees and m/s like
+    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
+    #[arg(long, conflicts_with_all = ["random_search", "reward"])]
+    skill: Option<Skill>,
+    /// Play innings: the recommended shot with the player's errors, until a miss, one inning a layout. The skill is
+    /// expert where none is given.
+    #[arg(long, conflicts_with_all = ["policy_only", "random_search", "reward"])]
+    self_play: bool,
+    /// With --self-play, points after which an inning is broken off.
+    #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    most_points: u32,
+    /// With --self-play, minutes after which play is broken off.
+    #[arg(long, requires = "self_play", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    minutes: Option<u64>,
+    /// Rank shots by the probability of this point and the next.
+    #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
+    plan: bool,
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
     budget_ms: u64,
@@ -86,11 +108,17 @@ struct Report {
     /// Of the recommender.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
+    /// How often the player of the skill makes the shots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robustness: Option<Robustness>,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let table = table_named(&args.table)?;
     let rule_reward = Reward::for_rule(args.rule);
+    if args.self_play {
+        return self_play::run(args, table);
+    }
     // The player and what it is measured by are all that differs.
     let report = if let Some(shots) = args.random_search {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(args.seed);
@@ -104,16 +132,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         measure(args, &table, POLICY, reward, &mut |layout| policy.propose(&table, layout))
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
-        let budget = Duration::from_millis(args.budget_ms);
-        let request = Request { rule: args.rule, budget, seed: args.seed, ..Request::default() };
+        let request = request(args, args.skill.unwrap_or(Skill::PERFECT));
         let mut simulations = 0;
+        let mut claimed = Vec::new();
         let mut report = measure(args, &table, "recommender", rule_reward, &mut |layout| {
             coach.recommend(layout, &request).map_or(NO_SHOT, |advice| {
                 simulations += advice.simulations;
+                claimed.push(advice.make_probability.map(|chance| chance.rate));
                 advice.cue
             })
         });
         report.simulations_per_layout = Some(simulations as f64 / f64::from(args.layouts));
+        if let Some(robustness) = &mut report.robustness {
+            robustness.claim(&claimed);
+        }
         report
     };
     if args.json {
@@ -124,6 +156,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         print(&mut std::io::stdout().lock(), &report, args.layouts)?;
     }
     Ok(())
+}
+
+/// What the recommender is asked for.
+fn request(args: &Args, skill: Skill) -> Request {
+    let budget = Duration::from_millis(args.budget_ms);
+    Request { rule: args.rule, skill, plan: args.plan, budget, seed: args.seed, ..Request::default() }
 }
 
 /// Name of the networks alone as a player.
@@ -154,6 +192,7 @@ fn measure(
     player: &mut dyn FnMut(&Layout) -> CueInputs,
 ) -> Report {
     let (mut total, mut successes, mut seconds, mut slowest) = (0.0, 0, 0.0, 0.0_f64);
+    let mut chances = Vec::new();
     for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
         let start = Instant::now();
         let cue = player(&layout);
@@ -163,6 +202,9 @@ fn measure(
         let earned = reward.of(table, &layout, &cue);
         total += earned;
         successes += usize::from(earned >= 1.0);
+        if let Some(skill) = &args.skill {
+            chances.push(robustness::chance(args, table, &layout, skill, &cue));
+        }
     }
     let count = args.layouts as usize;
     Report {
@@ -176,6 +218,7 @@ fn measure(
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * slowest,
         simulations_per_layout: None,
+        robustness: args.skill.map(|skill| Robustness::new(skill, &chances)),
     }
 }
 
@@ -198,9 +241,10 @@ fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result
     }
     write!(out, "{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms)?;
     match report.simulations_per_layout {
-        Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout"),
-        None => writeln!(out),
+        Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
+        None => writeln!(out)?,
     }
+    report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
 /// The bundled policy for `rule` on `table`, or the one in the file.

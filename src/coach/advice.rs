@@ -1,0 +1,95 @@
+//! What the coach answers.
+
+use std::{fmt, time::Duration};
+
+use serde::Serialize;
+
+use super::Kind;
+use crate::{learning::evaluation::SuccessRate, physics::CueInputs};
+
+/// Where a shot comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// The policy's own shot.
+    Policy,
+    /// Near a shot of the policy: its direction and speed with another tip position and elevation (thesis 5.1), or a
+    /// refinement of it. In JSON a search too.
+    #[serde(rename = "search")]
+    Variation,
+    /// The wider search.
+    Search,
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::Policy => "policy",
+            Self::Variation => "variation",
+            Self::Search => "search",
+        })
+    }
+}
+
+/// A shot and where it comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Suggestion {
+    /// The stroke.
+    pub cue: CueInputs,
+    /// Who thought of it.
+    pub source: Source,
+}
+
+/// Another shot that makes the point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alternative {
+    /// The stroke.
+    pub cue: CueInputs,
+    /// Who thought of it.
+    pub source: Source,
+    /// What sort of shot it is.
+    pub kind: Kind,
+    /// How often the player makes it; `None` where time ran out before a single attempt.
+    pub make_probability: Option<SuccessRate>,
+}
+
+/// The best shot so far, while the search goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Improvement {
+    /// The stroke.
+    pub cue: CueInputs,
+    /// What sort of shot it is.
+    pub kind: Kind,
+    /// The share of points in the errors that it was chosen by, which flatters it a little; the answer has the honest one.
+    pub make_probability: SuccessRate,
+    /// Shots simulated so far.
+    pub simulations: u64,
+    /// Time since the question.
+    pub elapsed: Duration,
+}
+
+/// The coach's answer.
+#[derive(Clone, Debug)]
+pub struct Recommendation {
+    /// The stroke: it makes the point if `solved`, else it is the best attempt.
+    pub cue: CueInputs,
+    /// Whether it makes the point when it is played as meant, by simulation.
+    pub solved: bool,
+    /// Where it comes from.
+    pub source: Source,
+    /// What sort of shot it is, if it makes the point.
+    pub kind: Option<Kind>,
+    /// How often the player makes it, from independent attempts that took no part in the choice; `None` where there is no
+    /// such shot or time ran out before a single attempt. A perfect player always makes what makes the point.
+    pub make_probability: Option<SuccessRate>,
+    /// Probability of the point after this one, where that was asked for.
+    pub next_probability: Option<f64>,
+    /// Other strokes that make the point, the best of each kind, the best first.
+    pub alternatives: Vec<Alternative>,
+    /// The critic's probability that the policy's favourite makes a point, where there is a policy.
+    pub policy_success: Option<f64>,
+    /// Shots simulated.
+    pub simulations: u64,
+    /// Time taken.
+    pub elapsed: Duration,
+}

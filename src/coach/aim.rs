@@ -1,0 +1,116 @@
+//! Where to aim, as players say it: how full the first ball is hit, and where the line of aim meets the cushions.
+
+use glam::DVec2;
+use serde::Serialize;
+
+use crate::{
+    physics::CueInputs,
+    simulation::{EventKind, Rail, Recording, ShotError},
+    table::{Layout, Table},
+};
+
+/// Where a line meets a cushion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Mark {
+    /// The cushion.
+    pub rail: Rail,
+    /// How far along it, in diamonds: 0 to 8 from the left on a long one, 0 to 4 from below on a short one.
+    pub diamond: f64,
+}
+
+/// How the cue ball meets the first object ball.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Hit {
+    /// The object ball, 1 or 2.
+    pub ball: usize,
+    /// How much of it is covered as the cue ball comes on: 1 is head-on, 0 a graze.
+    pub fullness: f64,
+    /// Which half of it is hit, as the cue ball comes on: positive is the right one.
+    pub side: f64,
+}
+
+/// The aim of a stroke.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Aim {
+    /// Where the cue points.
+    pub ahead: Mark,
+    /// Where the cue comes from: the line of aim in the other direction.
+    pub behind: Mark,
+    /// The first object ball; `None` where none is met.
+    pub hit: Option<Hit>,
+}
+
+/// The aim of a stroke.
+///
+/// # Errors
+/// What is wrong with the layout or the stroke.
+pub fn aim(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Aim, ShotError> {
+    let recording = Recording::new(table, layout, cue)?;
+    let [from, direction] = [layout.balls[0], DVec2::from_angle(cue.phi)];
+    Ok(Aim { ahead: mark(table, from, direction), behind: mark(table, from, -direction), hit: hit(table, &recording) })
+}
+
+/// Where the line from a place on the table in a direction meets the noses of the cushions.
+fn mark(table: &Table, from: DVec2, direction: DVec2) -> Mark {
+    let half = 0.5 * DVec2::new(table.length, table.width);
+    let distance = |rail: Rail| {
+        let inward = rail.normal();
+        let approach = -direction.dot(inward);
+        // A line along a cushion never meets it.
+        if approach > 1e-12 { (from.dot(inward) + half.dot(inward.abs())) / approach } else { f64::INFINITY }
+    };
+    let rail = Rail::ALL.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(Rail::Left);
+    let place = from + distance(rail) * direction + half;
+    let along = match rail {
+        Rail::Left | Rail::Right => place.y,
+        Rail::Bottom | Rail::Top => place.x,
+    };
+    Mark { rail, diamond: along / table.diamond() }
+}
+
+fn hit(table: &Table, recording: &Recording) -> Option<Hit> {
+    let (time, ball) = recording.events().iter().find_map(|event| match event.kind {
+        EventKind::BallBall(0, ball) => Some((event.time, ball)),
+        _ => None,
+    })?;
+    let place = recording.state(0, time).position;
+    let towards = recording.state(ball, time).position - place;
+    // Just before the impact: at its time the recording already holds the velocities after it.
+    let before = (0.999 * time).max(time - 1e-4);
+    // A ball that touches from the start is met in the direction of the stroke.
+    let line =
+        (place - recording.state(0, before).position).normalize_or(recording.impulse().velocity.normalize_or_zero());
+    let offset = line.perp_dot(towards) / (2.0 * table.radius);
+    Some(Hit { ball, fullness: (1.0 - offset.abs()).max(0.0), side: if offset < 0.0 { -1.0 } else { 1.0 } })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_are_counted_in_diamonds_from_the_lower_left_corner() {
+        let table = Table::default();
+        let layout = Layout::parse("2d,2d 7d,3.5d 1d,0.5d", &table).unwrap();
+        let aim = |phi: f64| {
+            let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: phi.to_radians(), speed: 3.0 };
+            super::aim(&table, &layout, &cue).unwrap()
+        };
+        // Two diamonds up and two to the right meet the upper cushion at 4; back from there the lower left corner.
+        let diagonal = aim(45.0);
+        assert_eq!(diagonal.ahead.rail, Rail::Top);
+        assert!((diagonal.ahead.diamond - 4.0).abs() < 1e-9 && diagonal.behind.diamond.abs() < 1e-9);
+        let level = aim(0.0);
+        assert_eq!((level.ahead.rail, level.behind.rail), (Rail::Right, Rail::Left));
+        assert!((level.ahead.diamond - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_ball_half_a_diameter_off_the_line_is_hit_half() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.7,0 0,-0.03075 0.9,0.5", &table).unwrap();
+        let hit = aim(&table, &layout, &CueInputs::parse("0,0,0,0,3").unwrap()).unwrap().hit.unwrap();
+        assert_eq!(hit.ball, 1);
+        assert!((hit.fullness - 0.5).abs() < 0.01 && hit.side < 0.0, "{hit:?}");
+    }
+}

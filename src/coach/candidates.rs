@@ -1,0 +1,131 @@
+//! Shots to try: variations of a good one, and a wide net over all that a player could do.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::errors::normal;
+use crate::{
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// Fastest stroke that is recommended, m/s: the thesis' limit (its 4.1.3).
+const MAX_SPEED: f64 = 6.0;
+
+/// Slowest stroke that is tried, m/s.
+const MIN_SPEED: f64 = 0.4;
+
+/// Steepest cue that is tried, rad: 30°, beyond which a stroke is a massé.
+const MAX_ELEVATION: f64 = PI / 6.0;
+
+/// Steepest cue of the wide net, rad: 7°, for a player lifts the cue only with a reason.
+const USUAL_ELEVATION: f64 = 0.12;
+
+/// Tips are tried up to this share of the miscue limit's radius, so that rounding never oversteps it.
+const TIP_SHARE: f64 = 0.98;
+
+/// The thesis' way out where the policy's shot misses (its 5.1): the same direction and speed, another tip position and
+/// elevation.
+pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+    let (a, b) = random_tip(table, rng);
+    CueInputs { a, b, theta: rng.random_range(0.0..MAX_ELEVATION), ..*cue }
+}
+
+/// Any shot: half of them at one of the object balls, thick or thin, the others in any direction.
+pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+    let [cue_ball, first, second] = layout.balls;
+    let phi = if rng.random() {
+        at(table, cue_ball, if rng.random() { first } else { second }, rng)
+    } else {
+        rng.random_range(-PI..PI)
+    };
+    let (a, b) = if rng.random() { random_tip(table, rng) } else { (0.0, 0.0) };
+    CueInputs { a, b, theta: rng.random_range(0.0..0.2), phi, speed: rng.random_range(MIN_SPEED..MAX_SPEED) }
+}
+
+/// The wide net: the `n`th of a series of shots in which every ten are eight at an object ball, four at either, of any
+/// thickness; one at an object ball's image in a cushion, which comes off that cushion to it; and one anywhere. Their
+/// tips fill the disc, their speeds the range.
+pub fn stratified(table: &Table, layout: &Layout, n: u64, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+    let [cue_ball, first, second] = layout.balls;
+    let target = if n.is_multiple_of(2) { first } else { second };
+    let phi = match n % 10 {
+        0..8 => at(table, cue_ball, target, rng),
+        8 => {
+            let reach = table.reach();
+            let target = if rng.random() { first } else { second };
+            let image = match rng.random_range(0..4) {
+                0 => DVec2::new(2.0 * reach.x - target.x, target.y),
+                1 => DVec2::new(-2.0 * reach.x - target.x, target.y),
+                2 => DVec2::new(target.x, 2.0 * reach.y - target.y),
+                _ => DVec2::new(target.x, -2.0 * reach.y - target.y),
+            };
+            // Side spin and the cushion's friction turn the rebound: a wider window than the ball's own.
+            (image - cue_ball).to_angle() + rng.random_range(-0.15..=0.15)
+        }
+        _ => rng.random_range(-PI..PI),
+    };
+    let (a, b) = random_tip(table, rng);
+    CueInputs {
+        a,
+        b,
+        theta: rng.random_range(0.0..USUAL_ELEVATION),
+        phi,
+        speed: rng.random_range(MIN_SPEED..MAX_SPEED),
+    }
+}
+
+/// A shot near `cue`: normal steps of `scale` times 0.15 R of the tip, 1.7° of elevation, 0.45° of direction and 0.6 m/s.
+pub fn neighbour(table: &Table, cue: &CueInputs, scale: f64, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+    let mut step = |size: f64| scale * size * normal(rng);
+    let (a, b) = (cue.a + step(0.15), cue.b + step(0.15));
+    let share = (TIP_SHARE * table.miscue_limit.sqrt() / a.hypot(b)).min(1.0);
+    CueInputs {
+        a: a * share,
+        b: b * share,
+        theta: (cue.theta + step(0.03)).clamp(0.0, MAX_ELEVATION),
+        phi: cue.phi + step(0.008),
+        speed: (cue.speed + step(0.6)).clamp(MIN_SPEED, MAX_SPEED),
+    }
+}
+
+/// A direction in which a ball that runs straight meets `target`, each thickness alike.
+fn at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlus) -> f64 {
+    let apart = target - cue_ball;
+    let widest = (2.0 * table.radius / apart.length()).min(1.0).asin();
+    apart.to_angle() + rng.random_range(-widest..=widest)
+}
+
+/// A point of the tip's disc, each area alike.
+fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
+    let radius = TIP_SHARE * (table.miscue_limit * rng.random::<f64>()).sqrt();
+    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
+    (radius * cos, radius * sin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+
+    #[test]
+    fn nothing_that_is_tried_oversteps_the_miscue_limit() {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+        for name in crate::table::PRESETS {
+            let table = Table::preset(name).unwrap();
+            for n in 0..2000 {
+                let layout = Layout::random(&table, &mut rng);
+                let cue = anything(&table, &layout, &mut rng);
+                let wide = stratified(&table, &layout, n, &mut rng);
+                let near = [neighbour(&table, &wide, 3.0, &mut rng), variation(&table, &cue, &mut rng)];
+                for cue in near.into_iter().chain([cue, wide]) {
+                    cue.validate().unwrap();
+                    cue.validate_tip(table.miscue_limit).unwrap();
+                }
+            }
+        }
+    }
+}

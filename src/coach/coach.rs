@@ -1,0 +1,263 @@
+//! The recommender: from a layout and a request to the shot that this player makes most often.
+
+use std::time::{Duration, Instant};
+
+use super::{
+    Alternative, Improvement, Kind, Recommendation, Request, Skill,
+    clock::Clock,
+    crew, errors,
+    first::{Attempt, Found},
+    pool::Candidate,
+    search::Search,
+    trial::{ENDLESS, Task},
+};
+use crate::{
+    game::{Reward, Rule},
+    learning::{Policy, PolicyError, evaluation::SuccessRate},
+    physics::CueInputs,
+    table::{Layout, LayoutError, Table},
+};
+
+/// Independent attempts from which the make probability is estimated; its standard error is at most 1.6 %, and 0.3 % for
+/// a shot that is made 99 times of 100.
+const ATTEMPTS: usize = 1000;
+
+/// The same for each alternative.
+const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
+
+/// Time that judging the answer has at least, however late it is: where other programs hold a thread up, a shot whose
+/// probability nobody knows would be the price of these milliseconds.
+const GRACE: Duration = Duration::from_millis(3);
+
+/// Attempts of one piece of work.
+const PIECE: usize = 25;
+
+/// Alternatives that are listed.
+const ALTERNATIVES: usize = 5;
+
+/// Steps of resting contacts after which a shot that is tried in a search is given up.
+const PATIENCE: u32 = 100;
+
+/// A coach for one table. Cheap to share between threads.
+#[derive(Clone, Debug)]
+pub struct Coach {
+    table: Table,
+    policies: Vec<Policy>,
+}
+
+impl Coach {
+    /// A coach with the policies that are bundled for this table, if there are any; without, it searches.
+    ///
+    /// # Errors
+    /// Where a bundled policy is damaged.
+    pub fn new(table: Table) -> Result<Self, PolicyError> {
+        let bundled = Rule::ALL.into_iter().filter_map(|rule| Policy::bundled(&table, rule));
+        let policies = bundled.collect::<Result<_, _>>()?;
+        Ok(Self { table, policies })
+    }
+
+    /// A coach that has no policy: it searches.
+    pub const fn without_policy(table: Table) -> Self {
+        Self { table, policies: Vec::new() }
+    }
+
+    /// The same coach with one other policy, which it asks whatever the rule is.
+    #[must_use]
+    pub fn with_policy(self, policy: Policy) -> Self {
+        Self { policies: vec![policy], ..self }
+    }
+
+    /// The policy that it asks under `rule`: the one that was trained for it, else any, for a shot that makes some point is
+    /// a good start of a search.
+    pub fn policy(&self, rule: Rule) -> Option<&Policy> {
+        let trained_for = |policy: &&Policy| policy.origin().reward == Reward::for_rule(rule);
+        self.policies.iter().find(trained_for).or(self.policies.first())
+    }
+
+    /// The table that it knows.
+    pub const fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// The policy's own shot under `rule`, unchecked; `None` where there is no policy.
+    pub fn policy_shot(&self, layout: &Layout, rule: Rule) -> Option<CueInputs> {
+        self.policy(rule).map(|policy| policy.propose(&self.table, layout))
+    }
+
+    /// Looks for the shot that the player makes most often, or with [`Request::plan`] that leaves him best off. The shot never oversteps the table's miscue limit.
+    ///
+    /// # Errors
+    /// Where the layout is impossible.
+    pub fn recommend(&self, layout: &Layout, request: &Request) -> Result<Recommendation, LayoutError> {
+        self.recommend_and_tell(layout, request, |_| {})
+    }
+
+    /// The same, and `tell` hears of every better shot as soon as it is found, on this thread.
+    ///
+    /// # Errors
+    /// Where the layout is impossible.
+    pub fn recommend_and_tell(
+        &self,
+        layout: &Layout,
+        request: &Request,
+        mut tell: impl FnMut(&Improvement),
+    ) -> Result<Recommendation, LayoutError> {
+        layout.validate(&self.table)?;
+        let clock = Clock::start(request.budget, request.simulations, &request.cancel);
+        let task = Task {
+            table: &self.table,
+            layout,
+            rule: request.rule,
+            skill: request.skill,
+            clock: &clock,
+            until: clock.moment(1.0),
+            patience: ENDLESS,
+        };
+        let policy = self.policy(request.rule);
+        let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout));
+        let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
+        let found = Attempt::new(task).run(&strokes, request.seed);
+        let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
+            first_point(&found)
+        } else {
+            let mut told = None;
+            let task = Task { patience: PATIENCE, ..task };
+            let pool = Search::new(task, request.plan, request.threads, request.seed).run(&strokes, &mut |leader| {
+                // The same shot with more attempts is no news.
+                if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
+                    tell(&improvement(leader, &clock));
+                }
+            });
+            let until = task.until.max(Instant::now() + GRACE);
+            robust(&found, pool, &Task { patience: ENDLESS, until, ..task }, request)
+        };
+        Ok(Recommendation {
+            policy_success: proposals.first().map(|proposal| proposal.success),
+            simulations: clock.simulations(),
+            elapsed: clock.elapsed(),
+            ..answer
+        })
+    }
+}
+
+/// The answer for a player who errs: the head of the pool, judged by errors that took no part in the choice, and the
+/// heads of the other kinds.
+fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
+    if pool.is_empty() {
+        return Recommendation { make_probability: None, ..first_point(found) };
+    }
+    let best = pool[0];
+    keep_one_of_each(&mut pool);
+    pool.truncate(1 + ALTERNATIVES);
+    // Another stream than that of the search, whatever its seed.
+    let attempts = errors::independent(ATTEMPTS, request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17));
+    let pieces: Vec<(usize, &[errors::Errors])> = pool
+        .iter()
+        .enumerate()
+        .flat_map(|(index, _)| {
+            let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
+            attempts[..count].chunks(PIECE).map(move |piece| (index, piece))
+        })
+        .collect();
+    let made = crew::map(request.threads, &pieces, |(index, piece)| task.attempts(&pool[*index].shot.cue, piece));
+    let probability = |candidate: usize| {
+        let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
+        let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
+        (tried > 0).then(|| SuccessRate::new(made, tried))
+    };
+    Recommendation {
+        cue: best.shot.cue,
+        solved: true,
+        source: best.shot.source,
+        kind: Some(best.kind),
+        make_probability: probability(0),
+        next_probability: request.plan.then_some(best.next),
+        alternatives: (1..pool.len())
+            .map(|index| Alternative {
+                cue: pool[index].shot.cue,
+                source: pool[index].shot.source,
+                kind: pool[index].kind,
+                make_probability: probability(index),
+            })
+            .collect(),
+        ..first_point(found)
+    }
+}
+
+/// The best first, in the order that they have, and after it the best of each other kind.
+fn keep_one_of_each(pool: &mut Vec<Candidate>) {
+    let mut seen: Vec<Kind> = Vec::new();
+    pool.retain(|candidate| {
+        let is_new = !seen.contains(&candidate.kind);
+        if is_new {
+            seen.push(candidate.kind);
+        }
+        is_new
+    });
+}
+
+/// The answer for a player without errors, or where no shot was found.
+fn first_point(found: &Found) -> Recommendation {
+    let mut seen = Vec::new();
+    let others = found.solutions.iter().map(|(shot, course)| (shot, Kind::of(course, &shot.cue)));
+    let others = others.filter(|(_, kind)| {
+        let is_new = !seen.contains(kind);
+        seen.push(*kind);
+        is_new
+    });
+    let others: Vec<_> = others.skip(1).take(ALTERNATIVES).collect();
+    let certain = SuccessRate { layouts: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
+    let first = found.solutions.first();
+    let shot = first.map_or(found.attempt, |(shot, _)| *shot);
+    Recommendation {
+        cue: shot.cue,
+        solved: first.is_some(),
+        source: shot.source,
+        kind: first.map(|(shot, course)| Kind::of(course, &shot.cue)),
+        make_probability: first.map(|_| certain),
+        next_probability: None,
+        alternatives: others
+            .into_iter()
+            .map(|(shot, kind)| Alternative {
+                cue: shot.cue,
+                source: shot.source,
+                kind,
+                make_probability: Some(certain),
+            })
+            .collect(),
+        policy_success: None,
+        simulations: 0,
+        elapsed: Duration::ZERO,
+    }
+}
+
+fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
+    Improvement {
+        cue: leader.shot.cue,
+        kind: leader.kind,
+        make_probability: SuccessRate::new(leader.made, leader.narrow()),
+        simulations: clock.simulations(),
+        elapsed: clock.elapsed(),
+    }
+}
+
+/// The share of `attempts` at `cue` that make a point, with its interval: a plain Monte-Carlo estimate. The same seed
+/// draws the same errors for every shot.
+pub fn make_probability(
+    skill: Skill,
+    rule: Rule,
+    table: &Table,
+    layout: &Layout,
+    cue: &CueInputs,
+    attempts: usize,
+    seed: u64,
+) -> SuccessRate {
+    let made = errors::independent(attempts, seed)
+        .iter()
+        .filter(|errors| {
+            let stroke = skill.stroke(table.radius, cue, errors);
+            stroke.tip_offset_squared() <= table.miscue_limit && crate::game::scores(rule, table, layout, &stroke)
+        })
+        .count();
+    SuccessRate::new(made, attempts)
+}

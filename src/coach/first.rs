@@ -1,0 +1,97 @@
+//! The first shot that makes the point: the policy's own, the thesis' variation of it (its 5.1), a wider search.
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    Source, Suggestion,
+    candidates::{anything, variation},
+    trial::{Course, Task},
+};
+use crate::{
+    game::{Rule, Tally},
+    physics::CueInputs,
+};
+
+/// Variations tried of each of the policy's favourites.
+const VARIATIONS: u32 = 64;
+
+/// How many of the policy's favourites are varied.
+const FAVOURITES: usize = 4;
+
+/// How good a shot is that makes no point: object balls met, then cushions on the way as far as the rule wants them.
+type Merit = (u32, u32);
+
+/// What was found: shots that make the point, the policy's favourites first, and the best attempt where there are none.
+pub struct Found {
+    /// Shots that make the point with their courses.
+    pub solutions: Vec<(Suggestion, Course)>,
+    /// The best of those that do not.
+    pub attempt: Suggestion,
+}
+
+/// One search for a shot.
+pub struct Attempt<'a> {
+    task: Task<'a>,
+    best: Option<(Merit, Suggestion)>,
+    solutions: Vec<(Suggestion, Course)>,
+}
+
+impl<'a> Attempt<'a> {
+    /// A search on a task.
+    pub const fn new(task: Task<'a>) -> Self {
+        Self { task, best: None, solutions: Vec::new() }
+    }
+
+    /// Tries the proposals, whatever the time, then looks until a shot has been found or time is up.
+    pub fn run(mut self, proposals: &[CueInputs], seed: u64) -> Found {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let (table, layout) = (self.task.table, self.task.layout);
+        for &cue in proposals {
+            self.play(cue, Source::Policy);
+        }
+        'variations: for cue in proposals.iter().take(FAVOURITES) {
+            for _ in 0..VARIATIONS {
+                if self.is_over() {
+                    break 'variations;
+                }
+                self.play(variation(table, cue, &mut rng), Source::Variation);
+            }
+        }
+        while !self.is_over() {
+            self.play(anything(table, layout, &mut rng), Source::Search);
+        }
+        // With no time at all and no policy, nothing was tried: a plain stroke at the first ball is the attempt.
+        let plain = || {
+            let phi = (layout.balls[1] - layout.balls[0]).to_angle();
+            Suggestion { cue: CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi, speed: 2.0 }, source: Source::Search }
+        };
+        Found { solutions: self.solutions, attempt: self.best.map_or_else(plain, |(_, shot)| shot) }
+    }
+
+    /// Whether a shot has been found, or time is up.
+    fn is_over(&self) -> bool {
+        !self.solutions.is_empty() || self.task.clock.used() >= 1.0
+    }
+
+    fn play(&mut self, cue: CueInputs, source: Source) {
+        self.task.clock.count(1);
+        // A shot that took too long has at least been thought of.
+        let course = self.task.play(&cue).unwrap_or_default();
+        let suggestion = Suggestion { cue, source };
+        if course.tally.is_point(self.task.rule) {
+            self.solutions.push((suggestion, course));
+        } else {
+            let merit = merit(&course.tally, self.task.rule);
+            if self.best.is_none_or(|(best, _)| merit > best) {
+                self.best = Some((merit, suggestion));
+            }
+        }
+    }
+}
+
+fn merit(tally: &Tally, rule: Rule) -> Merit {
+    let met = tally.met.iter().map(|&met| u32::from(met)).sum();
+    let cushions = if tally.met_both() { tally.cushions_before_second } else { tally.cushions };
+    (met, cushions.min(rule.cushions()))
+}

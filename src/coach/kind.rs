@@ -1,0 +1,83 @@
+//! What sort of shot it is: shots of one kind are variations of each other, shots of different kinds are alternatives.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::trial::Course;
+use crate::physics::CueInputs;
+
+/// Strokes from this speed on are called hard, m/s. A ball struck so runs about twice the length of a `match` table.
+const HARD: f64 = 2.5;
+
+/// Cushions from which on the cue ball goes around the table.
+const AROUND: u32 = 3;
+
+/// How the cue ball comes to the second object ball.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Way {
+    /// With no cushion.
+    Direct,
+    /// Off one or two cushions.
+    OffCushion,
+    /// Off three cushions or more.
+    AroundTheTable,
+}
+
+/// How hard the stroke is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Pace {
+    /// Below 2.5 m/s.
+    Soft,
+    /// From 2.5 m/s on.
+    Hard,
+}
+
+/// What sort of shot it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub struct Kind {
+    /// The object ball that is met first, 1 or 2; 0 where none is met.
+    pub first_ball: usize,
+    /// Whether a cushion comes before it.
+    pub cushion_first: bool,
+    /// How the cue ball comes to the second object ball.
+    pub way: Way,
+    /// How hard the stroke is.
+    pub pace: Pace,
+}
+
+impl Kind {
+    /// The kind of a shot that took this course.
+    pub fn of(course: &Course, cue: &CueInputs) -> Self {
+        let way = match course.tally.cushions_before_second {
+            0 => Way::Direct,
+            cushions if cushions < AROUND => Way::OffCushion,
+            _ => Way::AroundTheTable,
+        };
+        Self {
+            first_ball: course.first.unwrap_or(0),
+            cushion_first: course.tally.cushions_before_first > 0,
+            way,
+            pace: if cue.speed < HARD { Pace::Soft } else { Pace::Hard },
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let first = self.first_ball;
+        let start = if self.cushion_first { "cushion first to" } else { "first" };
+        let way = match self.way {
+            Way::Direct => "direct",
+            Way::OffCushion => "off a cushion",
+            Way::AroundTheTable => "around the table",
+        };
+        let pace = match self.pace {
+            Pace::Soft => "soft",
+            Pace::Hard => "hard",
+        };
+        formatter.pad(&format!("{start} ball {first}, {way}, {pace}"))
+    }
+}

@@ -1,0 +1,62 @@
+//! What comes next: where the balls may come to rest, and how easy the next point is from there.
+
+use std::ops::ControlFlow;
+
+use super::{errors::Errors, position::ease, trial::Task};
+use crate::{
+    game::Tally,
+    physics::{CueInputs, strike},
+    simulation::{Event, Observer, Patience, simulate},
+    table::Layout,
+};
+
+/// Attempts of each shot that are followed to their end.
+const ATTEMPTS: usize = 12;
+
+/// The mean probability of the next point over the layouts that `cue` leaves under the first of these errors, those that
+/// make a point; nought where none does. `None` where time ran out.
+pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
+    let (mut sum, mut made) = (0.0, 0u32);
+    for errors in errors.iter().take(ATTEMPTS) {
+        if task.clock.is_past(task.until) {
+            return None;
+        }
+        if let Some(end) = end_of(task, &task.skill.stroke(task.table.radius, cue, errors)) {
+            sum += ease(task.rule, task.table, &end);
+            made += 1;
+        }
+    }
+    task.clock.count(ATTEMPTS.min(errors.len()) as u64);
+    Some(if made == 0 { 0.0 } else { sum / f64::from(made) })
+}
+
+/// Where a stroke leaves the balls if it makes the point.
+pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
+    if stroke.tip_offset_squared() > task.table.miscue_limit {
+        return None;
+    }
+    let mut whole = Whole { tally: Tally::default(), patience: Patience(task.patience), task, given_up: false };
+    let end = simulate(task.table, task.layout, &strike(task.table, stroke), &mut whole);
+    (whole.tally.is_point(task.rule) && !whole.given_up).then(|| end.layout())
+}
+
+/// Watches a shot to its end, or until it takes too long.
+struct Whole<'a> {
+    tally: Tally,
+    patience: Patience,
+    task: &'a Task<'a>,
+    given_up: bool,
+}
+
+impl Observer for Whole<'_> {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.tally.note(&event);
+        ControlFlow::Continue(())
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        let flow = if self.task.clock.is_past(self.task.until) { ControlFlow::Break(()) } else { self.patience.step() };
+        self.given_up |= flow.is_break();
+        flow
+    }
+}

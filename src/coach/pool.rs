@@ -1,0 +1,129 @@
+//! Candidates of a search and how they stand: ranked by the share of the same errors under which each makes the point.
+
+use super::{
+    Kind, Source, Suggestion,
+    errors::{Errors, spread},
+    next::prospect,
+    trial::Task,
+};
+use crate::{game::Rule, physics::CueInputs};
+
+/// One in four of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
+/// forgives more.
+const WIDE: f64 = 1.8;
+
+/// What a point under the larger errors is worth against one under the player's own.
+const WORTH_OF_WIDE: f64 = 0.3;
+
+/// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
+#[derive(Debug)]
+pub struct Contest {
+    own: Vec<Errors>,
+    larger: Vec<Errors>,
+}
+
+impl Contest {
+    /// With so many errors at most, a multiple of four.
+    pub fn new(count: usize, seed: u64) -> Self {
+        let mut larger = spread(count / 4, !seed);
+        for errors in &mut larger {
+            *errors = errors.map(|error| WIDE * error);
+        }
+        Self { own: spread(count / 4 * 3, seed), larger }
+    }
+
+    /// Finds out how easy the next point is after a candidate; `None` where time ran out.
+    pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
+        Some(Candidate { next: prospect(task, &candidate.shot.cue, &self.own)?, ..*candidate })
+    }
+
+    /// Tries a candidate at the errors up to the `count`th, a multiple of four; `None` where time ran out.
+    pub fn go_on(&self, task: &Task, candidate: &Candidate, count: usize) -> Option<Candidate> {
+        let mut after = *candidate;
+        while after.tried < count {
+            let block = after.tried / 4;
+            let (Some(own), Some(larger)) = (self.own.get(3 * block..3 * block + 3), self.larger.get(block..=block))
+            else {
+                break;
+            };
+            after.made += task.made(&after.shot.cue, own)?;
+            after.wide += task.made(&after.shot.cue, larger)?;
+            after.tried += 4;
+        }
+        Some(after)
+    }
+}
+
+/// A shot that makes the point when it is played as meant, and how it does in the contest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The shot.
+    pub shot: Suggestion,
+    /// What sort of shot.
+    pub kind: Kind,
+    /// Errors that it was tried at.
+    pub tried: usize,
+    /// Points under the player's errors, three quarters of those tried.
+    pub made: usize,
+    /// Points under the larger errors.
+    pub wide: usize,
+    /// Probability of the next point, where that counts; else 1.
+    pub next: f64,
+}
+
+impl Candidate {
+    /// `cue` as a candidate, if it makes the point under `rule`.
+    pub fn new(task: &Task, rule: Rule, cue: CueInputs, source: Source) -> Option<Self> {
+        let course = task.play(&cue)?;
+        task.clock.count(1);
+        let shot = Suggestion { cue, source };
+        course.tally.is_point(rule).then(|| Self {
+            shot,
+            kind: Kind::of(&course, &cue),
+            tried: 0,
+            made: 0,
+            wide: 0,
+            next: 1.0,
+        })
+    }
+
+    /// Share of points under the player's errors; it flatters whoever was chosen by it.
+    pub fn rate(&self) -> f64 {
+        self.made as f64 / self.narrow().max(1) as f64
+    }
+
+    /// Attempts under the player's errors.
+    pub const fn narrow(&self) -> usize {
+        self.tried - self.tried / 4
+    }
+
+    /// Whether it has made the point every time.
+    pub const fn is_flawless(&self) -> bool {
+        self.tried > 0 && self.made + self.wide == self.tried
+    }
+
+    /// What candidates are ranked by.
+    pub fn score(&self) -> f64 {
+        let wide = self.tried / 4;
+        let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
+        (self.rate() + WORTH_OF_WIDE * share) * self.next
+    }
+}
+
+/// Sorts the best first, and keeps the first `best` and the first `of_each` of every kind. Equals stay in their order.
+pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
+    candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    let mut seen: Vec<(Kind, usize)> = Vec::new();
+    let mut place = 0;
+    candidates.retain(|candidate| {
+        let rank = if let Some((_, count)) = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind) {
+            *count += 1;
+            *count
+        } else {
+            seen.push((candidate.kind, 1));
+            1
+        };
+        place += 1;
+        place <= best || rank <= of_each
+    });
+}

@@ -1,0 +1,46 @@
+//! What the coach is asked for.
+
+use std::{
+    sync::{Arc, atomic::AtomicBool},
+    time::Duration,
+};
+
+use super::Skill;
+use crate::game::Rule;
+
+/// What the coach is asked for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who is to play the shot. For a perfect player any shot that makes the point will do, and the first is the answer;
+    /// for anybody else the whole budget goes into finding the one that this player makes most often.
+    pub skill: Skill,
+    /// Whether what comes next counts: shots are then ranked by their make probability times that of the shot after them.
+    pub plan: bool,
+    /// Time to look for a shot.
+    pub budget: Duration,
+    /// Simulations after which the search ends, or a little later: it ends between rounds.
+    pub simulations: u64,
+    /// Threads that work at it.
+    pub threads: usize,
+    /// Seed of the search: while time does not run out, the same request finds the same shot, with any number of threads.
+    pub seed: u64,
+    /// Set from another thread, it ends the search.
+    pub cancel: Arc<AtomicBool>,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self {
+            rule: Rule::default(),
+            skill: Skill::PERFECT,
+            plan: false,
+            budget: Duration::from_millis(500),
+            simulations: u64::MAX,
+            threads: super::crew::cores(),
+            seed: 0,
+            cancel: Arc::default(),
+        }
+    }
+}

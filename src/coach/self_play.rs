@@ -1,0 +1,76 @@
+//! Innings that the coach plays against nobody: its shots, played with a player's errors, until one misses.
+
+use std::{
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    Coach, Request,
+    clock::Clock,
+    errors::{self, Errors},
+    next::end_of,
+    trial::{ENDLESS, Task},
+};
+use crate::{
+    physics::CueInputs,
+    table::{Layout, LayoutError, Table},
+};
+
+/// One inning.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Inning {
+    /// Points, one a turn.
+    pub points: u32,
+    /// Whether it ended with a miss; if not, it was broken off.
+    pub missed: bool,
+    /// Shots simulated by the coach.
+    pub simulations: u64,
+    /// The longest that the coach took for a turn.
+    pub slowest: Duration,
+}
+
+/// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed every
+/// turn, and the errors of its shots are drawn from `rng`. `tell` hears of every turn.
+///
+/// # Errors
+/// Where a layout is impossible: the first one, for those that a shot leaves are possible.
+pub fn inning(
+    coach: &Coach,
+    layout: &Layout,
+    request: &Request,
+    most: u32,
+    until: Instant,
+    rng: &mut Xoshiro256PlusPlus,
+    tell: &mut dyn FnMut(&Inning),
+) -> Result<Inning, LayoutError> {
+    let mut inning = Inning::default();
+    let mut layout = *layout;
+    while inning.points < most && Instant::now() < until {
+        let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
+        let advice = coach.recommend(&layout, &request)?;
+        inning.simulations += advice.simulations;
+        inning.slowest = inning.slowest.max(advice.elapsed);
+        let end = turn(coach.table(), &layout, &request, &advice.cue, &errors::one(rng));
+        let Some(end) = end else {
+            inning.missed = true;
+            break;
+        };
+        inning.points += 1;
+        tell(&inning);
+        layout = end;
+    }
+    Ok(inning)
+}
+
+/// Plays one stroke with a player's errors: where the balls come to rest if it makes the point, else `None`.
+fn turn(table: &Table, layout: &Layout, request: &Request, cue: &CueInputs, errors: &Errors) -> Option<Layout> {
+    // Nothing breaks a stroke off that has been made.
+    let (always, never) = (Duration::MAX, AtomicBool::new(false));
+    let clock = Clock::start(always, u64::MAX, &never);
+    let Request { rule, skill, .. } = *request;
+    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: ENDLESS };
+    end_of(&task, &skill.stroke(table.radius, cue, errors))
+}

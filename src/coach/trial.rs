@@ -1,0 +1,120 @@
+//! One stroke played by a referee who looks at the clock: a shot with a stiff contact can take seconds.
+
+use std::{ops::ControlFlow, time::Instant};
+
+use super::{Skill, clock::Clock, errors::Errors};
+use crate::{
+    game::{Referee, Rule, Tally},
+    physics::{CueInputs, strike},
+    simulation::{Event, EventKind, Observer, Patience, watch},
+    table::{Layout, Table},
+};
+
+/// What the cue ball has done up to the decision.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Course {
+    /// What the rules look at.
+    pub tally: Tally,
+    /// The object ball that it met first.
+    pub first: Option<usize>,
+}
+
+/// The task that shots are tried at.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// Where the balls lie.
+    pub layout: &'a Layout,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Whose strokes they are.
+    pub skill: Skill,
+    /// Counts the shots, and knows whether anybody waits.
+    pub clock: &'a Clock<'a>,
+    /// When a shot is broken off.
+    pub until: Instant,
+    /// Steps of resting contacts after which a shot is given up as a miss. Balls that press each other for so long have
+    /// lost their speed.
+    pub patience: u32,
+}
+
+/// A patience that follows every contact to its end.
+pub const ENDLESS: u32 = u32::MAX;
+
+impl Task<'_> {
+    /// Plays one stroke; `None` where time ran out before it was decided.
+    pub fn play(&self, cue: &CueInputs) -> Option<Course> {
+        let mut hurried = Hurried {
+            referee: Referee::default(),
+            first: None,
+            patience: Patience(self.patience),
+            late: false,
+            task: self,
+        };
+        watch(self.table, self.layout, &strike(self.table, cue), &mut hurried);
+        let Hurried { referee, first, late, .. } = hurried;
+        (!late).then_some(Course { tally: referee.tally, first })
+    }
+
+    /// Whether a stroke makes the point; a tip beyond the table's miscue limit makes none. `None` where time ran out.
+    pub fn makes(&self, stroke: &CueInputs) -> Option<bool> {
+        if stroke.tip_offset_squared() > self.table.miscue_limit {
+            return Some(false);
+        }
+        self.play(stroke).map(|course| course.tally.is_point(self.rule))
+    }
+
+    /// The attempts at `cue` with these errors, one after the other until time runs out: how many make the point, and how
+    /// many there were.
+    pub fn attempts(&self, cue: &CueInputs, errors: &[Errors]) -> (usize, usize) {
+        let (mut made, mut tried) = (0, 0);
+        for errors in errors {
+            if self.clock.is_past(self.until) {
+                break;
+            }
+            let Some(point) = self.makes(&self.skill.stroke(self.table.radius, cue, errors)) else { break };
+            made += usize::from(point);
+            tried += 1;
+        }
+        self.clock.count(tried as u64);
+        (made, tried)
+    }
+
+    /// How many of the attempts at `cue` with these errors make the point; `None` where time ran out before the last.
+    pub fn made(&self, cue: &CueInputs, errors: &[Errors]) -> Option<usize> {
+        let (made, tried) = self.attempts(cue, errors);
+        (tried == errors.len()).then_some(made)
+    }
+}
+
+/// A referee who gives a shot up when time is up.
+struct Hurried<'a> {
+    referee: Referee,
+    first: Option<usize>,
+    patience: Patience,
+    late: bool,
+    task: &'a Task<'a>,
+}
+
+impl Observer for Hurried<'_> {
+    const ENDS: bool = Referee::ENDS;
+
+    #[inline]
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        if self.first.is_none()
+            && let EventKind::BallBall(0, ball) = event.kind
+        {
+            self.first = Some(ball);
+        }
+        self.referee.event(event)
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        if self.task.clock.is_past(self.task.until) {
+            self.late = true;
+            return ControlFlow::Break(());
+        }
+        self.patience.step()
+    }
+}

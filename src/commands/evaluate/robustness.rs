@@ -1,0 +1,82 @@
+//! How often a player makes the shots that were chosen, on errors that the chooser never saw.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::Args;
+use crate::{
+    coach::{Skill, make_probability},
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// Independent attempts at each shot.
+const ATTEMPTS: usize = 1000;
+
+/// Two-sided 95 % of the normal distribution.
+const Z: f64 = 1.96;
+
+/// The make probability over all layouts.
+#[derive(Debug, Serialize)]
+pub struct Robustness {
+    skill: Skill,
+    /// Mean make probability.
+    make_probability: f64,
+    /// Its 95 % interval, from the spread between layouts.
+    make_interval: [f64; 2],
+    /// Mean of what the recommender itself said, where it said anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    claimed: Option<f64>,
+    /// Make probability that a tenth of the layouts stay below.
+    worst_tenth: f64,
+}
+
+/// The make probability of a shot.
+pub fn chance(args: &Args, table: &Table, layout: &Layout, skill: &Skill, cue: &CueInputs) -> f64 {
+    // Another stream than the recommender's, which has this seed too.
+    make_probability(*skill, args.rule, table, layout, cue, ATTEMPTS, !args.seed).rate
+}
+
+impl Robustness {
+    /// From the make probability on every layout; there is at least one.
+    pub fn new(skill: Skill, chances: &[f64]) -> Self {
+        let count = chances.len().max(1) as f64;
+        let mean = chances.iter().sum::<f64>() / count;
+        let variance = chances.iter().map(|chance| (chance - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+        let spread = Z * (variance / count).sqrt();
+        let mut sorted = chances.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        Self {
+            skill,
+            make_probability: mean,
+            make_interval: [(mean - spread).max(0.0), (mean + spread).min(1.0)],
+            claimed: None,
+            worst_tenth: sorted.get(sorted.len() / 10).copied().unwrap_or(0.0),
+        }
+    }
+
+    /// Takes note of what the recommender said of its shots; where it found none, that is a miss.
+    pub fn claim(&mut self, claimed: &[Option<f64>]) {
+        let said: f64 = claimed.iter().flatten().sum();
+        self.claimed = Some(said / claimed.len().max(1) as f64);
+    }
+}
+
+impl fmt::Display for Robustness {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [low, high] = self.make_interval.map(|end| 100.0 * end);
+        write!(
+            formatter,
+            "a player of skill \"{}\" makes them {:.2} % of the time (95 % interval {low:.2} to {high:.2} %), on a tenth of \
+             the layouts less than {:.1} %",
+            self.skill,
+            100.0 * self.make_probability,
+            100.0 * self.worst_tenth
+        )?;
+        match self.claimed {
+            Some(claimed) => write!(formatter, "; the recommender says {:.2} %", 100.0 * claimed),
+            None => Ok(()),
+        }
+    }
+}

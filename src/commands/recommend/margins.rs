@@ -1,0 +1,76 @@
+//! `carom recommend --margins`: how far off the shot may be, and where to aim.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::{
+    coach::{Aim, Input, Map, Margin, aim, map, margins},
+    commands::Failure,
+    game::Rule,
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// Columns and rows of a map.
+const CELLS: usize = 41;
+
+/// How far the map of the tip reaches to every side, mm.
+const TIP: f64 = 8.0;
+
+/// How far the map of direction and speed reaches to either side, degrees and m/s.
+const DIRECTION: f64 = 1.5;
+const SPEED: f64 = 1.5;
+
+/// What is said of a shot besides its inputs.
+#[derive(Serialize)]
+pub struct Margins {
+    aim: Aim,
+    /// Of a shot that makes the point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "margins")]
+    inputs: Option<[Margin; 5]>,
+    /// Over the tip's place, and over direction and speed.
+    maps: [Map; 2],
+}
+
+impl Margins {
+    /// Of one shot.
+    pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, Failure> {
+        let draw = |across, up| map(rule, table, layout, cue, across, up, CELLS);
+        Ok(Self {
+            aim: aim(table, layout, cue).map_err(Failure::wrong_input)?,
+            inputs: margins(rule, table, layout, cue),
+            maps: [
+                draw((Input::Side, TIP), (Input::Height, TIP)),
+                draw((Input::Direction, DIRECTION), (Input::Speed, SPEED)),
+            ],
+        })
+    }
+}
+
+impl fmt::Display for Margins {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Aim { ahead, behind, hit } = &self.aim;
+        write!(
+            formatter,
+            "aim from {} {:.2} to {} {:.2} diamonds",
+            behind.rail.name(),
+            behind.diamond,
+            ahead.rail.name(),
+            ahead.diamond
+        )?;
+        match hit {
+            Some(hit) => {
+                let side = if hit.side < 0.0 { "left" } else { "right" };
+                writeln!(formatter, ": hits ball {} {:.0} % full, {side} side", hit.ball, 100.0 * hit.fullness)?;
+            }
+            None => writeln!(formatter)?,
+        }
+        for Margin { input, unit, less, more } in self.inputs.iter().flatten() {
+            let end = |end: &Option<f64>| end.map_or_else(|| "any".to_owned(), |end| format!("{end:.3}"));
+            writeln!(formatter, "{:<6} {:>8} less to {:>8} more, {unit}", input.name(), end(less), end(more))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,294 @@
+//! `carom recommend`: a shot for a layout, or for a file of layouts.
+
+mod margins;
+
+use std::{
+    io::{self, Write},
+    time::{Duration, Instant},
+};
+
+use serde::{Deserialize, Serialize};
+
+use self::margins::Margins;
+use super::{
+    Failure,
+    input::{ByTable, Scene, answer_lines, note_doubts},
+    named::policy_called,
+    output::impulse_words,
+};
+use crate::{
+    coach::{Coach, Kind, Recommendation, Request, Skill, Source},
+    game::Rule,
+    learning::evaluation::SuccessRate,
+    physics::{CueInputs, strike},
+    table::{Layout, Table},
+};
+
+/// Recommend a shot for a layout, or for a file of layouts.
+#[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
+pub struct Args {
+    #[command(flatten)]
+    scene: Scene,
+    /// What counts as a point: straight, one-cushion or three-cushion.
+    #[arg(long, default_value_t = Rule::StraightRail)]
+    rule: Rule,
+    /// Who plays the shot: perfect, expert, club, beginner, or a player's own standard errors in mm, degrees and m/s like
+    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one
+    /// the first that makes the point.
+    #[arg(long, default_value_t = Skill::EXPERT)]
+    skill: Skill,
+    /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
+    #[arg(long, conflicts_with = "policy_only")]
+    plan: bool,
+    /// Say also how far off each input may be, with maps of the outcome, and where to aim.
+    #[arg(long)]
+    margins: bool,
+    /// Time to look for a shot, ms.
+    #[arg(long, default_value_t = 500, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
+    budget_ms: u64,
+    /// Simulations after which the search ends, if time has not ended it: then the answer is the same on every machine.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    simulations: Option<u64>,
+    /// Give the networks' own shot, without any simulation.
+    #[arg(long)]
+    policy_only: bool,
+    /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
+    #[arg(long, value_name = "FILE", default_value = "bundled")]
+    policy: String,
+    /// Seed of the search: while time does not run out, the same seed finds the same shot.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    /// JSON Lines of layouts with `preset`, `layout` and `rule`; "-" reads the standard input.
+    #[arg(long, value_name = "FILE", conflicts_with = "rule")]
+    batch: Option<String>,
+}
+
+/// One line of a batch.
+#[derive(Deserialize)]
+struct Question {
+    preset: String,
+    layout: Layout,
+    #[serde(default)]
+    rule: Rule,
+}
+
+/// The answer in JSON.
+#[derive(Serialize)]
+struct Answer {
+    cue: CueInputs,
+    /// Absent where nothing was simulated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    solved: Option<bool>,
+    #[serde(flatten)]
+    chance: Chance,
+    /// Of the next point, where it was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    next_probability: Option<f64>,
+    source: Source,
+    #[serde(flatten)]
+    sort: Sort,
+    simulations: u64,
+    elapsed_ms: f64,
+    alternatives: Vec<Alternative>,
+    /// Where they were asked for.
+    #[serde(flatten)]
+    margins: Option<Margins>,
+}
+
+#[derive(Serialize)]
+struct Alternative {
+    cue: CueInputs,
+    #[serde(flatten)]
+    chance: Chance,
+    source: Source,
+    #[serde(flatten)]
+    sort: Sort,
+}
+
+/// How often the player makes it; empty where that is not known.
+#[derive(Default, Serialize)]
+struct Chance {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make_probability: Option<f64>,
+    /// The 95 % interval.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    make_interval: Option<[f64; 2]>,
+}
+
+impl From<Option<SuccessRate>> for Chance {
+    fn from(rate: Option<SuccessRate>) -> Self {
+        Self { make_probability: rate.map(|rate| rate.rate), make_interval: rate.map(|rate| [rate.low, rate.high]) }
+    }
+}
+
+/// What sort of shot it is; empty where that is not known.
+#[derive(Default, Serialize)]
+struct Sort {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind: Option<Kind>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    description: Option<String>,
+}
+
+impl From<Option<Kind>> for Sort {
+    fn from(kind: Option<Kind>) -> Self {
+        Self { kind, description: kind.map(|kind| kind.to_string()) }
+    }
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(file) = &args.batch {
+        let mut coaches = ByTable::new(|table| coach_for(table, &args.policy));
+        return answer_lines(file, |question: Question| {
+            answer(args, coaches.get(&question.preset)?, &question.layout, question.rule)
+        });
+    }
+    let (table, layout) = args.scene.read()?;
+    let coach = coach_for(table, &args.policy)?;
+    let answer = answer(args, &coach, &layout, args.rule)?;
+    let mut out = io::stdout().lock();
+    if args.json {
+        serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?;
+        writeln!(out)?;
+    } else {
+        describe(&mut out, args, coach.table(), &answer)?;
+    }
+    if answer.solved == Some(false) {
+        return Err(Failure::failed(format_args!(
+            "no point was found in {} ms; this is the best attempt, a larger --budget-ms may do",
+            args.budget_ms
+        )));
+    }
+    Ok(())
+}
+
+/// The coach for `table` with the bundled policy, or with that of a file.
+pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
+    let coach = Coach::new(table).map_err(Failure::failed)?;
+    if policy == "bundled" {
+        return Ok(coach);
+    }
+    Ok(coach.with_policy(policy_called(policy).map_err(Failure::failed)?))
+}
+
+fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
+    let mut answer = shot(args, coach, layout, rule)?;
+    if args.margins {
+        answer.margins = Some(Margins::of(rule, coach.table(), layout, &answer.cue)?);
+    }
+    Ok(answer)
+}
+
+fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
+    if args.policy_only {
+        layout.validate(coach.table()).map_err(Failure::wrong_input)?;
+        let start = Instant::now();
+        let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
+        note_doubts(policy, coach.table(), Some(rule));
+        let cue = policy.propose(coach.table(), layout);
+        return Ok(Answer {
+            cue,
+            solved: None,
+            chance: Chance::default(),
+            next_probability: None,
+            source: Source::Policy,
+            sort: Sort::default(),
+            simulations: 0,
+            elapsed_ms: 1e3 * start.elapsed().as_secs_f64(),
+            alternatives: Vec::new(),
+            margins: None,
+        });
+    }
+    let request = Request {
+        rule,
+        skill: args.skill,
+        plan: args.plan,
+        budget: Duration::from_millis(args.budget_ms),
+        simulations: args.simulations.unwrap_or(u64::MAX),
+        seed: args.seed,
+        ..Request::default()
+    };
+    coach.recommend(layout, &request).map(Answer::from).map_err(Failure::wrong_input)
+}
+
+fn no_policy(table: &Table) -> Failure {
+    Failure::wrong_input(format_args!(
+        "no policy is bundled for this table \"{}\"; leave out --policy-only, or give --policy FILE",
+        table.name
+    ))
+}
+
+impl From<Recommendation> for Answer {
+    fn from(advice: Recommendation) -> Self {
+        let alternatives = advice.alternatives.into_iter().map(|shot| Alternative {
+            cue: shot.cue,
+            chance: shot.make_probability.into(),
+            source: shot.source,
+            sort: Some(shot.kind).into(),
+        });
+        Self {
+            cue: advice.cue,
+            solved: Some(advice.solved),
+            chance: advice.make_probability.into(),
+            next_probability: advice.next_probability,
+            source: advice.source,
+            sort: advice.kind.into(),
+            simulations: advice.simulations,
+            elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
+            alternatives: alternatives.collect(),
+            margins: None,
+        }
+    }
+}
+
+/// The recommendation for people to read.
+fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -> io::Result<()> {
+    let CueInputs { a, b, theta, phi, speed } = answer.cue;
+    let side = match a {
+        a if a > 0.0 => " (left of centre)",
+        a if a < 0.0 => " (right of centre)",
+        _ => "",
+    };
+    writeln!(out, "a      {a:>8.3} R{side}")?;
+    writeln!(out, "b      {b:>8.3} R")?;
+    writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
+    writeln!(out, "phi    {:>8.3} degrees", phi.to_degrees())?;
+    writeln!(out, "V      {speed:>8.3} m/s")?;
+    writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
+    match answer.solved {
+        Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
+        Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
+        None => writeln!(out, "the networks' own shot, not simulated")?,
+    }
+    if let Some(next) = answer.next_probability {
+        writeln!(out, "after it the next point is made {:.1} % of the time", 100.0 * next)?;
+    }
+    if let Some(margins) = &answer.margins {
+        write!(out, "{margins}")?;
+    }
+    for Alternative { cue, chance, sort, .. } in &answer.alternatives {
+        let CueInputs { a, b, theta, phi, speed } = *cue;
+        let (theta, phi) = (theta.to_degrees(), phi.to_degrees());
+        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi:.3},{speed:.3}: {}", words(sort, chance, args))?;
+    }
+    writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
+}
+
+/// What sort of shot, and how often the player makes it.
+fn words(sort: &Sort, chance: &Chance, args: &Args) -> String {
+    let description = sort.description.as_deref().unwrap_or_default();
+    match (chance.make_probability, chance.make_interval) {
+        (Some(rate), Some([low, high])) => format!(
+            "{description}; a player of skill \"{}\" makes it {:.1} % of the time ({:.1} to {:.1} %)",
+            args.skill,
+            100.0 * rate,
+            100.0 * low,
+            100.0 * high
+        ),
+        _ => description.to_owned(),
+    }
+}
