@@ -23,10 +23,13 @@ pub struct Mark {
 pub struct Hit {
     /// The object ball, 1 or 2.
     pub ball: usize,
-    /// How much of it is covered as the cue ball comes on: 1 is head-on, 0 a graze.
+    /// Where the cue ball's centre is then, m.
+    #[serde(skip)]
+    pub place: DVec2,
+    /// How much of the object ball is covered as the cue ball comes on: 1 is head-on, 0 a graze.
     pub fullness: f64,
-    /// Which half of it is hit, as the cue ball comes on: positive is the right one.
-    pub side: f64,
+    /// Whether it is its left half that is hit, as the cue ball comes on.
+    pub left: bool,
 }
 
 /// The aim of a stroke.
@@ -47,7 +50,11 @@ pub struct Aim {
 pub fn aim(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Aim, ShotError> {
     let recording = Recording::new(table, layout, cue)?;
     let [from, direction] = [layout.balls[0], DVec2::from_angle(cue.phi)];
-    Ok(Aim { ahead: mark(table, from, direction), behind: mark(table, from, -direction), hit: hit(table, &recording) })
+    Ok(Aim {
+        ahead: mark(table, from, direction),
+        behind: mark(table, from, -direction),
+        hit: first_hit(table, &recording),
+    })
 }
 
 /// Where the line from a place on the table in a direction meets the noses of the cushions.
@@ -68,7 +75,8 @@ fn mark(table: &Table, from: DVec2, direction: DVec2) -> Mark {
     Mark { rail, diamond: along / table.diamond() }
 }
 
-fn hit(table: &Table, recording: &Recording) -> Option<Hit> {
+/// How the cue ball meets the first object ball of a recorded shot; `None` where it meets none.
+pub fn first_hit(table: &Table, recording: &Recording) -> Option<Hit> {
     let (time, ball) = recording.events().iter().find_map(|event| match event.kind {
         EventKind::BallBall(0, ball) => Some((event.time, ball)),
         _ => None,
@@ -81,7 +89,7 @@ fn hit(table: &Table, recording: &Recording) -> Option<Hit> {
     let line =
         (place - recording.state(0, before).position).normalize_or(recording.impulse().velocity.normalize_or_zero());
     let offset = line.perp_dot(towards) / (2.0 * table.radius);
-    Some(Hit { ball, fullness: (1.0 - offset.abs()).max(0.0), side: if offset < 0.0 { -1.0 } else { 1.0 } })
+    Some(Hit { ball, place, fullness: (1.0 - offset.abs()).max(0.0), left: offset < 0.0 })
 }
 
 #[cfg(test)]
@@ -111,6 +119,6 @@ mod tests {
         let layout = Layout::parse("-0.7,0 0,-0.03075 0.9,0.5", &table).unwrap();
         let hit = aim(&table, &layout, &CueInputs::parse("0,0,0,0,3").unwrap()).unwrap().hit.unwrap();
         assert_eq!(hit.ball, 1);
-        assert!((hit.fullness - 0.5).abs() < 0.01 && hit.side < 0.0, "{hit:?}");
+        assert!((hit.fullness - 0.5).abs() < 0.01 && hit.left, "{hit:?}");
     }
 }

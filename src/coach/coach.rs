@@ -84,7 +84,8 @@ impl Coach {
         self.policy(rule).map(|policy| policy.propose(&self.table, layout))
     }
 
-    /// Looks for the shot that the player makes most often, or with [`Request::plan`] that leaves him best off. The shot never oversteps the table's miscue limit.
+    /// Looks for the shot that the player makes most often, or with [`Request::plan`] the one after which the next is
+    /// easiest too. The shot never oversteps the table's miscue limit.
     ///
     /// # Errors
     /// Where the layout is impossible.

@@ -1,9 +1,9 @@
 //! Standard normal errors of the five cue inputs: spread evenly for comparing shots, independent for judging one.
 
-use std::f64::consts::TAU;
-
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+
+use crate::learning::normal_pair;
 
 /// Errors in a, b, theta, phi and V, in units of the player's standard errors.
 pub type Errors = [f64; 5];
@@ -32,7 +32,7 @@ fn radical_inverse(mut n: u32, base: u32) -> f64 {
     value
 }
 
-/// `count` independent errors, by Box and Muller (1958). For judging a shot: the interval of a share of successes
+/// `count` independent errors. For judging a shot: the interval of a share of successes
 /// supposes independent attempts.
 pub fn independent(count: usize, seed: u64) -> Vec<Errors> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
@@ -46,8 +46,7 @@ pub fn one(rng: &mut Xoshiro256PlusPlus) -> Errors {
 
 /// A standard normal number.
 pub fn normal(rng: &mut Xoshiro256PlusPlus) -> f64 {
-    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-    radius * (TAU * rng.random::<f64>()).cos()
+    normal_pair(rng)[0]
 }
 
 /// The standard normal number below which a share `p` lies, by Acklam's rational approximation (2003), whose relative

@@ -23,7 +23,7 @@ mod tests;
 mod trial;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
-pub use aim::{Aim, Hit, Mark, aim};
+pub use aim::{Aim, Hit, Mark, aim, first_hit};
 pub use coach::{Coach, make_probability};
 pub use kind::{Kind, Pace, Way};
 pub use margins::{Input, Map, Margin, Outcome, map, margins, outcome};

@@ -12,12 +12,18 @@ use super::{
 };
 use crate::physics::CueInputs;
 
-/// Errors of the contest, for those who get furthest.
-const MOST_ERRORS: usize = 768;
+/// Errors at which shots are tried, each time only those that are still among the better ones: two looks at what the net
+/// has caught, then the stages of the refinement.
+const LOOKS: [usize; 5] = [8, 32, 96, 256, 768];
+const FIRST_LOOK: usize = LOOKS[0];
+const SECOND_LOOK: usize = LOOKS[1];
+const THIRD_LOOK: usize = LOOKS[2];
+const FOURTH_LOOK: usize = LOOKS[3];
+const MOST_ERRORS: usize = LOOKS[4];
 
 /// Errors in each stage of the refinement, the share of it at which the stage begins at the latest, and the neighbours of
 /// each leader that are tried in a round.
-const STAGES: [(usize, f64, usize); 3] = [(96, 0.0, 10), (256, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
+const STAGES: [(usize, f64, usize); 3] = [(THIRD_LOOK, 0.0, 10), (FOURTH_LOOK, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
 
 /// Share of the budget after which the net is hauled in, the refinement ends. What is left is for judging the answer.
 const NET_ENDS: f64 = 0.3;
@@ -26,10 +32,6 @@ const REFINEMENT_ENDS: f64 = 0.88;
 /// Shots of the net's first round; each later one has twice as many, up to [`LARGEST_CAST`].
 const FIRST_CAST: usize = 512;
 const LARGEST_CAST: usize = 4096;
-
-/// Errors by which a shot of the net is first judged, and then if it is among the better ones.
-const FIRST_LOOK: usize = 8;
-const SECOND_LOOK: usize = 32;
 
 /// Shots that leave the net, and then the contest, besides the best of each kind.
 const HAUL: usize = 128;
@@ -112,7 +114,7 @@ impl<'a> Search<'a> {
 
     /// Tries the best at more errors, the best of those at more still.
     fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
-        for (errors, best) in [(SECOND_LOOK, 64), (96, LEADERS)] {
+        for (errors, best) in [(SECOND_LOOK, 64), (THIRD_LOOK, LEADERS)] {
             keep(&mut self.pool, 2 * best, OF_EACH_KIND);
             self.pool = self.contested(&self.pool, errors);
             if self.plan && errors == SECOND_LOOK {
@@ -163,32 +165,32 @@ impl<'a> Search<'a> {
                     tries.push((*parent, neighbour(self.task.table, &parent.shot.cue, scale, &mut self.rng)));
                 }
             }
-            let (task, contest, plan) = (&self.task, &self.contest, self.plan);
-            let found = crew::map(self.threads, &tries, |(parent, cue)| {
-                if task.clock.is_past(task.until) {
-                    return None;
-                }
-                let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
-                let mut candidate = Candidate::new(task, task.rule, *cue, source)?;
-                // Until it is known, what comes next is what comes after the parent.
-                candidate.next = parent.next;
-                for look in [FIRST_LOOK, SECOND_LOOK, 96, 256, MOST_ERRORS] {
-                    if look > errors
-                        || candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried)
-                    {
-                        break;
-                    }
-                    candidate = contest.go_on(task, &candidate, look)?;
-                    if plan && look == SECOND_LOOK {
-                        candidate = contest.look_ahead(task, &candidate)?;
-                    }
-                }
-                (candidate.tried == errors).then_some(candidate)
-            });
+            let found = crew::map(self.threads, &tries, |(parent, cue)| self.beside(parent, *cue, errors));
             self.pool.extend(found.into_iter().flatten());
             keep(&mut self.pool, LEADERS, 1);
             self.tell(tell);
         }
+    }
+
+    /// A neighbour of a leader, tried at so many errors; `None` where it falls behind, or time runs out.
+    fn beside(&self, parent: &Candidate, cue: CueInputs, errors: usize) -> Option<Candidate> {
+        let Self { task, contest, .. } = self;
+        if task.clock.is_past(task.until) {
+            return None;
+        }
+        let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
+        // Until it is known, what comes next is what comes after the parent.
+        let mut candidate = Candidate { next: parent.next, ..Candidate::new(task, task.rule, cue, source)? };
+        for look in LOOKS.into_iter().take_while(|look| *look <= errors) {
+            if candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried) {
+                return None;
+            }
+            candidate = contest.go_on(task, &candidate, look)?;
+            if self.plan && look == SECOND_LOOK {
+                candidate = contest.look_ahead(task, &candidate)?;
+            }
+        }
+        (candidate.tried == errors).then_some(candidate)
     }
 
     fn tell(&self, tell: &mut dyn FnMut(&Candidate)) {

@@ -5,6 +5,7 @@ use std::{
     time::Duration,
 };
 
+use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::Failure;
@@ -73,15 +74,7 @@ fn words(figure: &Figure) -> String {
 
 /// A number with thousands set apart.
 fn grouped(number: f64) -> String {
-    let digits = format!("{number:.0}");
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
+    HumanCount(number.round() as u64).to_string().replace(',', " ")
 }
 
 #[cfg(test)]

@@ -6,7 +6,10 @@ use serde::Serialize;
 
 use crate::{
     game::Reward,
-    learning::policy::{Policy, Proposal},
+    learning::{
+        ddpg::practice::PATIENCE,
+        policy::{Policy, Proposal},
+    },
     table::{Layout, Table},
 };
 
@@ -56,10 +59,6 @@ impl SuccessRate {
     }
 }
 
-/// Steps of a resting contact after which a proposal that is not chosen counts as a miss: on the `thesis` table a few of
-/// them would take all the time of a measurement, and next to none of those earn anything ([`Reward::within`]).
-const PATIENCE: u32 = 20;
-
 /// What a policy earned on a set of layouts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Score {
@@ -79,6 +78,7 @@ pub fn score(policy: &Policy, table: &Table, reward: Reward, layouts: &[Layout])
             let first = reward.of(table, layout, &proposals[0].cue);
             total += first;
             let made = |earned: f64| earned >= 1.0;
+            // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
             let value = |proposal: &Proposal| reward.within(table, layout, &proposal.cue, PATIENCE);
             let rest = || proposals[1..].iter().any(|proposal| made(value(proposal)));
             reached += usize::from(made(first) || rest());

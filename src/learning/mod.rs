@@ -11,10 +11,12 @@ pub mod ddpg;
 pub mod evaluation;
 pub mod learner;
 pub mod network;
+mod normal;
 pub mod policy;
 pub mod run;
 pub mod settings;
 pub mod thesis;
 
 pub use calendar::timestamp;
+pub use normal::normal_pair;
 pub use policy::{Policy, Proposal, file::PolicyError};

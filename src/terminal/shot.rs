@@ -4,8 +4,9 @@ use glam::DVec2;
 
 use super::words::BALL_NAMES;
 use crate::{
+    coach::{Hit, first_hit},
     physics::{CueInputs, Impulse},
-    simulation::{EventKind, Recording, ShotError},
+    simulation::{Recording, ShotError},
     table::{BALLS, Layout, Table},
 };
 
@@ -21,19 +22,6 @@ pub struct Dot {
     pub time: f64,
     /// Where, m.
     pub place: DVec2,
-}
-
-/// How the cue ball meets the first object ball.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
-    /// The object ball.
-    pub ball: usize,
-    /// Where the cue ball's centre is then, m.
-    pub place: DVec2,
-    /// How much of the object ball is covered as the cue ball comes on: 1 is head-on, 0 a graze.
-    pub fullness: f64,
-    /// Whether it is the object ball's left half that is hit, as the cue ball comes on.
-    pub left: bool,
 }
 
 /// A shot ready to be shown and played.
@@ -52,7 +40,7 @@ pub struct Shot {
     /// The dots of the three balls' paths.
     pub paths: [Vec<Dot>; BALLS],
     /// The first contact of the cue ball with an object ball.
-    pub contact: Option<Contact>,
+    pub contact: Option<Hit>,
 }
 
 impl Shot {
@@ -74,7 +62,7 @@ impl Shot {
             solved,
             source: source.into(),
             paths: std::array::from_fn(|ball| dots(&recording, ball)),
-            contact: first_contact(&recording, 2.0 * table.radius),
+            contact: first_hit(table, &recording),
             recording,
         })
     }
@@ -105,22 +93,6 @@ fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
         }
     }
     dots
-}
-
-fn first_contact(recording: &Recording, two_radii: f64) -> Option<Contact> {
-    let (time, ball) = recording.events().iter().find_map(|event| match event.kind {
-        EventKind::BallBall(0, ball) => Some((event.time, ball)),
-        _ => None,
-    })?;
-    let place = recording.state(0, time).position;
-    let towards = recording.state(ball, time).position - place;
-    // Just before the impact: at its time the recording already holds the velocities after it.
-    let before = (0.999 * time).max(time - 1e-4);
-    // A ball that touches from the start is met in the direction of the stroke.
-    let line =
-        (place - recording.state(0, before).position).normalize_or(recording.impulse().velocity.normalize_or_zero());
-    let offset = line.perp_dot(towards) / two_radii;
-    Some(Contact { ball, place, fullness: (1.0 - offset.abs()).max(0.0), left: offset < 0.0 })
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Numbers and events in the words of a player.
 
+use indicatif::HumanCount;
+
 use crate::{
     simulation::{EventKind, Rail},
     table::BALLS,
@@ -43,15 +45,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 
 /// A whole number with its thousands set off, like 1,234,567.
 pub fn count(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (n, digit) in digits.chars().enumerate() {
-        if n > 0 && (digits.len() - n).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
+    HumanCount(number).to_string()
 }
 
 /// A whole number in few columns, like 950, 12.5k, 1.2M.

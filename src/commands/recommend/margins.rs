@@ -62,7 +62,7 @@ impl fmt::Display for Margins {
         )?;
         match hit {
             Some(hit) => {
-                let side = if hit.side < 0.0 { "left" } else { "right" };
+                let side = if hit.left { "left" } else { "right" };
                 writeln!(formatter, ": hits ball {} {:.0} % full, {side} side", hit.ball, 100.0 * hit.fullness)?;
             }
             None => writeln!(formatter)?,

@@ -4,6 +4,7 @@ use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
 use super::action::{Action, ActionSpace};
+use crate::learning::normal_pair;
 
 /// How far the agent strays from its own choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,20 +34,12 @@ impl Exploration {
             let scale = self.noise[rng.random_range(0..self.noise.len())];
             for pair in used.chunks_mut(2) {
                 for (value, noise) in pair.iter_mut().zip(normal_pair(rng)) {
-                    *value = (*value + scale * noise).clamp(-1.0, 1.0);
+                    *value = (*value + scale * noise as f32).clamp(-1.0, 1.0);
                 }
             }
         }
         action
     }
-}
-
-/// Two independent standard normal numbers (Box and Muller).
-fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f32; 2] {
-    // 1 - u lies above 0, where the logarithm is finite.
-    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-    let (sin, cos) = (std::f64::consts::TAU * rng.random::<f64>()).sin_cos();
-    [(radius * cos) as f32, (radius * sin) as f32]
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ pub mod hindsight;
 pub mod hyperparameters;
 pub mod learner;
 pub mod networks;
-mod practice;
+pub(super) mod practice;
 pub mod replay;
 pub mod scenes;
 pub mod snapshot;

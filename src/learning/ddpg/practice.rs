@@ -19,7 +19,7 @@ use crate::table::Layout;
 /// Steps of resting contacts that are followed in practice; a shot that needs more counts for what it has earned so far.
 /// Of 12,000 shots at a ball on the `thesis` table all but one earned the same as when followed to the end, in a
 /// twentieth of the time.
-const PATIENCE: u32 = 20;
+pub const PATIENCE: u32 = 20;
 
 impl Trainer {
     /// Plays the shots of one turn, each on a fresh layout, and returns their mean reward.

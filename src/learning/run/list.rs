@@ -111,7 +111,7 @@ pub struct Summary {
 /// # Errors
 /// Whatever the file system reports of the folder.
 pub fn runs_in(folder: &Path) -> io::Result<Listing> {
-    RunList::new(folder).look()
+    RunsFolder::new(folder).look()
 }
 
 /// The runs in a folder.
@@ -131,7 +131,7 @@ impl From<Vec<Summary>> for Listing {
 
 /// The runs in a folder, looked at again and again: metrics are read only where they have changed.
 #[derive(Debug)]
-pub struct RunList {
+pub struct RunsFolder {
     folder: PathBuf,
     known: HashMap<PathBuf, (Option<Stamp>, Rewards)>,
 }
@@ -144,7 +144,7 @@ struct Rewards {
     shots: u64,
 }
 
-impl RunList {
+impl RunsFolder {
     /// Of the runs in `folder`.
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), known: HashMap::new() }

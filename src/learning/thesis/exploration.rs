@@ -1,11 +1,10 @@
 //! How the thesis' agents try what they would not choose: epsilon-greedy (4.2.1) and Ornstein-Uhlenbeck noise.
 
-use std::f64::consts::TAU;
-
-use rand::{Rng, RngExt};
+use rand::Rng;
 use serde::{Deserialize, Serialize};
 
 use super::environment::{ACTIONS, Action};
+use crate::learning::normal_pair;
 
 /// The probability of a random action, which falls in a straight line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,18 +50,10 @@ impl OrnsteinUhlenbeck {
     /// The next value after `now`.
     pub fn step(&self, now: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
         let push = (self.sigma * self.dt.sqrt()) as f32;
-        let noise = normal_pair(rng);
+        let noise = normal_pair(rng).map(|noise| noise as f32);
         let kept = (1.0 - self.theta * self.dt) as f32;
         std::array::from_fn::<f32, ACTIONS, _>(|index| kept * now[index] + push * noise[index])
     }
-}
-
-/// Two independent standard normal numbers (Box and Muller).
-fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f32; 2] {
-    // 1 - u lies above 0, where the logarithm is finite.
-    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-    let (sin, cos) = (TAU * rng.random::<f64>()).sin_cos();
-    [(radius * cos) as f32, (radius * sin) as f32]
 }
 
 #[cfg(test)]

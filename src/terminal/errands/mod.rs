@@ -17,7 +17,7 @@ use crate::{
         POLICY,
         examples::Examples,
         follow::Follower,
-        list::{Listing, RunList},
+        list::{Listing, RunsFolder},
         request::Request,
     },
     table::Table,
@@ -141,7 +141,7 @@ impl Errands {
 
 /// Lists the runs, and reports where anything has changed.
 fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
-    let (mut runs, mut before) = (RunList::new(&folder), None);
+    let (mut runs, mut before) = (RunsFolder::new(&folder), None);
     move || {
         let found = match runs.look() {
             // Nothing has ever been trained.

@@ -195,7 +195,7 @@ impl Follower {
     fn trouble_of_metrics(&self, look: io::Result<Look>) -> Option<String> {
         let read = self.signs.shots.unwrap_or(0);
         // A line may be on its way, and another one due.
-        let is_behind = self.log_every > 0 && self.said > read + 3 * self.log_every;
+        let is_behind = self.log_every > 0 && self.said > read.saturating_add(self.log_every.saturating_mul(3));
         match look {
             Err(error) => Some(format!("{METRICS} cannot be read: {error}; what was read before is still shown")),
             Ok(Look::Missing) if self.lines > 0 => {
