@@ -17,6 +17,10 @@ use crate::terminal::{
 /// Radius of the tip's contact as it is drawn, in ball radii; a real one is smaller than a sub-pixel.
 const TIP_RADIUS: f64 = 0.17;
 
+/// Weight of the tip in a cell that it shares with both parts of the face: more than five sub-pixels of theirs, or the spot
+/// would lose a piece and fall apart.
+const TIP_WEIGHT: u8 = 16;
+
 /// Draws the panel.
 pub fn draw_tip(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
@@ -56,7 +60,7 @@ fn draw_blocks(app: &App, face: Rect, buffer: &mut Buffer) {
                 column,
                 row,
                 match () {
-                    () if on_tip => ink(theme.tip, 8),
+                    () if on_tip => ink(theme.tip, TIP_WEIGHT),
                     () if radius > limit => ink(theme.miscue, 3),
                     () => ink(theme.face, 3),
                 },
