@@ -2,10 +2,11 @@
 //!
 //! The rooms, from the ground up; each may use those above it, never those below: [`table`] what is played on,
 //! [`storage`] files, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents,
-//! [`coach`] recommendations, [`study`] the program measuring itself, [`terminal`] screens, [`commands`] the command line.
+//! [`coach`] recommendations, [`drills`] practice, [`study`] the program measuring itself, [`terminal`] screens, [`commands`] the command line.
 
 pub mod coach;
 pub mod commands;
+pub mod drills;
 pub mod game;
 pub mod learning;
 pub mod physics;

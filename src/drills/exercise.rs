@@ -1,0 +1,153 @@
+//! A position to practise: where the balls lie, what counts, and what is to be learnt from it.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    game::Rule,
+    physics::CueInputs,
+    table::{Layout, LayoutError, Table, TableError},
+};
+
+/// What an exercise is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Category {
+    /// Plain caroms from one ball to the other.
+    FirstCaroms,
+    /// The cue ball comes back from the first ball.
+    Draw,
+    /// It runs on after it.
+    Follow,
+    /// Side spin (english) makes the point.
+    Side,
+    /// A cushion before the second ball.
+    OneCushion,
+    /// The balls stay or come together (rappel).
+    Gather,
+    /// The patterns of three-cushion.
+    ThreeCushion,
+    /// Somebody's own position.
+    Own,
+}
+
+impl Category {
+    /// All of them, in the order of the library.
+    pub const ALL: [Self; 8] = [
+        Self::FirstCaroms,
+        Self::Draw,
+        Self::Follow,
+        Self::Side,
+        Self::OneCushion,
+        Self::Gather,
+        Self::ThreeCushion,
+        Self::Own,
+    ];
+
+    /// Name on the command line and in JSON.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FirstCaroms => "first-caroms",
+            Self::Draw => "draw",
+            Self::Follow => "follow",
+            Self::Side => "side",
+            Self::OneCushion => "one-cushion",
+            Self::Gather => "gather",
+            Self::ThreeCushion => "three-cushion",
+            Self::Own => "own",
+        }
+    }
+
+    /// Heading on the screen.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::FirstCaroms => "First caroms",
+            Self::Draw => "Draw",
+            Self::Follow => "Follow",
+            Self::Side => "Side",
+            Self::OneCushion => "One cushion",
+            Self::Gather => "Gather and rappel",
+            Self::ThreeCushion => "Three-cushion patterns",
+            Self::Own => "Your own",
+        }
+    }
+}
+
+impl fmt::Display for Category {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+/// How often players of the named skills make the exercise's own shot, shares from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Par {
+    /// A beginner.
+    pub beginner: f64,
+    /// A club player.
+    pub club: f64,
+    /// An expert.
+    pub expert: f64,
+}
+
+/// A position to practise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Exercise {
+    /// What it is called on the command line and in files: letters, digits, `-`, `_` and `.`, unique in the library.
+    pub name: String,
+    /// Its heading, some words.
+    pub title: String,
+    /// What it is about.
+    pub category: Category,
+    /// How hard it is: 1 the easiest, 5 the hardest; 0 where nobody has measured it.
+    #[serde(default)]
+    pub grade: u8,
+    /// What counts as a point.
+    #[serde(default)]
+    pub rule: Rule,
+    /// The bundled table that it is for, by name.
+    #[serde(default = "match_table")]
+    pub table: String,
+    /// Where the balls lie, m.
+    pub layout: Layout,
+    /// What is to be learnt, a sentence or two to the player.
+    #[serde(default)]
+    pub point: String,
+    /// Words to find it by.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tags: Vec<String>,
+    /// A shot that makes the point in the way that is to be learnt.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shot: Option<CueInputs>,
+    /// How often players make that shot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub par: Option<Par>,
+}
+
+fn match_table() -> String {
+    "match".to_owned()
+}
+
+/// Why an exercise cannot be played.
+#[derive(Debug, thiserror::Error)]
+pub enum ExerciseError {
+    /// Its table is none that is bundled.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// Its layout is impossible.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+}
+
+impl Exercise {
+    /// Its table.
+    ///
+    /// # Errors
+    /// A name that is not bundled, or a layout that is impossible on that table.
+    pub fn table(&self) -> Result<Table, ExerciseError> {
+        let table = Table::preset(&self.table)?;
+        self.layout.validate(&table)?;
+        Ok(table)
+    }
+}
