@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{errors::Errors, position::ease, trial::Task};
+use super::{Ease, errors::Errors, trial::Task};
 use crate::{
     game::Tally,
     physics::{CueInputs, strike},
@@ -22,7 +22,7 @@ pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> 
             return None;
         }
         if let Some(end) = end_of(task, &task.skill.stroke(task.table.radius, cue, errors)) {
-            sum += ease(task.rule, task.table, &end);
+            sum += Ease::under(task.rule).probability(task.table, &end);
             made += 1;
         }
     }

@@ -33,7 +33,8 @@ pub struct Inning {
 }
 
 /// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed every
-/// turn, and the errors of its shots are drawn from `rng`. `tell` hears of every turn.
+/// turn, and the errors of its shots are drawn from `rng`. `tell` hears of every point and where it
+/// leaves the balls.
 ///
 /// # Errors
 /// Where a layout is impossible: the first one, for those that a shot leaves are possible.
@@ -44,7 +45,7 @@ pub fn inning(
     most: u32,
     until: Instant,
     rng: &mut Xoshiro256PlusPlus,
-    tell: &mut dyn FnMut(&Inning),
+    tell: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
     let mut inning = Inning::default();
     let mut layout = *layout;
@@ -59,8 +60,8 @@ pub fn inning(
             break;
         };
         inning.points += 1;
-        tell(&inning);
         layout = end;
+        tell(&inning, &layout);
     }
     Ok(inning)
 }

@@ -158,7 +158,7 @@ fn a_player_without_errors_never_misses() {
     let request = Request { skill: Skill::PERFECT, ..request(Rule::OneCushion, u64::MAX) };
     let until = std::time::Instant::now() + Duration::from_secs(60);
     let layout = Layout::opening(coach.table());
-    let played = inning(&coach, &layout, &request, 20, until, &mut rng, &mut |_| {}).unwrap();
+    let played = inning(&coach, &layout, &request, 20, until, &mut rng, &mut |_, _| {}).unwrap();
     assert_eq!((played.points, played.missed), (20, false));
 }
 

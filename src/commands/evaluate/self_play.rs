@@ -14,7 +14,7 @@ use crate::{
     coach::{Inning, Skill, inning},
     commands::{Failure, output::tell, recommend::coach_for},
     learning::evaluation::{SuccessRate, held_out_layouts},
-    table::Table,
+    table::{Layout, Table},
 };
 
 /// Longest play where no limit is given: a hundred years' worth of nobody waiting.
@@ -64,7 +64,7 @@ pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
             break;
         }
         let number = innings.len() + 1;
-        let mut say = |so_far: &Inning| {
+        let mut say = |so_far: &Inning, _: &Layout| {
             if so_far.points.is_multiple_of(PROGRESS) {
                 tell(format_args!("inning {number}: {} points", so_far.points));
             }

@@ -1,0 +1,104 @@
+//! Fits the weights by which the coach tells easy layouts from hard ones (`src/coach/ease`), and says how well they do.
+//!
+//! `cargo run --release --example ease -- 2000` plays innings on `match` until 2,000 layouts a rule are gathered, finds out of
+//! each how often a player of two and a half times an expert's errors misses it with the shot of a short search, fits half
+//! of them and measures the fit on the other half. The searches end by simulations, so that the weights are the same on every
+//! machine whose networks round alike.
+
+use std::{
+    env,
+    error::Error,
+    time::{Duration, Instant},
+};
+
+use carom::{
+    coach::{Coach, Ease, Inning, Request, Sample, Skill, inning},
+    game::Rule,
+    learning::evaluation::held_out_layouts,
+    table::{Layout, Table},
+};
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// Other layouts and errors than those that the coach is measured on.
+const SEED: u64 = 20_261;
+
+/// Simulations of a search: a tenth of a second.
+const SIMULATIONS: u64 = 20_000;
+
+/// Points after which an inning is broken off, so that no endless run of easy layouts fills the sample.
+const MOST_POINTS: u32 = 12;
+
+/// Longer than anybody waits.
+const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let count: usize = env::args().nth(1).ok_or("say how many layouts a rule: ease 2000")?.parse()?;
+    let coach = Coach::new(Table::default())?;
+    for rule in Rule::ALL {
+        let layouts = gather(&coach, rule, count)?;
+        let samples = layouts.iter().map(|layout| sample(&coach, layout, rule)).collect::<Result<Vec<_>, _>>()?;
+        let (ours, others) = samples.split_at(samples.len() / 2);
+        let fit = Ease::fit(coach.table(), ours);
+        println!(
+            "{rule}: weights {:?}, power {:.2}",
+            fit.weights.map(|weight| (1e4 * weight).round() / 1e4),
+            fit.power
+        );
+        for (name, ease) in [("fitted", fit), ("in use", Ease::under(rule))] {
+            println!("  {name}");
+            report(coach.table(), ease, others);
+        }
+    }
+    Ok(())
+}
+
+/// Layouts as an expert meets them: those that innings begin with, and those that the shots leave.
+fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dyn Error>> {
+    let request = Request { rule, plan: true, ..request(Skill::EXPERT) };
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
+    let mut layouts = Vec::new();
+    for first in held_out_layouts(coach.table(), count, SEED) {
+        layouts.push(first);
+        let mut note = |_: &Inning, layout: &Layout| layouts.push(*layout);
+        inning(coach, &first, &request, MOST_POINTS, Instant::now() + YEAR, &mut rng, &mut note)?;
+        eprint!("\r{rule}: {} of {count} layouts", layouts.len().min(count));
+        if layouts.len() >= count {
+            break;
+        }
+    }
+    eprintln!();
+    layouts.truncate(count);
+    Ok(layouts)
+}
+
+/// How often a layout is missed with the best shot of a short search.
+fn sample(coach: &Coach, layout: &Layout, rule: Rule) -> Result<Sample, Box<dyn Error>> {
+    let missed = |skill| -> Result<f64, Box<dyn Error>> {
+        let advice = coach.recommend(layout, &Request { rule, ..request(skill) })?;
+        Ok(1.0 - advice.make_probability.map_or(0.0, |rate| rate.rate))
+    };
+    let (missed, missed_by_expert) = (missed(Skill::EXPERT.scaled(Ease::SCALE))?, missed(Skill::EXPERT)?);
+    Ok(Sample { layout: *layout, missed, missed_by_expert })
+}
+
+fn request(skill: Skill) -> Request {
+    Request { skill, budget: YEAR, simulations: SIMULATIONS, seed: SEED, ..Request::default() }
+}
+
+/// Prints what layouts were like that were called easy or hard: fifths by the estimate, the easiest first.
+fn report(table: &Table, ease: Ease, samples: &[Sample]) {
+    let mut sorted = samples.to_vec();
+    sorted.sort_by(|one, other| ease.missed(table, &one.layout).total_cmp(&ease.missed(table, &other.layout)));
+    println!("  misses %  expert, estimated  simulated  with {} times the errors, estimated  simulated", Ease::SCALE);
+    for fifth in sorted.chunks(samples.len().div_ceil(5).max(1)) {
+        let mean = |value: &dyn Fn(&Sample) -> f64| 100.0 * fifth.iter().map(value).sum::<f64>() / fifth.len() as f64;
+        println!(
+            "  {:>27.2} {:>10.2} {:>38.2} {:>10.2}",
+            mean(&|sample| 1.0 - ease.probability(table, &sample.layout)),
+            mean(&|sample| sample.missed_by_expert),
+            mean(&|sample| ease.missed(table, &sample.layout)),
+            mean(&|sample| sample.missed),
+        );
+    }
+}

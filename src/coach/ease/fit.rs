@@ -1,0 +1,105 @@
+//! Where the weights come from: least squares over layouts of which it is known how often they are missed.
+
+use super::{Ease, NUMBERS, numbers};
+use crate::table::{Layout, Table};
+
+/// Added to the diagonal of the normal equations, against the mean square of the numbers: it changes the weights in the
+/// sixth digit and keeps them finite where layouts differ in fewer ways than there are weights.
+const RIDGE: f64 = 1e-6;
+
+/// Powers among which that of an expert is looked for.
+const POWERS: (f64, f64) = (1.0, 10.0);
+
+/// A layout, and how often it is missed with a good shot.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// The layout.
+    pub layout: Layout,
+    /// Share of misses with [`Ease::SCALE`] times an expert's errors.
+    pub missed: f64,
+    /// Share of an expert's misses.
+    pub missed_by_expert: f64,
+}
+
+impl Ease {
+    /// The weights that come nearest to the shares of misses, by least squares, and the power that gives an expert as many
+    /// misses as there were.
+    pub fn fit(table: &Table, samples: &[Sample]) -> Self {
+        let mut equations = [[0.0; NUMBERS]; NUMBERS];
+        let mut right = [0.0; NUMBERS];
+        for sample in samples {
+            let numbers = numbers(table, &sample.layout);
+            for (row, number) in numbers.iter().enumerate() {
+                right[row] += number * sample.missed;
+                for (entry, other) in equations[row].iter_mut().zip(&numbers) {
+                    *entry += number * other;
+                }
+            }
+        }
+        for (index, row) in equations.iter_mut().enumerate() {
+            row[index] += RIDGE * (1.0 + samples.len() as f64);
+        }
+        let mut ease = Self { weights: solve(equations, right), power: 1.0 };
+        let estimates: Vec<f64> = samples.iter().map(|sample| ease.missed(table, &sample.layout)).collect();
+        let expert: f64 = samples.iter().map(|sample| sample.missed_by_expert).sum();
+        let (mut low, mut high) = POWERS;
+        for _ in 0..40 {
+            ease.power = 0.5 * (low + high);
+            // A higher power means fewer misses.
+            if estimates.iter().map(|share| share.powf(ease.power)).sum::<f64>() > expert {
+                low = ease.power;
+            } else {
+                high = ease.power;
+            }
+        }
+        ease
+    }
+}
+
+/// The solution of symmetric positive definite equations, by Cholesky's factors.
+fn solve(mut matrix: [[f64; NUMBERS]; NUMBERS], mut vector: [f64; NUMBERS]) -> [f64; NUMBERS] {
+    for column in 0..NUMBERS {
+        for row in column..NUMBERS {
+            let inner: f64 = (0..column).map(|k| matrix[row][k] * matrix[column][k]).sum();
+            let rest = matrix[row][column] - inner;
+            matrix[row][column] = if row == column { rest.sqrt() } else { rest / matrix[column][column] };
+        }
+    }
+    for row in 0..NUMBERS {
+        let inner: f64 = (0..row).map(|k| matrix[row][k] * vector[k]).sum();
+        vector[row] = (vector[row] - inner) / matrix[row][row];
+    }
+    for row in (0..NUMBERS).rev() {
+        let inner: f64 = (row + 1..NUMBERS).map(|k| matrix[k][row] * vector[k]).sum();
+        vector[row] = (vector[row] - inner) / matrix[row][row];
+    }
+    vector
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn weights_that_made_the_shares_are_found_again() {
+        let table = Table::default();
+        let ease = Ease { weights: [0.1, 0.3, 0.2, -0.08, -0.05, 0.02, -0.06, 0.07], power: 2.5 };
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+        let samples: Vec<Sample> = (0..400)
+            .map(|_| {
+                let layout = Layout::random(&table, &mut rng);
+                let missed = ease.missed(&table, &layout);
+                Sample { layout, missed, missed_by_expert: missed.powf(ease.power) }
+            })
+            .collect();
+        let fit = Ease::fit(&table, &samples);
+        for (found, meant) in fit.weights.into_iter().zip(ease.weights) {
+            assert!((found - meant).abs() < 1e-3, "{found} {meant}");
+        }
+        assert!((fit.power - ease.power).abs() < 0.01, "{}", fit.power);
+        let few = Ease::fit(&table, &samples[..2]);
+        assert!(few.weights.iter().all(|weight| weight.is_finite()) && few.power.is_finite());
+    }
+}

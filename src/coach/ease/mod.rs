@@ -1,0 +1,92 @@
+//! How easy a layout is for the shot that comes next, at a glance: no shot is simulated.
+
+mod fit;
+
+pub use fit::Sample;
+
+use crate::{
+    game::Rule,
+    table::{Layout, Table},
+};
+
+/// Numbers about a layout: a constant, distances and an angle.
+const NUMBERS: usize = 8;
+
+/// The share stays in this range, wherever the fit leads: no layout is quite safe.
+const RANGE: (f64, f64) = (0.02, 1.0);
+
+/// How easy layouts are under a rule: a weighted sum of some numbers about them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ease {
+    /// What the numbers are weighed with for the share of misses with [`Ease::SCALE`] times an expert's errors.
+    pub weights: [f64; NUMBERS],
+    /// The expert's own share of misses is this power of it.
+    pub power: f64,
+}
+
+impl Ease {
+    /// How many times an expert's errors the weights are fitted for: under these, layouts still differ that an expert
+    /// hardly ever misses.
+    pub const SCALE: f64 = 2.5;
+
+    /// What is in use, from `cargo run --release --example ease -- 2000`, which says how well it tells layouts apart.
+    pub const fn under(rule: Rule) -> Self {
+        let weights = match rule {
+            Rule::StraightRail => [-0.119, 0.2905, 0.2187, -0.0812, -0.051, 0.0249, -0.0636, 0.0698],
+            Rule::OneCushion => [-0.0514, 0.3514, 0.2859, -0.1012, -0.0618, 0.0046, 0.022, 0.0466],
+            Rule::ThreeCushion => [0.2143, 0.3793, 0.0917, -0.1, -0.0229, -0.0049, 0.0388, 0.0333],
+        };
+        Self { weights, power: 2.75 }
+    }
+
+    /// Probability of the point from `layout`, for an expert who plays a good shot: a rough estimate for ranking.
+    pub fn probability(&self, table: &Table, layout: &Layout) -> f64 {
+        1.0 - self.missed(table, layout).powf(self.power)
+    }
+
+    /// Share of misses from `layout` with [`Ease::SCALE`] times an expert's errors.
+    pub fn missed(&self, table: &Table, layout: &Layout) -> f64 {
+        let share: f64 = self.weights.iter().zip(numbers(table, layout)).map(|(weight, number)| weight * number).sum();
+        share.clamp(RANGE.0, RANGE.1)
+    }
+}
+
+/// What the estimate rests on. Distances are those on a table as long as `match`.
+fn numbers(table: &Table, layout: &Layout) -> [f64; NUMBERS] {
+    let [cue, mut near, mut far] = layout.balls.map(|ball| ball * (2.84 / table.length));
+    if cue.distance_squared(near) > cue.distance_squared(far) {
+        std::mem::swap(&mut near, &mut far);
+    }
+    let (to_near, onward) = (near - cue, far - near);
+    let (a, c) = (to_near.length(), onward.length());
+    // How straight the way goes on from the nearer object ball to the other.
+    let straight = to_near.normalize_or_zero().dot(onward.normalize_or_zero());
+    [1.0, a, c, a * a, c * c, a * c, straight, straight * straight]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn gathered_balls_are_easier_than_scattered_ones_under_every_rule() {
+        let table = Table::default();
+        let gathered = Layout::new([DVec2::new(0.0, 0.0), DVec2::new(0.1, 0.05), DVec2::new(0.15, -0.1)]);
+        let scattered = Layout::new([DVec2::new(-1.2, 0.0), DVec2::new(0.2, 0.6), DVec2::new(1.3, -0.6)]);
+        for rule in Rule::ALL {
+            let [easy, hard] = [&gathered, &scattered].map(|layout| Ease::under(rule).probability(&table, layout));
+            assert!(hard + 0.05 < easy && easy < 1.0, "{rule}: {easy} {hard}");
+        }
+    }
+
+    #[test]
+    fn the_names_of_the_object_balls_and_the_side_of_the_table_do_not_matter() {
+        let table = Table::default();
+        let [a, b, c] = [DVec2::new(-0.3, 0.2), DVec2::new(0.4, 0.1), DVec2::new(0.2, -0.5)];
+        for rule in Rule::ALL {
+            let ease = |balls| Ease::under(rule).probability(&table, &Layout::new(balls));
+            assert!((ease([a, b, c]) - ease([-a, -c, -b])).abs() < 1e-12);
+        }
+    }
+}
