@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod documents;
 mod evaluate;
 mod failure;
 mod input;
@@ -10,6 +11,7 @@ mod output;
 mod recommend;
 mod reproduce;
 mod simulate;
+mod table;
 mod train;
 mod watch;
 
@@ -38,6 +40,9 @@ enum Command {
     Accuracy(accuracy::Args),
     Bench(bench::Args),
     Reproduce(reproduce::Args),
+    Table(table::Args),
+    Completions(documents::Completions),
+    Man(documents::Man),
 }
 
 impl Cli {
@@ -56,6 +61,9 @@ impl Cli {
             Some(Command::Accuracy(args)) => accuracy::run(&args),
             Some(Command::Bench(args)) => bench::run(&args),
             Some(Command::Reproduce(args)) => reproduce::run(&args),
+            Some(Command::Table(args)) => table::run(&args),
+            Some(Command::Completions(args)) => documents::completions(&args),
+            Some(Command::Man(args)) => documents::man(&args),
         }
     }
 }

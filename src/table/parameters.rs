@@ -105,7 +105,11 @@ impl Table {
     /// # Errors
     /// [`TableError::Syntax`] or [`TableError::Value`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
-        let table: Self = toml::from_str(text).map_err(|error| TableError::Syntax(error.message().to_owned()))?;
+        let table: Self = toml::from_str(text).map_err(|error| {
+            let line = error.span().map(|span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+            let place = line.map_or(String::new(), |line| format!("line {line}: "));
+            TableError::Syntax(place + error.message())
+        })?;
         table.validated()
     }
 
@@ -200,6 +204,13 @@ mod tests {
         let text = MATCH.replace("e_rail = 0.85", "e_rail = 1.5");
         let message = Table::from_toml(&text).unwrap_err().to_string();
         assert!(message.contains("e_rail = 1.5") && message.contains("0 to 1"), "{message}");
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused_with_its_line() {
+        let message = Table::from_toml(&MATCH.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
+        assert!(message.contains("line 8") && message.contains("f64"), "{message}");
+        assert!(Table::from_toml("").unwrap_err().to_string().contains("missing field"));
     }
 
     #[test]
