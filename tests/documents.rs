@@ -1,4 +1,4 @@
-//! Tables, shell completions and manual pages through the real binary.
+//! Tables, settings, shell completions and manual pages through the real binary.
 
 use assert_cmd::Command;
 
@@ -60,4 +60,28 @@ fn there_is_a_manual_page_for_the_program_and_every_subcommand() {
     assert!(text(&["man", "table", "check"]).contains("TOML"));
     let message = said(&["man", "snooker"], 2);
     assert!(message.contains("snooker") && message.contains("recommend"), "{message}");
+}
+
+#[test]
+fn the_settings_that_are_shown_are_a_file_that_can_be_used_and_mistakes_are_named() {
+    let home = tempfile::tempdir().unwrap();
+    let config = |args: &[&str]| {
+        let mut command = carom(args);
+        command.env("HOME", home.path()).env("XDG_CONFIG_HOME", home.path().join("config"));
+        command.output().unwrap()
+    };
+    let path = String::from_utf8(config(&["config", "--path"]).stdout).unwrap();
+    let path = std::path::Path::new(path.trim());
+    assert!(path.starts_with(home.path()));
+    let shown = config(&["config"]).stdout;
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(path, &shown).unwrap();
+    assert!(config(&["config", "--check"]).status.success());
+    assert_eq!(config(&["config"]).stdout, shown);
+    std::fs::write(path, "theme = \"light\"\nspeed = 80\n").unwrap();
+    let checked = config(&["config", "--check"]);
+    let said = String::from_utf8(checked.stderr).unwrap();
+    assert_eq!(checked.status.code(), Some(2));
+    assert!(said.contains("line 2: speed = 80; accepted is 0.1 to 8"), "{said}");
+    assert!(String::from_utf8(config(&["config"]).stdout).unwrap().contains("theme = \"light\""));
 }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod config;
 mod documents;
 mod evaluate;
 mod failure;
@@ -41,6 +42,7 @@ enum Command {
     Bench(bench::Args),
     Reproduce(reproduce::Args),
     Table(table::Args),
+    Config(config::Args),
     Completions(documents::Completions),
     Man(documents::Man),
 }
@@ -62,6 +64,7 @@ impl Cli {
             Some(Command::Bench(args)) => bench::run(&args),
             Some(Command::Reproduce(args)) => reproduce::run(&args),
             Some(Command::Table(args)) => table::run(&args),
+            Some(Command::Config(args)) => config::run(&args),
             Some(Command::Completions(args)) => documents::completions(&args),
             Some(Command::Man(args)) => documents::man(&args),
         }

@@ -32,6 +32,11 @@ impl Chord {
         Self { code, modifiers: KeyModifiers::CONTROL }
     }
 
+    /// The event of this key being pressed.
+    pub const fn event(self) -> KeyEvent {
+        KeyEvent::new(self.code, self.modifiers)
+    }
+
     /// Whether `event` is this key. Terminals differ in whether they report Shift beside a letter that it made.
     pub fn matches(self, event: &KeyEvent) -> bool {
         let shift_is_in_the_code = matches!(self.code, KeyCode::Char(_) | KeyCode::BackTab);

@@ -22,6 +22,7 @@ mod recommender;
 mod runner;
 mod screens;
 mod session;
+mod settings;
 mod sgr;
 mod shot;
 mod sprites;
@@ -40,7 +41,9 @@ pub use geometry::Mapping;
 pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, TrainingWhen, When};
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Effort, Job, Office, Tutor};
+pub use settings::{Complaint, Keys, Settings};
 pub use shot::Shot;
+pub use theme::{Palette, UnknownPalette};
 pub use training::{Failure, Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
 
 /// Why the terminal program cannot run.

@@ -1,8 +1,12 @@
 //! The colours of everything on the screen, brought down to what the terminal has.
 
+mod palette;
+
 use ratatui::style::{Color, Modifier, Style};
 
 use super::look::Depth;
+
+pub use palette::{Palette, UnknownPalette};
 
 /// Colours by their purpose. In monochrome all of them are [`Color::Reset`]: crossterm under `NO_COLOR` turns bold and
 /// reverse off with every colour command, so that only letters and modifiers may tell things apart.
@@ -137,28 +141,6 @@ fn resolve(depth: Depth, rgb: u32, index: u8, ansi: Color) -> Color {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_three_balls_and_the_cloth_differ_at_every_depth_with_colours() {
-        for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
-            let theme = Theme::new(depth);
-            let all = [theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth];
-            for (n, colour) in all.iter().enumerate() {
-                assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
-            }
-        }
-    }
-
-    #[test]
-    fn curves_and_what_lies_behind_them_differ_at_every_depth_with_colours() {
-        for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
-            let theme = Theme::new(depth);
-            let all = [theme.curves[0], theme.curves[1], theme.bands[0], theme.bands[1], theme.background];
-            for (n, colour) in all.iter().enumerate() {
-                assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
-            }
-        }
-    }
 
     #[test]
     fn monochrome_never_names_a_colour() {

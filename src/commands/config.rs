@@ -1,0 +1,39 @@
+//! `carom config`: what can be set once and for all, how it is set now, and whether the file is right.
+
+use std::io::{self, Write};
+
+use super::{Failure, output::tell};
+use crate::terminal::Settings;
+
+/// Show every setting with what it means and accepts, as a file to begin with.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Print only where the file is.
+    #[arg(long)]
+    path: bool,
+    /// Print nothing but what is wrong with the file.
+    #[arg(long, conflicts_with = "path")]
+    check: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let path = Settings::path();
+    let mut out = io::stdout().lock();
+    if args.path {
+        return Ok(writeln!(out, "{}", path.display())?);
+    }
+    let (settings, complaints) = Settings::load(&path);
+    if !args.check {
+        write!(out, "# {}\n{}", path.display(), settings.document())?;
+    }
+    for complaint in &complaints {
+        tell(format_args!("{}: {complaint}", path.display()));
+    }
+    match complaints.len() {
+        0 => Ok(()),
+        count => Err(Failure::wrong_input(format_args!(
+            "{count} of the settings in {} are wrong; their defaults are used",
+            path.display()
+        ))),
+    }
+}

@@ -1,0 +1,136 @@
+//! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
+
+use toml::de::DeValue;
+
+use super::Settings;
+use crate::terminal::look::{Depth, Glyphs};
+
+/// One key of the file.
+pub struct Entry {
+    /// Its name.
+    pub key: &'static str,
+    /// What it is for.
+    pub about: &'static str,
+    /// What it accepts.
+    pub accepted: &'static str,
+    /// Its value as TOML.
+    pub get: fn(&Settings) -> String,
+    /// Takes a value; `None` if it is refused.
+    pub set: fn(&mut Settings, &DeValue) -> Option<()>,
+}
+
+/// How many colours, by name.
+const DEPTHS: [(&str, Option<Depth>); 5] = [
+    ("auto", None),
+    ("true", Some(Depth::True)),
+    ("256", Some(Depth::Indexed)),
+    ("16", Some(Depth::Ansi)),
+    ("none", Some(Depth::Mono)),
+];
+
+/// What the table is drawn with, by name.
+const GLYPHS: [(&str, Option<Glyphs>); 4] = [
+    ("auto", None),
+    ("sextant", Some(Glyphs::Sextant)),
+    ("half", Some(Glyphs::Half)),
+    ("letters", Some(Glyphs::Letters)),
+];
+
+/// All keys, in the order of the file.
+pub const ENTRIES: &[Entry] = &[
+    Entry {
+        key: "theme",
+        about: "Colours of the screen.",
+        accepted: "\"dark\", \"light\", \"high-contrast\", \"colour-blind\", \"mono\"",
+        get: |settings| quoted(settings.palette),
+        set: |settings, value| Some(settings.palette = value.as_str()?.parse().ok()?),
+    },
+    Entry {
+        key: "colours",
+        about: "How many colours the terminal has; auto looks at NO_COLOR, COLORTERM and TERM.",
+        accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
+        get: |settings| quoted(name(&DEPTHS, &settings.depth)),
+        set: |settings, value| Some(settings.depth = named(&DEPTHS, value.as_str()?)?),
+    },
+    Entry {
+        key: "glyphs",
+        about: "What the table is drawn with; auto looks at the locale. CAROM_GLYPHS overrides it.",
+        accepted: "\"auto\", \"sextant\", \"half\", \"letters\"",
+        get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
+        set: |settings, value| Some(settings.glyphs = named(&GLYPHS, value.as_str()?)?),
+    },
+    Entry {
+        key: "table",
+        about: "The table that is played on.",
+        accepted: "\"match\", \"thesis\" or the path of a TOML file",
+        get: |settings| quoted(&settings.table),
+        set: |settings, value| Some(settings.table = value.as_str().filter(|name| !name.is_empty())?.to_owned()),
+    },
+    Entry {
+        key: "rule",
+        about: "What counts as a point.",
+        accepted: "\"straight\", \"one-cushion\", \"three-cushion\"",
+        get: |settings| quoted(settings.rule),
+        set: |settings, value| Some(settings.rule = value.as_str()?.parse().ok()?),
+    },
+    Entry {
+        key: "skill",
+        about: "Who plays: the errors that the coach reckons with.",
+        accepted: "\"perfect\", \"expert\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"",
+        get: |settings| quoted(settings.skill),
+        set: |settings, value| Some(settings.skill = value.as_str()?.parse().ok()?),
+    },
+    Entry {
+        key: "plan",
+        about: "Whether the coach looks for shots that leave the next point easy.",
+        accepted: "true, false",
+        get: |settings| settings.plan.to_string(),
+        set: |settings, value| Some(settings.plan = value.as_bool()?),
+    },
+    Entry {
+        key: "think_ms",
+        about: "How long the coach may think, in milliseconds.",
+        accepted: "10 to 60000",
+        get: |settings| settings.think_ms.to_string(),
+        set: |settings, value| {
+            Some(settings.think_ms = number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0)? as u64)
+        },
+    },
+    Entry {
+        key: "step_mm",
+        about: "How far an arrow key moves a ball, in millimetres.",
+        accepted: "0.1 to 100",
+        get: |settings| decimal(settings.step_mm),
+        set: |settings, value| Some(settings.step_mm = number(value, 0.1, 100.0)?),
+    },
+    Entry {
+        key: "speed",
+        about: "How fast shots are played, 1 as on the table.",
+        accepted: "0.1 to 8",
+        get: |settings| decimal(settings.speed),
+        set: |settings, value| Some(settings.speed = number(value, 0.1, 8.0)?),
+    },
+];
+
+fn quoted(value: impl ToString) -> String {
+    toml::Value::String(value.to_string()).to_string()
+}
+
+/// A number as TOML writes it: always with a point.
+fn decimal(value: f64) -> String {
+    toml::Value::Float(value).to_string()
+}
+
+/// A number, whole or not, in a range.
+fn number(value: &DeValue, least: f64, most: f64) -> Option<f64> {
+    let text = value.as_integer().map(|n| n.as_str()).or_else(|| value.as_float().map(|x| x.as_str()))?;
+    text.replace('_', "").parse().ok().filter(|number| (least..=most).contains(number))
+}
+
+fn named<T: Copy>(names: &[(&str, T)], text: &str) -> Option<T> {
+    names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value)
+}
+
+fn name<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
+    names.iter().find(|(_, known)| known == value).map_or("auto", |(name, _)| name)
+}

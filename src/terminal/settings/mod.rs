@@ -1,0 +1,103 @@
+//! What the user has chosen once and for all: a file in TOML, every key of it optional.
+
+mod entries;
+mod keys;
+mod read;
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use directories::ProjectDirs;
+
+use super::{
+    look::{Depth, Glyphs},
+    theme::Palette,
+};
+use crate::{coach::Skill, game::Rule};
+
+pub use keys::Keys;
+pub use read::Complaint;
+
+/// What the program starts with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The colours.
+    pub palette: Palette,
+    /// How many colours the terminal has; `None` to find out.
+    pub depth: Option<Depth>,
+    /// What the table is drawn with; `None` to find out.
+    pub glyphs: Option<Glyphs>,
+    /// The table: a bundled one or the path of a TOML file.
+    pub table: String,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who plays.
+    pub skill: Skill,
+    /// Whether the coach has the next point in mind.
+    pub plan: bool,
+    /// How long the coach may think, ms.
+    pub think_ms: u64,
+    /// The step of the arrow keys, mm.
+    pub step_mm: f64,
+    /// Seconds of a shot in a second of the screen.
+    pub speed: f64,
+    /// Keys that do what others do.
+    pub keys: Keys,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            palette: Palette::default(),
+            depth: None,
+            glyphs: None,
+            table: "match".to_owned(),
+            rule: Rule::default(),
+            skill: Skill::EXPERT,
+            plan: true,
+            think_ms: 1000,
+            step_mm: 10.0,
+            speed: 1.0,
+            keys: Keys::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The file of this user; where the user has no home, one in the working directory.
+    pub fn path() -> PathBuf {
+        ProjectDirs::from("", "", "carom")
+            .map_or_else(|| PathBuf::from("carom-config.toml"), |dirs| dirs.config_dir().join("config.toml"))
+    }
+
+    /// What the file says, or the defaults where there is none or a key is wrong; and what is wrong.
+    pub fn load(path: &Path) -> (Self, Vec<Complaint>) {
+        match std::fs::read(path) {
+            Ok(bytes) => read::read(&String::from_utf8_lossy(&bytes)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => (Self::default(), Vec::new()),
+            Err(error) => (Self::default(), vec![Complaint::of_file(&error)]),
+        }
+    }
+
+    /// The settings as a file with everything that may stand in it, each key with what it means and accepts.
+    pub fn document(&self) -> String {
+        let mut text = String::from(
+            "# Everything that carom can be told once and for all. A key that is left out has its default.\n",
+        );
+        for entry in entries::ENTRIES {
+            text.push_str(&format!(
+                "\n# {}\n# Accepted: {}. Default: {}.\n{} = {}\n",
+                entry.about,
+                entry.accepted,
+                (entry.get)(&Self::default()),
+                entry.key,
+                (entry.get)(self)
+            ));
+        }
+        text.push_str(keys::ABOUT);
+        text.push_str(&self.keys.document());
+        text
+    }
+}
