@@ -20,6 +20,8 @@ use clap::{Parser, Subcommand};
 
 pub use failure::Failure;
 
+use crate::terminal::{Settings, TerminalError};
+
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
 #[command(version, about, long_about = None, args_conflicts_with_subcommands = true)]
@@ -27,8 +29,11 @@ pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
     /// Table of the terminal program: "match", "thesis" or the path of a TOML file.
-    #[arg(long, default_value = "match")]
-    table: String,
+    #[arg(long)]
+    table: Option<String>,
+    /// Talk in lines instead of a screen: for screen readers, and terminals that cannot draw.
+    #[arg(long)]
+    plain: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -48,13 +53,27 @@ enum Command {
 }
 
 impl Cli {
+    /// The terminal program, with the user's settings.
+    fn open(self) -> Result<(), Failure> {
+        let path = Settings::path();
+        let (settings, complaints) = Settings::load(&path);
+        let table = input::table_named(self.table.as_ref().unwrap_or(&settings.table))?;
+        if self.plain {
+            for complaint in &complaints {
+                output::tell(format_args!("{}: {complaint}", path.display()));
+            }
+            return crate::terminal::talk(table, &settings).map_err(failure);
+        }
+        crate::terminal::run(table, None).map_err(failure)
+    }
+
     /// Does what the command line asks for.
     ///
     /// # Errors
     /// A [`Failure`] with its sentence and exit code.
     pub fn run(self) -> Result<(), Failure> {
         match self.command {
-            None => crate::terminal::run(input::table_named(&self.table)?, None).map_err(Failure::wrong_input),
+            None => self.open(),
             Some(Command::Simulate(args)) => simulate::run(&args),
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),
@@ -68,5 +87,13 @@ impl Cli {
             Some(Command::Completions(args)) => documents::completions(&args),
             Some(Command::Man(args)) => documents::man(&args),
         }
+    }
+}
+
+fn failure(error: TerminalError) -> Failure {
+    match error {
+        // A pipe that is closed is no failure.
+        TerminalError::Io(error) => error.into(),
+        other => Failure::wrong_input(other),
     }
 }

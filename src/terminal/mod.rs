@@ -17,6 +17,7 @@ mod look;
 mod pace;
 mod painter;
 mod placing;
+mod plain;
 mod playback;
 mod recommender;
 mod runner;
@@ -32,9 +33,17 @@ mod training;
 mod widgets;
 mod words;
 
-use std::{io, path::Path, time::SystemTime};
+use std::{
+    io::{self, IsTerminal},
+    path::Path,
+    time::SystemTime,
+};
 
-use crate::table::{Layout, LayoutError, Table};
+use crate::{
+    coach::Coach,
+    learning::PolicyError,
+    table::{Layout, LayoutError, Table},
+};
 
 pub use app::{App, Effect, Mode, Screen};
 pub use geometry::Mapping;
@@ -58,6 +67,9 @@ pub enum TerminalError {
     /// The first layout is not possible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
+    /// The bundled weights are damaged.
+    #[error(transparent)]
+    Policy(#[from] PolicyError),
     /// The terminal has failed.
     #[error("the terminal has failed: {0}")]
     Io(#[from] io::Error),
@@ -74,9 +86,23 @@ pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
         return Err(TerminalError::NoTerminal);
     }
     let look = Look::detect(|name| std::env::var(name).ok());
-    // Any number does: it only makes random layouts differ from one start to the next.
-    let seed = SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64);
-    Ok(runner::run(App::new(table, layout, look, seed)?)?)
+    Ok(runner::run(App::new(table, layout, look, seed())?)?)
+}
+
+/// The coach as a conversation in lines, on the standard input and output.
+///
+/// # Errors
+/// [`TerminalError`]: a layout that is not possible, damaged weights, or input or output that fails.
+pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
+    let layout = Layout::opening(&table);
+    let prompt = if io::stdin().is_terminal() { "> " } else { "" };
+    let coach = Coach::new(table)?;
+    Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), io::stdout().lock(), prompt)?)
+}
+
+/// Any number does: it only makes random layouts differ from one start to the next.
+fn seed() -> u64 {
+    SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_nanos() as u64)
 }
 
 /// Whether there is a terminal on both sides that can show pictures.

@@ -1,0 +1,248 @@
+//! The coach as a conversation: lines in, sentences out. For screen readers, dumb terminals and scripts.
+
+mod order;
+mod speech;
+
+use std::{
+    io::{self, BufRead, Write},
+    time::Duration,
+};
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use self::order::{HELP, Order};
+use super::{history::History, placing::slide, settings::Settings};
+use crate::{
+    coach::{Coach, Kind, Request, aim, margins},
+    learning::evaluation::SuccessRate,
+    physics::CueInputs,
+    simulation::Recording,
+    table::{Layout, Table},
+};
+
+/// A shot that was found.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    cue: CueInputs,
+    kind: Option<Kind>,
+    rate: Option<SuccessRate>,
+}
+
+/// A conversation on its way.
+struct Conversation {
+    coach: Coach,
+    request: Request,
+    balls: History<Layout>,
+    /// The shots that were found for the balls as they lie, and which of them is spoken of.
+    shots: Vec<Found>,
+    chosen: usize,
+    rng: Xoshiro256PlusPlus,
+}
+
+/// Talks about `layout` until the input ends or the player quits; with a `prompt` before every answer that is awaited.
+/// `seed` decides about random layouts.
+///
+/// # Errors
+/// What reading or writing reports.
+pub fn converse(
+    coach: Coach,
+    layout: Layout,
+    settings: &Settings,
+    seed: u64,
+    input: impl BufRead,
+    mut output: impl Write,
+    prompt: &str,
+) -> io::Result<()> {
+    let request = Request {
+        rule: settings.rule,
+        skill: settings.skill,
+        plan: settings.plan,
+        budget: Duration::from_millis(settings.think_ms),
+        ..Request::default()
+    };
+    let rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut talk = Conversation { coach, request, balls: History::new(layout), shots: Vec::new(), chosen: 0, rng };
+    write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
+    output.flush()?;
+    for line in input.lines() {
+        let answer = match line?.parse() {
+            Ok(Order::Quit) => break,
+            Ok(order) => talk.answer(order),
+            Err(sentence) => sentence,
+        };
+        write!(output, "{answer}\n{prompt}")?;
+        output.flush()?;
+    }
+    Ok(())
+}
+
+impl Conversation {
+    fn table(&self) -> &Table {
+        self.coach.table()
+    }
+
+    fn places(&self) -> String {
+        speech::places(self.table(), self.balls.present())
+    }
+
+    fn answer(&mut self, order: Order) -> String {
+        match order {
+            Order::Where => self.places(),
+            Order::Balls(text) => match Layout::parse(&text, self.table()) {
+                Ok(layout) => match layout.validate(self.table()) {
+                    Ok(()) => self.place(layout),
+                    Err(error) => error.to_string(),
+                },
+                Err(error) => error.to_string(),
+            },
+            Order::Move(ball, step) => {
+                let moved = slide(self.table(), self.balls.present(), ball, step);
+                let stopped =
+                    moved.stopped.map_or(String::new(), |reason| format!("\nIt stops there: beyond, {reason}."));
+                self.place(moved.layout) + &stopped
+            }
+            Order::Opening => self.place(Layout::opening(self.table())),
+            Order::Random => {
+                let layout = Layout::random(self.coach.table(), &mut self.rng);
+                self.place(layout)
+            }
+            Order::Rule(rule) => {
+                self.request.rule = rule;
+                self.forget(format!("The rule is {rule}."))
+            }
+            Order::Skill(skill) => {
+                self.request.skill = skill;
+                self.forget(format!("The player is {skill}."))
+            }
+            Order::Plan(plan) => {
+                self.request.plan = plan;
+                self.forget(format!("The next point {}.", if plan { "counts too" } else { "does not count" }))
+            }
+            Order::Shot => self.ask(),
+            Order::Other if self.shots.len() > 1 => {
+                self.chosen = (self.chosen + 1) % self.shots.len();
+                self.describe()
+            }
+            Order::Other => "There is no other shot; say shot to ask for one.".to_owned(),
+            Order::Margins => self.about_the_shot(|talk, shot| {
+                match margins(talk.request.rule, talk.table(), talk.balls.present(), &shot.cue) {
+                    Some(found) => speech::margins(&found),
+                    None => "This shot makes no point.".to_owned(),
+                }
+            }),
+            Order::Tell => self.about_the_shot(|talk, shot| talk.recorded(shot, speech::events)),
+            Order::GoOn => match self.shots.get(self.chosen).copied() {
+                Some(shot) => match Recording::new(self.table(), self.balls.present(), &shot.cue) {
+                    Ok(recording) => self.place(recording.final_layout()),
+                    Err(error) => error.to_string(),
+                },
+                None => NO_SHOT.to_owned(),
+            },
+            Order::Undo => {
+                if self.balls.undo() {
+                    self.forget(self.places())
+                } else {
+                    "There is nothing to take back.".to_owned()
+                }
+            }
+            Order::Help => HELP.iter().map(|(line, about)| format!("{line}: {about}.")).collect::<Vec<_>>().join("\n"),
+            Order::Quit => String::new(),
+        }
+    }
+
+    /// Puts the balls elsewhere.
+    fn place(&mut self, layout: Layout) -> String {
+        self.balls.push(layout);
+        self.forget(self.places())
+    }
+
+    /// The shots were for something else.
+    fn forget(&mut self, sentence: String) -> String {
+        self.shots.clear();
+        sentence
+    }
+
+    fn ask(&mut self) -> String {
+        let advice = match self.coach.recommend(self.balls.present(), &self.request) {
+            Ok(advice) => advice,
+            Err(error) => return error.to_string(),
+        };
+        let best = Found { cue: advice.cue, kind: advice.kind, rate: advice.make_probability };
+        let others = advice.alternatives.iter().map(|shot| Found {
+            cue: shot.cue,
+            kind: Some(shot.kind),
+            rate: shot.make_probability,
+        });
+        self.shots = std::iter::once(best).chain(others).collect();
+        self.chosen = 0;
+        let mut text = self.describe();
+        if let Some(next) = advice.next_probability {
+            text.push_str(&format!("\nThe point after it is made about {:.0} percent of the time.", 100.0 * next));
+        }
+        text + &format!("\n{} other shots.", self.shots.len() - 1)
+    }
+
+    /// The shot that is spoken of.
+    fn describe(&self) -> String {
+        self.about_the_shot(|talk, shot| {
+            let aim = aim(talk.table(), talk.balls.present(), &shot.cue).ok();
+            let chance = speech::chance(shot.kind, shot.rate, talk.request.skill);
+            format!("{chance}\n{}", speech::stroke(talk.table(), &shot.cue, aim.as_ref()))
+        })
+    }
+
+    fn about_the_shot(&self, say: impl Fn(&Self, &Found) -> String) -> String {
+        self.shots.get(self.chosen).map_or_else(|| NO_SHOT.to_owned(), |shot| say(self, shot))
+    }
+
+    fn recorded(&self, shot: &Found, say: impl Fn(&Recording) -> String) -> String {
+        match Recording::new(self.table(), self.balls.present(), &shot.cue) {
+            Ok(recording) => say(&recording),
+            Err(error) => error.to_string(),
+        }
+    }
+}
+
+const NO_SHOT: &str = "There is no shot yet; say shot to ask for one.";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn talk(lines: &str) -> String {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+        let mut output = Vec::new();
+        let settings = Settings { think_ms: 20, ..Settings::default() };
+        converse(Coach::new(table).unwrap(), layout, &settings, 1, lines.as_bytes(), &mut output, "").unwrap();
+        String::from_utf8(output).unwrap()
+    }
+
+    #[test]
+    fn a_shot_is_told_its_margins_its_course_and_its_end() {
+        let said = talk("shot\nmargins\ntell\ngo on\nundo\nquit\nwhere");
+        for words in ["percent of the time, between", "hits yellow", "phi: ", "white - yellow.", "all balls lie still"]
+        {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+        let first = "white at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
+        assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+    }
+
+    #[test]
+    fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
+        let said = talk("tell\nother\ngo on\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nrule one-cushion\n");
+        for words in [
+            "no shot yet",
+            "no other shot",
+            "nothing to take back",
+            "fly",
+            "0.0000 m apart",
+            "It stops there",
+            "The rule is one-cushion",
+        ] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! What a player may say, a line each.
+
+use std::str::FromStr;
+
+use glam::DVec2;
+
+use crate::{coach::Skill, game::Rule, terminal::words::BALL_NAMES};
+
+/// What a line asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// Where the balls lie.
+    Where,
+    /// All three balls at once, as on the command line.
+    Balls(String),
+    /// A ball goes by so many millimetres to the right and up.
+    Move(usize, DVec2),
+    /// Balls on their spots.
+    Opening,
+    /// Balls anywhere.
+    Random,
+    /// What counts as a point.
+    Rule(Rule),
+    /// Who plays.
+    Skill(Skill),
+    /// Whether the next point counts too.
+    Plan(bool),
+    /// A shot.
+    Shot,
+    /// The next of the other shots.
+    Other,
+    /// How far off it may be.
+    Margins,
+    /// What happens in it.
+    Tell,
+    /// Balls as it leaves them.
+    GoOn,
+    /// The last change of the balls back.
+    Undo,
+    /// What may be said.
+    Help,
+    /// The end.
+    Quit,
+}
+
+/// What may be said, and what it does.
+pub const HELP: &[(&str, &str)] = &[
+    ("shot", "ask the coach for a shot; an empty line does the same"),
+    ("other", "the next of the other shots"),
+    ("tell", "what happens in the shot"),
+    ("margins", "how far off the shot may be, and where to aim"),
+    ("go on", "take the balls as the shot leaves them"),
+    ("where", "where the balls lie"),
+    ("move white left 20", "move a ball by so many millimetres: left, right, up or down"),
+    ("balls -0.5,0 0,0 0.5,0.03", "place all three, in metres or in diamonds like 2d,2d 6d,2d 2d,2.5d"),
+    ("opening", "put the balls on their spots"),
+    ("random", "put the balls anywhere"),
+    ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
+    ("skill club", "who plays: perfect, expert, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1"),
+    ("plan off", "whether the coach has the next point in mind: on or off"),
+    ("undo", "take the last change of the balls back"),
+    ("quit", "end; so does the end of the input"),
+];
+
+impl FromStr for Order {
+    type Err = String;
+
+    fn from_str(line: &str) -> Result<Self, String> {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        Ok(match words[..] {
+            [] | ["shot"] => Self::Shot,
+            ["other"] => Self::Other,
+            ["tell"] => Self::Tell,
+            ["margins"] => Self::Margins,
+            ["go", "on"] => Self::GoOn,
+            ["where"] => Self::Where,
+            ["opening"] => Self::Opening,
+            ["random"] => Self::Random,
+            ["undo"] => Self::Undo,
+            ["help"] => Self::Help,
+            ["quit"] => Self::Quit,
+            ["plan", "on"] => Self::Plan(true),
+            ["plan", "off"] => Self::Plan(false),
+            ["rule", name] => Self::Rule(name.parse().map_err(|error| format!("{error}"))?),
+            ["skill", name] => Self::Skill(name.parse().map_err(|error| format!("{error}"))?),
+            ["balls", ref places @ ..] => Self::Balls(places.join(" ")),
+            ["move", ball, direction, distance] => Self::Move(ball_named(ball)?, step(direction, distance)?),
+            _ => return Err(format!("\"{}\" means nothing here; help says what may be said", line.trim())),
+        })
+    }
+}
+
+fn ball_named(name: &str) -> Result<usize, String> {
+    BALL_NAMES
+        .iter()
+        .position(|ball| *ball == name)
+        .ok_or_else(|| format!("there is no ball \"{name}\"; there are {}", BALL_NAMES.join(", ")))
+}
+
+/// So many millimetres in a direction, m.
+fn step(direction: &str, distance: &str) -> Result<DVec2, String> {
+    let unit = match direction {
+        "left" => DVec2::NEG_X,
+        "right" => DVec2::X,
+        "up" => DVec2::Y,
+        "down" => DVec2::NEG_Y,
+        _ => return Err(format!("\"{direction}\" is no direction; use left, right, up or down")),
+    };
+    let millimetres: Option<f64> = distance.parse().ok().filter(|distance| (0.0..=10_000.0).contains(distance));
+    let millimetres = millimetres.ok_or_else(|| format!("\"{distance}\" is no distance; accepted is 0 to 10000 mm"))?;
+    Ok(unit * (1e-3 * millimetres))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_in_the_help_is_understood() {
+        for (line, _) in HELP {
+            assert!(line.parse::<Order>().is_ok(), "{line}");
+        }
+        assert_eq!("".parse(), Ok(Order::Shot));
+    }
+
+    #[test]
+    fn what_is_not_understood_is_named() {
+        for (line, named) in [
+            ("dance", "dance"),
+            ("move blue left 3", "blue"),
+            ("move red along 3", "along"),
+            ("move red left far", "far"),
+            ("move red left -3", "-3"),
+            ("rule snooker", "snooker"),
+            ("skill god", "god"),
+        ] {
+            let error = line.parse::<Order>().unwrap_err();
+            assert!(error.contains(named), "{line}: {error}");
+        }
+    }
+}
