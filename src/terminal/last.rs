@@ -1,0 +1,82 @@
+//! Where the last session ended, so that the next one can go on from there.
+
+use std::{io, path::Path};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    coach::Skill,
+    game::Rule,
+    storage::replace,
+    table::{Layout, Table},
+};
+
+/// The version of the file that is written.
+const VERSION: u32 = 1;
+
+/// What is remembered of a session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Last {
+    version: u32,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lay.
+    pub layout: Layout,
+    /// What counted as a point.
+    pub rule: Rule,
+    /// Who played.
+    pub skill: Skill,
+    /// Whether the next point counted too.
+    pub plan: bool,
+}
+
+impl Last {
+    /// What is to be remembered.
+    pub const fn new(table: Table, layout: Layout, rule: Rule, skill: Skill, plan: bool) -> Self {
+        Self { version: VERSION, table, layout, rule, skill, plan }
+    }
+
+    /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
+    /// nobody is to be bothered about it.
+    pub fn load(path: &Path) -> Option<Self> {
+        let last: Self = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+        (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
+    }
+
+    /// Writes it down.
+    ///
+    /// # Errors
+    /// Whatever the file system reports; what stood there stays.
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        let bytes = serde_json::to_vec(self).map_err(io::Error::from)?;
+        replace(path, &bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_session_is_read_back_and_whatever_else_stands_there_is_ignored() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state/last.json");
+        assert_eq!(Last::load(&path), None);
+        let table = Table::default();
+        let last = Last::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
+        last.save(&path).unwrap();
+        assert_eq!(Last::load(&path), Some(last.clone()));
+        let newer = Last { version: VERSION + 1, ..last.clone() };
+        newer.save(&path).unwrap();
+        assert_eq!(Last::load(&path), None);
+        let mut impossible = last;
+        impossible.layout.balls[1] = impossible.layout.balls[0];
+        impossible.save(&path).unwrap();
+        assert_eq!(Last::load(&path), None);
+        std::fs::write(&path, "{").unwrap();
+        assert_eq!(Last::load(&path), None);
+    }
+}
