@@ -1,6 +1,6 @@
 //! Fits the weights by which the coach tells easy layouts from hard ones (`src/coach/ease`), and says how well they do.
 //!
-//! `cargo run --release --example ease -- 2000` plays innings on `match` until 2,000 layouts a rule are gathered, finds out of
+//! `cargo run --release --example ease -- 1600` plays innings on `match` until 1,600 layouts a rule are gathered, finds out of
 //! each how often a player of two and a half times an expert's errors misses it with the shot of a short search, fits half
 //! of them and measures the fit on the other half. The searches end by simulations, so that the weights are the same on every
 //! machine whose networks round alike.
@@ -33,7 +33,7 @@ const MOST_POINTS: u32 = 12;
 const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let count: usize = env::args().nth(1).ok_or("say how many layouts a rule: ease 2000")?.parse()?;
+    let count: usize = env::args().nth(1).ok_or("say how many layouts a rule: ease 1600")?.parse()?;
     let coach = Coach::new(Table::default())?;
     for rule in Rule::ALL {
         let layouts = gather(&coach, rule, count)?;
