@@ -138,6 +138,11 @@ impl CoachScreen {
         self.balls.present().advised.as_ref().filter(|advised| advised.tutor == self.tutor)
     }
 
+    /// The same for whoever looks at it: nothing while the coach thinks of something better.
+    pub fn shown(&self) -> Option<&Advised> {
+        self.advised().filter(|_| self.pending.is_none())
+    }
+
     fn advised_mut(&mut self) -> Option<&mut Advised> {
         let tutor = &self.tutor;
         self.balls.present_mut().advised.as_mut().filter(|advised| advised.tutor == *tutor)
