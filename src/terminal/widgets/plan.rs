@@ -84,7 +84,8 @@ fn next_words(choice: &Choice) -> String {
 pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
     let cloud = ends.flat_map(|end| {
-        let spot = |ball: usize| Spot { place: end.balls[ball], is_ball: false, color: theme.balls[ball], letter: END_LETTER };
+        let spot =
+            |ball: usize| Spot { place: end.balls[ball], is_ball: false, color: theme.balls[ball], letter: END_LETTER };
         (0..BALLS).map(spot)
     });
     let next = choice.next.as_ref().and_then(|next| next.proposals.first());
