@@ -1,4 +1,5 @@
-//! Which part of the screen is for what: the arrangement that leaves the table the most room wins.
+//! Which part of the screen is for what: the arrangement that leaves the table the most room wins, by a little for panels
+//! beside it.
 
 use ratatui::layout::Rect;
 
@@ -20,6 +21,10 @@ const TIP_WIDTH: (u16, u16) = (16, 20);
 const EVENTS_WIDTH: u16 = 24;
 /// Columns from which on the events find room beside these three.
 const ALL_BELOW_WIDTH: u16 = INFO_WIDTH + SHOT_WIDTH + TIP_WIDTH.0 + EVENTS_WIDTH;
+
+/// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
+/// several panels at once.
+const LARGE: f64 = 0.95;
 
 /// The areas of the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +55,8 @@ impl Panes {
         let below = Self::all_below(table, area);
         let beside = Self::some_beside(table, area);
         let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
-        if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
+        let is_large = f64::from(rows(&below)) >= LARGE * f64::from(rows(&beside));
+        if area.width >= ALL_BELOW_WIDTH && is_large { below } else { beside }
     }
 
     fn frame(area: Rect) -> (Rect, Rect, Rect, Rect) {
