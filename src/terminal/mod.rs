@@ -3,6 +3,7 @@
 //! [`App`] holds the state and knows no terminal: keys go in, pictures come out, and what it wants done outside comes
 //! back as an [`Effect`]. [`run`] is the loop around it.
 
+mod advice;
 mod app;
 mod canvas;
 mod chart;
@@ -45,11 +46,13 @@ use crate::{
     table::{Layout, LayoutError, Table},
 };
 
+pub use advice::{Advice, Effort, Proposal, Study, Tutor};
 pub use app::{App, Effect, Mode, Screen};
+pub use coach::View;
 pub use geometry::Mapping;
 pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, TrainingWhen, When};
 pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, Effort, Job, Office, Tutor};
+pub use recommender::{Answer, Job, Office, Tidings};
 pub use settings::{Complaint, Keys, Settings};
 pub use shot::Shot;
 pub use theme::{Palette, UnknownPalette};

@@ -238,6 +238,7 @@ mod tests {
                     vec![theme.curves[0], theme.curves[1], theme.bands[0], theme.bands[1], theme.background],
                     vec![theme.good, theme.warning, theme.background],
                     vec![theme.face, theme.miscue, theme.tip],
+                    [&theme.outcomes[..], &[theme.tip]].concat(),
                 ] {
                     for (n, colour) in group.iter().enumerate() {
                         assert!(!group[n + 1..].contains(colour), "{palette} {depth:?} {colour}");

@@ -1,9 +1,13 @@
 //! The parts of the screens.
 
 mod balls;
+mod chances;
 mod events;
 mod footer;
 mod header;
+mod maps;
+mod margins;
+mod plan;
 mod rails;
 mod shot;
 mod table;
@@ -19,12 +23,16 @@ use ratatui::{
 use super::{look::Look, theme::Theme};
 
 pub use balls::draw_balls;
+pub use chances::{draw_chances, sort_words};
 pub use events::draw_events;
 pub use footer::{draw_hints, draw_question, draw_status, wrap};
 pub use header::draw_header;
-pub use shot::draw_shot;
-pub use table::{TableView, draw_table};
-pub use tip::draw_tip;
+pub use maps::{draw_aim_map, draw_legend, draw_tip_map};
+pub use margins::draw_margins;
+pub use plan::{draw_plan, plan_spots};
+pub use shot::{draw_proposal, draw_shot};
+pub use table::{Spot, TableView, draw_table};
+pub use tip::{draw_tip, face_in};
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
 pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> Rect {
@@ -40,6 +48,13 @@ pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &
         buffer.set_line(area.x + 1, area.y, &Line::from(spans), area.width.saturating_sub(1));
     }
     Rect { y: area.y + 1, height: area.height - 1, ..area }
+}
+
+/// Says in a panel why it is empty: after a blank row, a line a row.
+pub fn draw_nothing(lines: &[&str], inner: Rect, theme: &Theme, buffer: &mut Buffer) {
+    for (text, row) in lines.iter().zip(inner.y + 1..inner.bottom()) {
+        buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), theme.faint());
+    }
 }
 
 /// Writes `text` so that it ends before column `end`, but never left of `start`.
