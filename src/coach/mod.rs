@@ -7,7 +7,7 @@ mod clock;
 #[expect(clippy::module_inception, reason = "`coach::Coach` is what a reader expects")]
 mod coach;
 mod crew;
-mod errors;
+pub mod errors;
 mod first;
 mod kind;
 mod margins;
