@@ -27,14 +27,17 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         time: app.playback().time,
         is_moving: app.mode() == Mode::Watching,
         front: app.selected(),
+        spots: &[],
         theme: app.theme(),
         look: app.look(),
     };
     draw_table(&view, panes.table, buffer);
     draw_balls(app, panes.balls, buffer);
-    draw_shot(app, panes.shot, buffer);
-    draw_tip(app, panes.tip, buffer);
-    draw_events(app, panes.events, buffer);
+    let (table, shot, theme, look) = (app.table(), app.shot().map(AsRef::as_ref), app.theme(), app.look());
+    draw_shot(shot, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, theme, look, buffer);
+    draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, theme, look, buffer);
+    let time = app.watched().map(|_| app.playback().readout);
+    draw_events(shot, time, panes.events, theme, look, buffer);
     let standing = || Message::plain(standing(app));
     draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, app.theme(), app.look(), buffer);
     draw_hints(app, panes.hints, buffer);

@@ -10,8 +10,10 @@ use super::{draw_title, write_right};
 use crate::{
     simulation::Event,
     terminal::{
-        app::App,
+        look::Look,
         playback::passed,
+        shot::Shot,
+        theme::Theme,
         words::{event_words, fixed},
     },
 };
@@ -21,19 +23,18 @@ const WORDS: u16 = 9;
 /// Columns of an event's words and of how soon it comes.
 const WAIT: u16 = 34;
 
-/// Draws the panel: the stroke, then every event, with the present one marked and in view.
-pub fn draw_events(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (theme, look) = (app.theme(), app.look());
-    let events: &[Event] = app.shot().map_or(&[], |shot| shot.recording.events());
-    let time = app.playback().readout;
+/// Draws the panel: the stroke, then every event, with the one at `time` marked and in view. No time: the shot is not
+/// being watched.
+pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let events: &[Event] = shot.map_or(&[], |shot| shot.recording.events());
     // Row 0 is the stroke.
-    let present = if app.watched().is_some() { passed(events, time) } else { 0 };
+    let present = time.map_or(0, |time| passed(events, time));
     let mut title = vec![Span::styled("Events", theme.text())];
-    if app.shot().is_some() {
+    if shot.is_some() {
         title.push(Span::styled(format!(" {present}/{}", events.len()), theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
-    if app.shot().is_none() || inner.is_empty() {
+    if shot.is_none() || inner.is_empty() {
         return;
     }
     let rows = usize::from(inner.height);
@@ -50,7 +51,9 @@ pub fn draw_events(app: &App, area: Rect, buffer: &mut Buffer) {
         buffer.set_string(inner.x, row, pointer, theme.accent());
         write_right(buffer, inner.x, inner.x + 7, row, &fixed(at, 3), style);
         buffer.set_stringn(inner.x + WORDS, row, &words, usize::from(inner.width.saturating_sub(WORDS)), style);
-        if n == present + 1 && app.watched().is_some() {
+        if n == present + 1
+            && let Some(time) = time
+        {
             let wait = format!("in {} s", fixed(at - time, 1));
             if usize::from(inner.width) > usize::from(WORDS) + words.len() + wait.len() + 2 {
                 let end = inner.right().saturating_sub(1).min(inner.x + WORDS + WAIT);

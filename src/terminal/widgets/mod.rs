@@ -23,7 +23,7 @@ pub use events::draw_events;
 pub use footer::{draw_hints, draw_question, draw_status, wrap};
 pub use header::draw_header;
 pub use shot::draw_shot;
-pub use table::{TableView, draw_table};
+pub use table::{Spot, TableView, draw_table};
 pub use tip::draw_tip;
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
@@ -40,6 +40,13 @@ pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &
         buffer.set_line(area.x + 1, area.y, &Line::from(spans), area.width.saturating_sub(1));
     }
     Rect { y: area.y + 1, height: area.height - 1, ..area }
+}
+
+/// Says in a panel why it is empty: after a blank row, a line a row.
+pub fn draw_nothing(lines: &[&str], inner: Rect, theme: &Theme, buffer: &mut Buffer) {
+    for (text, row) in lines.iter().zip(inner.y + 1..inner.bottom()) {
+        buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), theme.faint());
+    }
 }
 
 /// Writes `text` so that it ends before column `end`, but never left of `start`.

@@ -6,22 +6,32 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use super::draw_title;
-use crate::terminal::{
-    app::App,
-    look::Look,
-    shot::Shot,
-    words::{across_word, fixed, height_word},
+use super::{draw_nothing, draw_title};
+use crate::{
+    table::Table,
+    terminal::{
+        look::Look,
+        shot::Shot,
+        theme::Theme,
+        words::{across_word, fixed, height_word},
+    },
 };
 
 /// Columns from which on the panel explains the numbers.
 const WIDE: u16 = 30;
 
-/// Draws the panel.
-pub fn draw_shot(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (theme, look) = (app.theme(), app.look());
+/// Draws the panel; without a shot it says `empty`, a line a row.
+pub fn draw_shot(
+    shot: Option<&Shot>,
+    empty: &[&str],
+    table: &Table,
+    area: Rect,
+    theme: &Theme,
+    look: Look,
+    buffer: &mut Buffer,
+) {
     let mut title = vec![Span::styled("Shot", theme.text())];
-    if let Some(shot) = app.shot() {
+    if let Some(shot) = shot {
         let (words, style) = if shot.solved { ("point", theme.good()) } else { ("no point", theme.warning()) };
         title.push(Span::styled(look.pick(" · ", " - "), theme.faint()));
         title.push(Span::styled(words, style));
@@ -30,14 +40,9 @@ pub fn draw_shot(app: &App, area: Rect, buffer: &mut Buffer) {
         }
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
-    let Some(shot) = app.shot() else {
-        for (text, row) in ["", "no shot yet", "Enter asks", "the coach"].into_iter().zip(inner.y..inner.bottom()) {
-            buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), theme.faint());
-        }
-        return;
-    };
+    let Some(shot) = shot else { return draw_nothing(empty, inner, theme, buffer) };
     let wide = inner.width >= WIDE;
-    let rows = if wide { wide_rows(shot, app.table().radius, look) } else { narrow_rows(shot, look) };
+    let rows = if wide { wide_rows(shot, table.radius, look) } else { narrow_rows(shot, look) };
     for ((name, value, note), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let line = Line::from(vec![
             Span::styled(format!("{name:<3}"), theme.faint()),

@@ -42,6 +42,19 @@ const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
 const BALL_WEIGHT: u8 = 6;
 
+/// Something else at a place on the table: a dot, or a ball that is not there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Where, m.
+    pub place: DVec2,
+    /// Whether it is as large as a ball, an outline; else it is a dot.
+    pub is_ball: bool,
+    /// Its colour.
+    pub color: Color,
+    /// Its sign where only letters are drawn.
+    pub letter: char,
+}
+
 /// What is drawn of a table, and how.
 #[derive(Clone, Copy, Debug)]
 pub struct TableView<'a> {
@@ -57,6 +70,8 @@ pub struct TableView<'a> {
     pub is_moving: bool,
     /// The ball that lies on top of the others; marked while balls are placed.
     pub front: usize,
+    /// What else is drawn, below the paths and the balls, the first lowest.
+    pub spots: &'a [Spot],
     /// The colours.
     pub theme: &'a Theme,
     /// What the terminal can show.
@@ -116,6 +131,11 @@ impl Scene<'_> {
         self.balls.iter().all(|ball| ball.distance(place) > self.clear)
     }
 
+    /// What else is drawn: a ball that is not there may touch one that is.
+    fn spots(&self) -> impl Iterator<Item = &Spot> {
+        self.view.spots.iter().filter(|spot| spot.is_ball || self.is_clear(spot.place))
+    }
+
     /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
     fn each_dot(&self, mut draw: impl FnMut(usize, DVec2)) {
         let Some(shot) = self.view.shot else { return };
@@ -168,6 +188,14 @@ impl Scene<'_> {
             let at = (mapping.to_cells(place) * grid).floor();
             canvas.set(at.x as i32, at.y as i32, Ink { color, weight: DOT_WEIGHT });
         };
+        for spot in self.spots() {
+            if !spot.is_ball {
+                dot(&mut canvas, spot.place, spot.color);
+            } else if glyphs == Glyphs::Sextant {
+                let ink = Ink { color: spot.color, weight: RING_WEIGHT };
+                self.sprite.stamp_ring(&mut canvas, mapping, spot.place, ink);
+            }
+        }
         self.each_dot(|ball, place| dot(&mut canvas, place, theme.paths[ball]));
         self.each_cue_dot(|place| dot(&mut canvas, place, theme.cue));
         if glyphs == Glyphs::Sextant {
@@ -195,6 +223,9 @@ impl Scene<'_> {
             let cell = &mut buffer[mapping.to_cell(place)];
             cell.set_char(symbol).set_fg(color);
         };
+        for spot in self.spots() {
+            put(spot.place, spot.letter, spot.color);
+        }
         let dots = look.pick(DOTS, PLAIN_DOTS);
         self.each_dot(|ball, place| put(place, dots[ball], theme.paths[ball]));
         for (ball, place) in self.ghosts() {

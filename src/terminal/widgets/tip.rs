@@ -8,10 +8,14 @@ use ratatui::{
 };
 
 use super::draw_title;
-use crate::terminal::{
-    app::App,
-    canvas::{Canvas, Ink},
-    look::Glyphs,
+use crate::{
+    physics::CueInputs,
+    table::Table,
+    terminal::{
+        canvas::{Canvas, Ink},
+        look::{Glyphs, Look},
+        theme::Theme,
+    },
 };
 
 /// Radius of the tip's contact as it is drawn, in ball radii; a real one is smaller than a sub-pixel.
@@ -21,30 +25,25 @@ const TIP_RADIUS: f64 = 0.17;
 /// would lose a piece and fall apart.
 const TIP_WEIGHT: u8 = 16;
 
-/// Draws the panel.
-pub fn draw_tip(app: &App, area: Rect, buffer: &mut Buffer) {
-    let (theme, look) = (app.theme(), app.look());
+/// Draws the panel: where the tip meets the ball in the stroke `cue`, if there is one.
+pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let title = Line::from(Span::styled("Tip", theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
     // A row is as high as two columns are wide: a circle is twice as many columns as rows.
     let rows = inner.height.min(inner.width / 2);
     let face = Rect::new(inner.x + (inner.width - 2 * rows) / 2, inner.y, 2 * rows, rows);
+    let limit = table.miscue_limit.sqrt();
+    // In radii, right and up as the shooter sees it: positive `a` is on the left.
+    let tip = cue.map(|cue| (-cue.a, cue.b));
     if look.glyphs == Glyphs::Letters {
-        draw_letters(app, face, buffer);
+        draw_letters(tip, limit, face, theme, buffer);
     } else {
-        draw_blocks(app, face, buffer);
+        draw_blocks(tip, limit, face, theme, look, buffer);
     }
 }
 
-/// The tip's place on the face, in radii, right and up as the shooter sees it: positive `a` is on the left.
-fn tip(app: &App) -> Option<(f64, f64)> {
-    app.shot().map(|shot| (-shot.cue.a, shot.cue.b))
-}
-
-fn draw_blocks(app: &App, face: Rect, buffer: &mut Buffer) {
-    let theme = app.theme();
-    let limit = app.table().miscue_limit.sqrt();
-    let mut canvas = Canvas::new(face, app.look().glyphs, theme.background);
+fn draw_blocks(tip: Option<(f64, f64)>, limit: f64, face: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let mut canvas = Canvas::new(face, look.glyphs, theme.background);
     let (width, height) = canvas.size();
     let ink = |color, weight| Ink { color, weight };
     for row in 0..height {
@@ -55,7 +54,7 @@ fn draw_blocks(app: &App, face: Rect, buffer: &mut Buffer) {
             if radius > 1.0 {
                 continue;
             }
-            let on_tip = tip(app).is_some_and(|(right, up)| (x - right).hypot(y - up) <= TIP_RADIUS);
+            let on_tip = tip.is_some_and(|(right, up)| (x - right).hypot(y - up) <= TIP_RADIUS);
             canvas.set(
                 column,
                 row,
@@ -70,9 +69,7 @@ fn draw_blocks(app: &App, face: Rect, buffer: &mut Buffer) {
     canvas.paint(buffer);
 }
 
-fn draw_letters(app: &App, face: Rect, buffer: &mut Buffer) {
-    let theme = app.theme();
-    let limit = app.table().miscue_limit.sqrt();
+fn draw_letters(tip: Option<(f64, f64)>, limit: f64, face: Rect, theme: &Theme, buffer: &mut Buffer) {
     let rows = f64::from(face.height.max(1));
     // Half a row, in radii.
     let half = 1.0 / rows;
@@ -81,7 +78,7 @@ fn draw_letters(app: &App, face: Rect, buffer: &mut Buffer) {
             let x = (f64::from(column - face.x) + 0.5) / rows - 1.0;
             let y = 1.0 - (2.0 * f64::from(row - face.y) + 1.0) / rows;
             let radius = x.hypot(y);
-            let on_tip = tip(app).is_some_and(|(right, up)| (x - right).abs() <= 0.5 * half && (y - up).abs() <= half);
+            let on_tip = tip.is_some_and(|(right, up)| (x - right).abs() <= 0.5 * half && (y - up).abs() <= half);
             let (symbol, style) = match () {
                 () if on_tip => ('X', theme.accent().add_modifier(Modifier::REVERSED)),
                 () if (radius - (1.0 - half / 2.0)).abs() <= 0.6 * half => ('o', theme.text()),
