@@ -1,14 +1,22 @@
 //! Practice: positions with what they teach, sessions that keep score, and what the score says of a player.
 
+mod code;
 mod compare;
 pub mod exam;
 mod exercise;
+mod file;
+mod library;
 mod play;
 mod record;
 mod session;
+mod shift;
 
+pub use code::{CodeError, decode, encode};
 pub use compare::{Advice, advise, chance, difference};
 pub use exercise::{Category, Exercise, ExerciseError, Par};
+pub use file::{LibraryFile, LibraryFileError};
+pub use library::{Filter, Library, LibraryError};
 pub use play::{PlayError, Played, check};
 pub use record::Record;
 pub use session::{Attempt, Goal, Session, Venue};
+pub use shift::shifted;
