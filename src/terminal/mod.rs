@@ -8,6 +8,7 @@ mod canvas;
 mod chart;
 mod chord;
 mod coach;
+mod drills;
 mod errands;
 mod geometry;
 mod history;
@@ -36,8 +37,12 @@ use std::{io, path::Path, time::SystemTime};
 use crate::table::{Layout, LayoutError, Table};
 
 pub use app::{App, Effect, Mode, Screen};
+pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
+pub use errands::Clerk;
 pub use geometry::Mapping;
-pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, TrainingWhen, When};
+pub use keymap::{
+    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, Place, TrainingAction, TrainingWhen, When,
+};
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Effort, Job, Office, Tutor};
 pub use shot::Shot;

@@ -121,8 +121,11 @@ impl Runner {
                 Some(Effect::Send(request, folder)) => self.errands.send(request, folder)?,
                 Some(Effect::Keep(keeping)) => self.errands.keep(*keeping)?,
                 Some(Effect::LoadPolicy(folder)) => self.errands.load_policy(folder)?,
+                Some(Effect::Drill(errands)) => self.errands.practise(errands)?,
+                Some(Effect::Copy(text)) => self.session.copy(&text)?,
                 None => {}
             },
+            News::Input(Event::Paste(text)) => self.app.paste(&text),
             // A resize needs a picture, which follows anyway.
             News::Input(_) | News::Signal(SIGWINCH) => {}
             News::InputEnded => return Ok(Next::Quit),
@@ -137,6 +140,10 @@ impl Runner {
             News::Report(report) => {
                 self.errands.taken(&report);
                 self.app.receive_report(report);
+            }
+            News::Drill(report) => {
+                let errands = self.app.receive_drill(report);
+                self.errands.practise(errands)?;
             }
         }
         Ok(Next::GoOn)

@@ -18,7 +18,10 @@ use super::{
     shot::Shot,
     status::Message,
 };
-use crate::table::{Layout, LayoutError, Table};
+use crate::{
+    game::Rule,
+    table::{Layout, LayoutError, Table},
+};
 
 /// Step sizes of the arrow keys, mm; Shift makes them ten times larger, Ctrl ten times smaller.
 const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
@@ -98,6 +101,18 @@ impl CoachScreen {
         }
         self.message = Some(Message::good(format!("the coach plays with {}; Enter asks it", tutor.name())));
         self.tutor = tutor;
+    }
+
+    /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
+    /// is the same.
+    pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
+        if self.table != *table {
+            self.take_tutor(table, Tutor::default());
+        }
+        self.cancel();
+        self.tutor.rule = rule;
+        self.place(layout);
+        self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
     }
 
     /// Where the balls lie before the shot.

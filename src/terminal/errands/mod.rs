@@ -2,6 +2,7 @@
 
 mod policies;
 mod polling;
+mod practice;
 mod recorder;
 mod trainer;
 

@@ -119,6 +119,49 @@ pub enum DrillWhen {
     Estimated,
 }
 
+/// What is on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrillPlace {
+    /// The list of exercises.
+    Library,
+    /// Words that are looked for in it.
+    Search,
+    /// An exercise.
+    Exercise,
+    /// The result of an exam.
+    Result,
+    /// A record.
+    Record,
+    /// A question.
+    Question,
+    /// Something that is typed.
+    Text,
+}
+
+impl DrillPlace {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Library, Self::Search, Self::Exercise, Self::Result, Self::Record, Self::Question, Self::Text];
+
+    /// Its keys.
+    pub const fn bindings(self) -> &'static [Binding] {
+        match self {
+            Self::Library => LIBRARY,
+            Self::Search => SEARCH,
+            Self::Exercise => EXERCISE,
+            Self::Result => RESULT,
+            Self::Record => RECORD,
+            Self::Question => QUESTION,
+            Self::Text => TEXT,
+        }
+    }
+
+    /// Whether letters are typed there, or answers.
+    pub const fn takes_letters(self) -> bool {
+        matches!(self, Self::Search | Self::Question | Self::Text)
+    }
+}
+
 const fn bind(
     section: Section,
     when: DrillWhen,
