@@ -10,6 +10,7 @@ mod play;
 mod record;
 mod session;
 mod shift;
+pub mod store;
 
 pub use code::{CodeError, decode, encode};
 pub use compare::{Advice, advise, chance, difference};
@@ -20,3 +21,4 @@ pub use play::{PlayError, Played, check};
 pub use record::Record;
 pub use session::{Attempt, Goal, Session, Venue};
 pub use shift::shifted;
+pub use store::Store;

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{Attempt, ExerciseError, Session, session::now};
+use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
     coach::{Skill, errors},
     game::{Rule, Tally},
@@ -88,6 +88,7 @@ impl Session {
                 // The simulator repeats itself to the last bit.
                 last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end)
             }
+            _ if self.shifted => shifted(&exercise.layout, &table, self.seed, self.attempts.len() as u32),
             _ => exercise.layout,
         };
         Ok(Some((table, layout)))
