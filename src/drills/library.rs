@@ -25,7 +25,7 @@ pub enum LibraryError {
 }
 
 /// Exercises with names of their own, the bundled ones first, by category.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Library {
     exercises: Vec<Exercise>,
     bundled: usize,

@@ -1,14 +1,14 @@
 //! What is done with what has come of errands.
 
-use super::{Book, DrillReport, DrillScreen, Estimate, Loaded, Question, Stage, Turn};
+use super::{Book, DrillReport, DrillScreen, Errand, Estimate, Loaded, Question, Stage, Turn};
 use crate::{
     drills::{Exercise, Library, Session},
-    terminal::{app::Effect, status::Message},
+    terminal::status::Message,
 };
 
 impl DrillScreen {
     /// Takes what has come of an errand, and gives what it asks for in turn.
-    pub fn receive(&mut self, report: DrillReport) -> Option<Effect> {
+    pub fn receive(&mut self, report: DrillReport) -> Vec<Errand> {
         match report {
             DrillReport::Loaded(loaded) => self.loaded(*loaded),
             DrillReport::Advised(id, answer) => {
@@ -68,7 +68,7 @@ impl DrillScreen {
                 self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
             }
         }
-        None
+        Vec::new()
     }
 
     fn loaded(&mut self, loaded: Loaded) {
@@ -81,7 +81,7 @@ impl DrillScreen {
     }
 
     /// A session is on the disk, or could not be written.
-    fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Option<Effect> {
+    fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<Errand> {
         self.book.put(session);
         let errands = self.turn.as_mut().map_or_else(Vec::new, |turn| turn.saved(session));
         let last = session.attempts.last();
@@ -98,7 +98,7 @@ impl DrillScreen {
             self.message = Some(Message::good(format!("done: {} of {} made", record.made, record.tried)));
         }
         self.warn_unsaved(saved, "the note counts here, but it is not saved");
-        (!errands.is_empty()).then_some(Effect::Drill(errands))
+        errands
     }
 
     fn warn_unsaved(&mut self, saved: Result<(), String>, what: &str) {

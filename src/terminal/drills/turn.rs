@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
-    drills::{Exercise, ExerciseError, Goal, Record, Session, Venue},
+    drills::{Exercise, ExerciseError, Goal, Session, Venue},
     physics::CueInputs,
     table::{Layout, Table},
     terminal::{playback::Playback, shot::Shot, status::Message},
@@ -146,17 +146,8 @@ impl Turn {
         self.watched().is_some_and(|watched| !watched.is_settled)
     }
 
-    /// The score as far as it may be told.
-    pub fn score(&self) -> Record {
-        self.told().record()
-    }
-
-    /// Points in a row, as far as they may be told.
-    pub fn run(&self) -> u32 {
-        self.told().run()
-    }
-
-    fn told(&self) -> Session {
+    /// The session as far as it may be told.
+    pub fn told(&self) -> Session {
         let mut session = self.session.clone();
         if self.is_open() {
             session.undo();

@@ -3,7 +3,6 @@
 use crate::{
     game::{Rule, Tally},
     physics::CueInputs,
-    simulation::Event,
     table::Table,
     terminal::words::{BALL_NAMES, fixed},
 };
@@ -12,13 +11,6 @@ use crate::{
 const SEEN: (f64, f64, f64, f64) = (0.05, 0.5, 1.0, 0.1);
 /// Degrees of aim beyond which it is another shot altogether.
 const ANOTHER_SHOT: f64 = 12.0;
-
-/// What the cue ball has done up to `time`, s.
-pub fn tally(events: &[Event], time: f64) -> Tally {
-    let mut tally = Tally::default();
-    events.iter().take_while(|event| event.time <= time).for_each(|event| tally.note(event));
-    tally
-}
 
 fn cushions(count: u32) -> String {
     match count {

@@ -1,17 +1,27 @@
 //! Practice: strokes are played and judged, and files written, one thing after the other on a thread of its own.
 
 use std::{
+    io,
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{Arc, atomic::Ordering},
+    sync::{
+        Arc,
+        atomic::Ordering,
+        mpsc::{Receiver, Sender, channel},
+    },
+    thread,
     time::Duration,
 };
 
 use crate::{
     coach::Coach,
-    drills::{Advice, Session, advise, chance, Store, StoreError},
+    drills::{
+        Advice, Session, advise, chance,
+        store::{Store, StoreError},
+    },
     table::Table,
     terminal::{
         drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught},
+        inbox::News,
         shot::Shot,
     },
 };
@@ -71,8 +81,16 @@ impl Clerk {
                 let kept = self.with_store(|store| store.keep_skill(skill));
                 reply(DrillReport::SkillKept(skill, kept));
             }
-            Errand::Estimate(sessions) => reply(DrillReport::Estimated(estimated(&sessions))),
+            Errand::Estimate(_) => {}
         }
+    }
+
+    /// The same with the screen's channel for answers.
+    pub(super) fn work(&mut self, errand: Errand, to_screen: &Sender<News>) {
+        self.run(errand, &mut |report| {
+            // A screen that is gone needs no answer; what is to be kept is on the disk.
+            let _ = to_screen.send(News::Drill(report));
+        });
     }
 
     fn with_store(&self, work: impl FnOnce(&Store) -> Result<(), StoreError>) -> Result<(), String> {
@@ -148,6 +166,21 @@ impl Clerk {
             attempt.chance = attempt.chance.or(known.chance);
         }
     }
+}
+
+/// Starts the thread that does errands; it ends with the sender that is returned.
+///
+/// # Errors
+/// A thread that could not be started.
+pub fn start(to_screen: Sender<News>) -> io::Result<Sender<Errand>> {
+    let (sender, errands): (Sender<Errand>, Receiver<Errand>) = channel();
+    thread::Builder::new().name("practice".into()).spawn(move || {
+        let mut clerk = Clerk::default();
+        for errand in errands {
+            clerk.work(errand, &to_screen);
+        }
+    })?;
+    Ok(sender)
 }
 
 /// What is said before the first look at the disk, which nobody sees: that look comes first.
