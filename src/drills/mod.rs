@@ -2,6 +2,7 @@
 
 mod code;
 mod compare;
+pub mod estimate;
 pub mod exam;
 mod exercise;
 mod file;
