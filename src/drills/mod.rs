@@ -12,6 +12,7 @@ mod record;
 mod session;
 mod shift;
 pub mod store;
+mod verdict;
 
 pub use code::{CodeError, decode, encode};
 pub use compare::{Advice, advise, chance, difference};
@@ -23,3 +24,4 @@ pub use record::Record;
 pub use session::{Attempt, Goal, Session, Venue};
 pub use shift::shifted;
 pub use store::Store;
+pub use verdict::{changes, verdict};
