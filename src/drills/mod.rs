@@ -2,6 +2,7 @@
 
 mod code;
 mod compare;
+pub mod estimate;
 pub mod exam;
 mod exercise;
 mod file;
@@ -11,6 +12,7 @@ mod record;
 mod session;
 mod shift;
 pub mod store;
+mod verdict;
 
 pub use code::{CodeError, decode, encode};
 pub use compare::{Advice, advise, chance, difference};
@@ -22,3 +24,4 @@ pub use record::Record;
 pub use session::{Attempt, Goal, Session, Venue};
 pub use shift::shifted;
 pub use store::Store;
+pub use verdict::{changes, verdict};

@@ -120,10 +120,12 @@ impl Session {
     /// Takes note of an attempt at a real table.
     ///
     /// # Errors
-    /// [`PlayError::Over`].
+    /// Where the session is over or the exercise is impossible.
     pub fn log(&mut self, made: bool) -> Result<(), PlayError> {
-        let name = &self.exercise().ok_or(PlayError::Over)?.name;
-        self.attempts.push(Attempt::new(name, made));
+        let (_, layout) = self.position()?.ok_or(PlayError::Over)?;
+        let exercise = self.exercise().ok_or(PlayError::Over)?;
+        let layout = (layout != exercise.layout).then_some(layout);
+        self.attempts.push(Attempt { layout, ..Attempt::new(&exercise.name, made) });
         Ok(())
     }
 

@@ -2,13 +2,9 @@
 
 use indicatif::HumanCount;
 
-use crate::{
-    simulation::{EventKind, Rail},
-    table::BALLS,
-};
+use crate::simulation::{EventKind, Rail};
 
-/// The balls' names by their index.
-pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
+pub use crate::table::BALL_NAMES;
 
 /// The cushion's name as it lies on the screen.
 pub const fn rail_name(rail: Rail) -> &'static str {
