@@ -11,7 +11,7 @@ use std::{env, error::Error, fs, path::Path};
 use carom::{
     simulation::EventKind,
     table::{Layout, Table},
-    terminal::{App, Depth, Effect, Glyphs, Look, Office},
+    terminal::{App, Depth, Effect, Glyphs, Look, Office, Tidings},
 };
 use crossterm::event::KeyCode::{self, Char, Enter};
 use ratatui::{Terminal, backend::TestBackend};
@@ -20,6 +20,8 @@ const LOOK: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: 
 
 /// The balls, in metres: from here the coach finds a shot over three cushions between the two hits.
 const LAYOUT: &str = "-0.57,-0.43 -1.11,-0.3 0.39,0.66";
+/// Simulations that the coach may use, so that it finds the same shot each time.
+const SIMULATIONS: u64 = 300_000;
 /// Seconds after the second hit at which the picture is taken: the balls have parted, and the hit is still the news.
 const AFTER_HIT: f64 = 0.06;
 
@@ -52,12 +54,18 @@ fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
     app.handle(&key.into())
 }
 
-/// Asks the coach and shows its answer, but for what that has cost: no two runs take the same time.
+/// Asks the coach and shows what it says, but for what that has cost: no two runs take the same time.
 fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
-    let Some(Effect::Recommend(job)) = press(app, Enter) else { return Err("Enter does not ask the coach".into()) };
-    let mut answer = Office::default().answer(&job);
-    answer.effort = None;
-    app.receive(answer);
+    let mut office = Office::unhurried(SIMULATIONS);
+    let mut question = press(app, Enter);
+    while let Some(Effect::Recommend(job) | Effect::Study(job)) = question.take() {
+        office.answer(&job, |mut answer| {
+            if let Tidings::Advice(advice) = &mut answer.news {
+                advice.effort = None;
+            }
+            question = app.receive(answer).or(question.take());
+        });
+    }
     if app.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
 }
 

@@ -51,6 +51,8 @@ pub struct Alternative {
     pub kind: Kind,
     /// How often the player makes it; `None` where time ran out before a single attempt.
     pub make_probability: Option<SuccessRate>,
+    /// Probability of the point after this one, where that was asked for.
+    pub next_probability: Option<f64>,
 }
 
 /// The best shot so far, while the search goes on.
@@ -84,7 +86,8 @@ pub struct Recommendation {
     pub make_probability: Option<SuccessRate>,
     /// Probability of the point after this one, where that was asked for.
     pub next_probability: Option<f64>,
-    /// Other strokes that make the point, the best of each kind, the best first.
+    /// Other strokes that make the point, the best of each kind, the best first; none that is made less than half as often
+    /// as the recommended one.
     pub alternatives: Vec<Alternative>,
     /// The critic's probability that the policy's favourite makes a point, where there is a policy.
     pub policy_success: Option<f64>,

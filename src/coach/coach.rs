@@ -35,6 +35,10 @@ const PIECE: usize = 25;
 /// Alternatives that are listed.
 const ALTERNATIVES: usize = 5;
 
+/// Share of the best shot's probability below which another one is not listed: one that is made not even half as often is
+/// a gamble, and no choice for a player who wants the point.
+const WORTH_LISTING: f64 = 0.5;
+
 /// Steps of resting contacts after which a shot that is tried in a search is given up.
 const PATIENCE: u32 = 100;
 
@@ -166,6 +170,8 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
+    let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
+    let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     Recommendation {
         cue: best.shot.cue,
         solved: true,
@@ -179,7 +185,9 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
                 source: pool[index].shot.source,
                 kind: pool[index].kind,
                 make_probability: probability(index),
+                next_probability: request.plan.then_some(pool[index].next),
             })
+            .filter(is_worth)
             .collect(),
         ..first_point(found)
     }
@@ -224,6 +232,7 @@ fn first_point(found: &Found) -> Recommendation {
                 source: shot.source,
                 kind,
                 make_probability: Some(certain),
+                next_probability: None,
             })
             .collect(),
         policy_success: None,

@@ -65,19 +65,29 @@ impl Kind {
     }
 }
 
+impl fmt::Display for Way {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::Direct => "direct",
+            Self::OffCushion => "off a cushion",
+            Self::AroundTheTable => "around the table",
+        })
+    }
+}
+
+impl fmt::Display for Pace {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::Soft => "soft",
+            Self::Hard => "hard",
+        })
+    }
+}
+
 impl fmt::Display for Kind {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let first = self.first_ball;
-        let start = if self.cushion_first { "cushion first to" } else { "first" };
-        let way = match self.way {
-            Way::Direct => "direct",
-            Way::OffCushion => "off a cushion",
-            Way::AroundTheTable => "around the table",
-        };
-        let pace = match self.pace {
-            Pace::Soft => "soft",
-            Pace::Hard => "hard",
-        };
-        formatter.pad(&format!("{start} ball {first}, {way}, {pace}"))
+        let Self { first_ball, cushion_first, way, pace } = self;
+        let start = if *cushion_first { "cushion first to" } else { "first" };
+        formatter.pad(&format!("{start} ball {first_ball}, {way}, {pace}"))
     }
 }

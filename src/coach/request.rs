@@ -14,7 +14,8 @@ pub struct Request {
     /// What counts as a point.
     pub rule: Rule,
     /// Who is to play the shot. For a perfect player any shot that makes the point will do, and the first is the answer;
-    /// for anybody else the whole budget goes into finding the one that this player makes most often.
+    /// for anybody else the whole budget goes into finding the one that this player makes most often. A perfect
+    /// player's answer is the first point with a plan too.
     pub skill: Skill,
     /// Whether what comes next counts: shots are then ranked by their make probability times that of the shot after them.
     pub plan: bool,

@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::errors::Errors;
+use super::{Input, errors::Errors};
 use crate::physics::CueInputs;
 
 /// A player's standard errors in the five cue inputs. They are independent and normally distributed.
@@ -108,7 +108,13 @@ impl Skill {
         }
     }
 
-    /// The five in the order of [`FORMS`], SI.
+    /// The standard error in one of the inputs, in its unit.
+    pub fn error(&self, input: Input) -> f64 {
+        let index = Input::ALL.iter().position(|one| *one == input).unwrap_or_default();
+        self.values()[index] / FORMS[index].2
+    }
+
+    /// The five in the order of [`FORMS`] and [`Input::ALL`], SI.
     const fn values(&self) -> [f64; 5] {
         [self.a, self.b, self.theta, self.phi, self.speed]
     }

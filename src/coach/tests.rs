@@ -104,6 +104,11 @@ fn alternatives_are_of_different_kinds_and_every_improvement_is_told() {
     let layout = Layout::opening(coach.table());
     let advice =
         coach.recommend_and_tell(&layout, &request(Rule::StraightRail, 30_000), |news| told.push(*news)).unwrap();
+    let best = advice.make_probability.unwrap().rate;
+    for shot in &advice.alternatives {
+        assert!(shot.make_probability.is_none_or(|rate| rate.rate >= 0.5 * best), "{shot:?} beside {best}");
+        assert_eq!(shot.next_probability, None, "it was not asked for");
+    }
     let mut kinds: Vec<Kind> = advice.alternatives.iter().map(|shot| shot.kind).chain(advice.kind).collect();
     let count = kinds.len();
     kinds.sort();

@@ -3,6 +3,7 @@
 //! [`App`] holds the state and knows no terminal: keys go in, pictures come out, and what it wants done outside comes
 //! back as an [`Effect`]. [`run`] is the loop around it.
 
+mod advice;
 mod app;
 mod canvas;
 mod chart;
@@ -36,7 +37,9 @@ use std::{io, path::Path, time::SystemTime};
 
 use crate::table::{Layout, LayoutError, Table};
 
+pub use advice::{Advice, Effort, Proposal, Study, Tutor};
 pub use app::{App, Effect, Mode, Screen};
+pub use coach::View;
 pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
 pub use errands::Clerk;
 pub use geometry::Mapping;
@@ -44,7 +47,7 @@ pub use keymap::{
     Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, Place, TrainingAction, TrainingWhen, When,
 };
 pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, Effort, Job, Office, Tutor};
+pub use recommender::{Answer, Job, Office, Tidings};
 pub use shot::Shot;
 pub use training::{Failure, Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
 

@@ -11,46 +11,38 @@ use std::{
     time::Duration,
 };
 
-use super::shot::Shot;
+use super::{
+    advice::{Advice, Effort, Proposal, Study, Tutor},
+    shot::Shot,
+};
 use crate::{
-    coach::{Coach, Request},
-    game::Rule,
+    coach::{Coach, Improvement, Input, Recommendation, Request, Skill, map, margins, scatter},
     learning::Policy,
+    physics::CueInputs,
     table::{Layout, Table},
 };
 
-/// Longest time that the coach may think, s. Its goal is well under 100 ms; only layouts that are very hard use it up.
-const BUDGET: Duration = Duration::from_secs(2);
+/// Time that the coach may think. A quarter of it finds an expert three-cushion shots that are made 98 times of 100; the rest
+/// is for players who err more and for the next point, and no longer than a player looks at the table.
+const BUDGET: Duration = Duration::from_secs(1);
 
-/// Whose advice is asked, and what counts as a point.
-#[derive(Clone, Debug, Default)]
-pub struct Tutor {
-    /// A policy that somebody has trained, with its name; without one those that are bundled are asked.
-    pub policy: Option<(String, Arc<Policy>)>,
-    /// What counts as a point.
-    pub rule: Rule,
-}
+/// Time that a search is given where simulations are to end it.
+const NO_HURRY: Duration = Duration::from_secs(3600);
 
-impl Tutor {
-    /// The policy's name.
-    pub fn name(&self) -> &str {
-        self.policy.as_ref().map_or("the bundled policy", |(name, _)| name)
-    }
+/// Columns and rows of a map: three sub-pixels a row on the largest panels.
+const CELLS: usize = 61;
 
-    /// Whether `other` is asked the same policy; a policy is never changed, only replaced.
-    fn has_policy_of(&self, other: &Self) -> bool {
-        match (&self.policy, &other.policy) {
-            (None, None) => true,
-            (Some((_, one)), Some((_, other))) => Arc::ptr_eq(one, other),
-            _ => false,
-        }
-    }
-}
+/// How far the map of direction and speed reaches to either side, in the player's standard errors, of which hardly any
+/// stroke is off by more than three; for a perfect player an expert's count.
+const REACH: f64 = 5.0;
+
+/// Attempts whose ends are shown: enough to see the cloud, few enough to see through it.
+const ATTEMPTS: usize = 100;
 
 /// A question to the coach.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// Tells this question's answer from those to earlier questions.
+    /// Tells this question's answers from those to earlier questions.
     pub id: u64,
     /// The table.
     pub table: Table,
@@ -58,62 +50,102 @@ pub struct Job {
     pub layout: Layout,
     /// Whose advice is asked.
     pub tutor: Tutor,
+    /// Which shot is to be studied; without one the coach is to find one.
+    pub shot: Option<CueInputs>,
     /// Seed of the coach's random numbers.
     pub seed: u64,
     /// Set when nobody waits for the answer any more.
     pub cancel: Arc<AtomicBool>,
 }
 
-/// What an answer has cost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
-    /// Shots that were simulated.
-    pub simulations: u64,
-    /// How long the coach thought.
-    pub elapsed: Duration,
-}
-
-/// The coach's answer.
+/// What the coach says to a question.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The question's number.
     pub id: u64,
-    /// The shot, or a sentence that says why there is none.
-    pub shot: Result<Arc<Shot>, String>,
-    /// What it has cost, where that is to be told.
-    pub effort: Option<Effort>,
+    /// What it says.
+    pub news: Tidings,
+}
+
+/// What the coach says, bit by bit.
+#[derive(Clone, Debug)]
+pub enum Tidings {
+    /// A better shot than any before; the search goes on.
+    Better(Proposal),
+    /// The end of the search.
+    Advice(Advice),
+    /// Why there is no advice.
+    Refused(String),
+    /// What a closer look at a shot has shown.
+    Study(Arc<Study>),
+    /// The end of the study: the advice on where the shot leaves the balls, if there is any.
+    Next(Option<Advice>),
 }
 
 /// The coach, made when it is first asked: reading its networks must not delay the first picture.
 #[derive(Debug, Default)]
 pub struct Office {
     coach: Option<(Tutor, Coach)>,
+    /// Simulations that end a search instead of time.
+    simulations: Option<u64>,
 }
 
 impl Office {
-    /// Answers a question on this thread. A panic becomes a sentence.
-    pub fn answer(&mut self, job: &Job) -> Answer {
-        let found = catch_unwind(AssertUnwindSafe(|| self.shot(job)))
-            .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
-        match found {
-            Ok((shot, effort)) => Answer { id: job.id, shot: Ok(Arc::new(shot)), effort: Some(effort) },
-            Err(sentence) => Answer { id: job.id, shot: Err(sentence), effort: None },
-        }
+    /// An office whose answers do not depend on time: so many simulations end a search.
+    pub const fn unhurried(simulations: u64) -> Self {
+        Self { coach: None, simulations: Some(simulations) }
     }
 
-    fn shot(&mut self, job: &Job) -> Result<(Shot, Effort), String> {
+    /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
+    pub fn answer(&mut self, job: &Job, mut tell: impl FnMut(Answer)) {
+        let mut tell = |news| tell(Answer { id: job.id, news });
+        if let Some(cue) = job.shot {
+            let study = || self.study(job, &cue, &mut tell);
+            // Nobody asked for it: where it fails, there is nothing to see.
+            let next = catch_unwind(AssertUnwindSafe(study)).unwrap_or(None);
+            return tell(Tidings::Next(next));
+        }
+        let found = || self.advice(job, &job.layout, &mut |proposal| tell(Tidings::Better(proposal)));
+        let found = catch_unwind(AssertUnwindSafe(found))
+            .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
+        tell(found.map_or_else(Tidings::Refused, Tidings::Advice));
+    }
+
+    fn advice(&mut self, job: &Job, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
+        let Tutor { rule, skill, plan, .. } = job.tutor;
         let request = Request {
-            rule: job.tutor.rule,
-            budget: BUDGET,
+            rule,
+            skill,
+            plan,
+            budget: if self.simulations.is_some() { NO_HURRY } else { BUDGET },
+            simulations: self.simulations.unwrap_or(u64::MAX),
             seed: job.seed,
             cancel: Arc::clone(&job.cancel),
             ..Request::default()
         };
-        let found = self.coach(job)?.recommend(&job.layout, &request).map_err(|error| error.to_string())?;
-        let effort = Effort { simulations: found.simulations, elapsed: found.elapsed };
-        Shot::new(&job.table, &job.layout, found.cue, found.solved, found.source.to_string())
-            .map(|shot| (shot, effort))
-            .map_err(|error| error.to_string())
+        let tell = |better: &Improvement| {
+            // What cannot be shown is not told; the answer will say why.
+            let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
+            tell(Proposal {
+                shot: Arc::new(shot),
+                kind: Some(better.kind),
+                made: Some(better.make_probability),
+                next: None,
+                is_early: true,
+            });
+        };
+        let found = self.coach(job)?.recommend_and_tell(layout, &request, tell).map_err(|error| error.to_string())?;
+        proposals(job, layout, &found)
+    }
+
+    /// Looks at a shot closely, then at the layout after it.
+    fn study(&mut self, job: &Job, cue: &CueInputs, tell: &mut dyn FnMut(Tidings)) -> Option<Advice> {
+        let study = Arc::new(study(job, cue)?);
+        tell(Tidings::Study(Arc::clone(&study)));
+        // After a miss it is the other's turn.
+        study.margins?;
+        let shot = Shot::new(&job.table, &job.layout, *cue, true, "").ok()?;
+        self.advice(job, &shot.recording.final_layout(), &mut |_| {}).ok()
     }
 
     /// The coach for the question's table, with its policy.
@@ -135,6 +167,49 @@ impl Office {
     }
 }
 
+/// What the coach has found, ready to be shown.
+fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advice, String> {
+    let record = |cue, solved, source: String| {
+        Shot::new(&job.table, layout, cue, solved, source).map(Arc::new).map_err(|error| error.to_string())
+    };
+    let best = Proposal {
+        shot: record(found.cue, found.solved, found.source.to_string())?,
+        kind: found.kind,
+        made: found.make_probability,
+        next: found.next_probability,
+        is_early: false,
+    };
+    let others = found.alternatives.iter().map(|other| {
+        Ok(Proposal {
+            shot: record(other.cue, true, other.source.to_string())?,
+            kind: Some(other.kind),
+            made: other.make_probability,
+            next: other.next_probability,
+            is_early: false,
+        })
+    });
+    let proposals = std::iter::once(Ok(best)).chain(others).collect::<Result<_, String>>()?;
+    Ok(Advice { proposals, effort: Some(Effort { simulations: found.simulations, elapsed: found.elapsed }) })
+}
+
+/// Looks at a shot closely; breaks off between two parts where nobody waits any more.
+fn study(job: &Job, cue: &CueInputs) -> Option<Study> {
+    let Job { table, layout, tutor: Tutor { rule, skill, .. }, .. } = job;
+    let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
+    let margins = margins(*rule, table, layout, cue);
+    go_on()?;
+    let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
+    let radius = 1e3 * table.radius;
+    let tip = map(*rule, table, layout, &centre, (Input::Side, radius), (Input::Height, radius), CELLS);
+    go_on()?;
+    let usual = if skill.is_perfect() { Skill::EXPERT } else { *skill };
+    let span = (Input::Direction, REACH * usual.phi.to_degrees());
+    let aim = map(*rule, table, layout, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
+    go_on()?;
+    let scatter = scatter(*skill, *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
+    go_on().map(|()| Study { margins, tip, aim, scatter })
+}
+
 /// Starts the thread that answers questions through `reply`; it ends with the sender that is returned.
 pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Box<Job>>> {
     let (sender, questions): (Sender<Box<Job>>, Receiver<Box<Job>>) = channel();
@@ -142,7 +217,7 @@ pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<
         let mut office = Office::default();
         for job in questions {
             if !job.cancel.load(Ordering::Relaxed) {
-                reply(office.answer(&job));
+                office.answer(&job, &reply);
             }
         }
     })?;

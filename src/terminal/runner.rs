@@ -17,7 +17,7 @@ use super::{
     errands::Errands,
     inbox::{self, News},
     pace::Pace,
-    recommender::{self, Job},
+    recommender::{self, Answer, Job, Tidings},
     session::Session,
     training::Report,
 };
@@ -53,6 +53,15 @@ pub fn run(app: App) -> io::Result<()> {
         Some(signal) => emulate_default_handler(signal),
         None => left,
     }
+}
+
+/// Whether news may be drawn with the next picture: those of runs, and every better shot of a coach that still thinks.
+const fn can_come_later(news: &News) -> bool {
+    matches!(
+        news,
+        News::Report(Report::Followed(..) | Report::HasPolicy(..))
+            | News::Answer(Answer { news: Tidings::Better(_), .. })
+    )
 }
 
 struct Runner {
@@ -92,7 +101,7 @@ impl Runner {
             }
             let mut can_wait = first.is_some();
             for news in first.into_iter().chain(news.try_iter()) {
-                can_wait &= matches!(news, News::Report(Report::Followed(..) | Report::HasPolicy(..)));
+                can_wait &= can_come_later(&news);
                 match self.take(news)? {
                     Next::GoOn => {}
                     Next::Quit => return Ok(None),
@@ -112,39 +121,42 @@ impl Runner {
     }
 
     fn take(&mut self, news: News) -> io::Result<Next> {
-        match news {
-            News::Input(Event::Key(key)) => match self.app.handle(&key) {
-                Some(Effect::Quit) => return Ok(Next::Quit),
-                Some(Effect::Suspend) => self.suspend()?,
-                Some(Effect::Recommend(job)) => self.ask(job),
-                Some(Effect::Train(launch)) => self.errands.train(*launch)?,
-                Some(Effect::Send(request, folder)) => self.errands.send(request, folder)?,
-                Some(Effect::Keep(keeping)) => self.errands.keep(*keeping)?,
-                Some(Effect::LoadPolicy(folder)) => self.errands.load_policy(folder)?,
-                Some(Effect::Drill(errands)) => self.errands.practise(errands)?,
-                Some(Effect::Copy(text)) => self.session.copy(&text)?,
-                None => {}
-            },
-            News::Input(Event::Paste(text)) => self.app.paste(&text),
+        let effect = match news {
+            News::Input(Event::Key(key)) => self.app.handle(&key),
+            News::Input(Event::Paste(text)) => {
+                self.app.paste(&text);
+                None
+            }
+            News::Answer(answer) => self.app.receive(answer),
             // A resize needs a picture, which follows anyway.
-            News::Input(_) | News::Signal(SIGWINCH) => {}
+            News::Input(_) | News::Signal(SIGWINCH) => None,
             News::InputEnded => return Ok(Next::Quit),
-            News::Signal(SIGTSTP) => self.suspend()?,
+            News::Signal(SIGTSTP) => Some(Effect::Suspend),
             // Somebody else may have had the terminal since.
             News::Signal(SIGCONT) => {
                 self.session.leave()?;
                 self.session.enter()?;
+                None
             }
             News::Signal(signal) => return Ok(Next::Die(signal)),
-            News::Answer(answer) => self.app.receive(answer),
             News::Report(report) => {
                 self.errands.taken(&report);
                 self.app.receive_report(report);
+                None
             }
-            News::Drill(report) => {
-                let errands = self.app.receive_drill(report);
-                self.errands.practise(errands)?;
-            }
+            News::Drill(report) => Some(Effect::Drill(self.app.receive_drill(report))),
+        };
+        match effect {
+            Some(Effect::Quit) => return Ok(Next::Quit),
+            Some(Effect::Suspend) => self.suspend()?,
+            Some(Effect::Recommend(job) | Effect::Study(job)) => self.ask(job),
+            Some(Effect::Train(launch)) => self.errands.train(*launch)?,
+            Some(Effect::Send(request, folder)) => self.errands.send(request, folder)?,
+            Some(Effect::Keep(keeping)) => self.errands.keep(*keeping)?,
+            Some(Effect::LoadPolicy(folder)) => self.errands.load_policy(folder)?,
+            Some(Effect::Drill(errands)) => self.errands.practise(errands)?,
+            Some(Effect::Copy(text)) => self.session.copy(&text)?,
+            None => {}
         }
         Ok(Next::GoOn)
     }

@@ -36,6 +36,12 @@ impl Message {
         Self { tone: Tone::Warning, text: text.into() }
     }
 
+    /// The same news after some other words.
+    #[must_use]
+    pub fn after(self, words: &str) -> Self {
+        Self { text: format!("{words}: {}", self.text), ..self }
+    }
+
     /// Whether it is a refusal or a failure.
     pub fn is_warning(&self) -> bool {
         self.tone == Tone::Warning

@@ -46,6 +46,8 @@ pub struct Theme {
     pub curves: [Color; 2],
     /// All values of the two, behind their smoothed curves.
     pub bands: [Color; 2],
+    /// Outcomes of a stroke: none at all, no ball met, one, both with too few cushions, a point.
+    pub outcomes: [Color; 5],
     /// The lines behind the curves.
     pub grid: Color,
 }
@@ -82,6 +84,13 @@ impl Theme {
             tip: ink(0x001f_63c8, 26, Color::Blue),
             curves: [ink(0x0062_c8e8, 80, Color::LightCyan), ink(0x00d8_9a5a, 173, Color::Yellow)],
             bands: [ink(0x0027_5b6e, 24, Color::Blue), ink(0x0059_4530, 58, Color::DarkGray)],
+            outcomes: [
+                ink(0x0020_282e, 235, Color::Black),
+                ink(0x0045_5058, 239, Color::DarkGray),
+                ink(0x0098_5a3c, 131, Color::Red),
+                ink(0x00d9_b04c, 178, Color::Yellow),
+                ink(0x005c_bd72, 71, Color::Green),
+            ],
             grid: ink(0x0036_3f48, 237, Color::DarkGray),
         }
     }
@@ -145,6 +154,16 @@ mod tests {
             let all = [theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth];
             for (n, colour) in all.iter().enumerate() {
                 assert!(!all[n + 1..].contains(colour), "{depth:?} {colour}");
+            }
+        }
+    }
+
+    #[test]
+    fn outcomes_and_the_tip_upon_them_differ_at_every_depth_with_colours() {
+        for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
+            let theme = Theme::new(depth);
+            for (n, colour) in theme.outcomes.iter().enumerate() {
+                assert!(!theme.outcomes[n + 1..].contains(colour) && *colour != theme.tip, "{depth:?} {colour}");
             }
         }
     }

@@ -2,7 +2,12 @@
 
 use indicatif::HumanCount;
 
-use crate::simulation::{EventKind, Rail};
+use crate::{
+    coach::{Kind, Skill, Way},
+    learning::evaluation::SuccessRate,
+    simulation::{EventKind, Rail},
+    table::BALLS,
+};
 
 pub use crate::table::BALL_NAMES;
 
@@ -27,6 +32,44 @@ pub fn event_words(kind: EventKind) -> String {
         EventKind::ContactBegins(ball) => format!("{} leans", name(ball)),
         EventKind::ContactEnds(ball) => format!("{} comes free", name(ball)),
     }
+}
+
+/// The cushion's name where there is little room.
+pub const fn rail_word(rail: Rail) -> &'static str {
+    match rail {
+        Rail::Left => "left",
+        Rail::Right => "right",
+        Rail::Bottom => "bottom",
+        Rail::Top => "top",
+    }
+}
+
+/// What sort of shot it is: the first object ball, the cushions on the way to the second, and how hard. A bank shot comes
+/// off a cushion to the first ball.
+pub fn kind_words(kind: Kind) -> String {
+    let bank = if kind.cushion_first { "bank to " } else { "" };
+    let way = match kind.way {
+        Way::Direct => "direct",
+        Way::OffCushion => "1-2 rails",
+        Way::AroundTheTable => "3+ rails",
+    };
+    format!("{bank}{}, {way}, {}", BALL_NAMES[kind.first_ball.min(BALLS - 1)], kind.pace)
+}
+
+/// The player's name: that of one of the skills that have one.
+pub fn skill_word(skill: Skill) -> &'static str {
+    Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("own skill", |(name, _)| name)
+}
+
+/// A probability in per cent, to a tenth where it is almost certain, never 100 before it is.
+pub fn percent(probability: f64) -> String {
+    let percent = 100.0 * probability;
+    if percent < 98.5 || percent >= 100.0 { fixed(percent, 0) } else { fixed((10.0 * percent).floor() / 10.0, 1) }
+}
+
+/// A share with its 95 % interval, like 94 % (92-95).
+pub fn chance_words(rate: &SuccessRate) -> String {
+    format!("{} % ({}-{})", percent(rate.rate), percent(rate.low), percent(rate.high))
 }
 
 /// The number with `decimals` digits, never as minus zero.
@@ -105,6 +148,12 @@ mod tests {
         assert_eq!(fixed(-0.000_6, 3), "-0.001");
         assert_eq!(millimetres(-0.71), "-710.0");
         assert_eq!(fixed(f64::NAN, 1), "NaN");
+    }
+
+    #[test]
+    fn a_shot_that_is_missed_once_in_a_thousand_is_not_certain() {
+        assert_eq!([0.0, 0.934, 0.984, 0.99, 0.9996, 1.0].map(percent), ["0", "93", "98", "99.0", "99.9", "100"]);
+        assert_eq!(chance_words(&SuccessRate::new(940, 1000)), "94 % (92-95)");
     }
 
     #[test]

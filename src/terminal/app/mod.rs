@@ -40,6 +40,8 @@ pub enum Mode {
 pub enum Effect {
     /// Ask the coach and hand the answer to [`App::receive`].
     Recommend(Box<Job>),
+    /// Ask it for a closer look at the shot that is shown, in the same way.
+    Study(Box<Job>),
     /// Start a process that trains; how it ends goes to [`App::receive_report`], as do the answers to what follows.
     Train(Box<Launch>),
     /// Ask a run for something.
@@ -237,9 +239,9 @@ impl App {
         }
     }
 
-    /// The coach has answered. Late answers to cancelled questions are dropped.
-    pub fn receive(&mut self, answer: Answer) {
-        self.coach.receive(answer);
+    /// The coach has something to say. Late answers to cancelled questions are dropped.
+    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+        self.coach.receive(answer)
     }
 
     /// The thread that thinks is gone, and with it the answer.

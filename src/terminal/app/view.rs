@@ -42,8 +42,8 @@ impl App {
         self.coach.layout()
     }
 
-    /// The shot that was found for the layout.
-    pub const fn shot(&self) -> Option<&Arc<Shot>> {
+    /// The shot that was found for the layout, or the best so far while the coach thinks.
+    pub fn shot(&self) -> Option<&Arc<Shot>> {
         self.coach.shot()
     }
 

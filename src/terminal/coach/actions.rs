@@ -1,21 +1,16 @@
 //! What each action does to the state.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
-};
-
 use glam::DVec2;
 
-use super::{CoachScreen, Pending, Position, STEPS};
+use super::{CoachScreen, Position, STEPS};
 use crate::{
     table::{BALLS, Layout, LayoutError},
     terminal::{
+        advice::Tutor,
         app::{Effect, Mode},
         history::History,
         keymap::CoachAction as Action,
         placing,
-        recommender::{Job, Tutor},
         status::Message,
         words::{BALL_NAMES, step_words},
     },
@@ -24,6 +19,13 @@ use crate::{
 impl CoachScreen {
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
+        let effect = self.act(action);
+        // Whatever has changed, the closer look is at the shot that is shown now.
+        let study = self.study();
+        effect.or(study)
+    }
+
+    fn act(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Select(ball) => self.select(ball),
             Action::SelectNext => self.select((self.selected + 1) % BALLS),
@@ -41,8 +43,17 @@ impl CoachScreen {
             Action::Recommend => return Some(self.ask()),
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
-            Action::Continue => self.go_on(),
-            Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
+            Action::Continue => return self.go_on(),
+            Action::NextRule => self.next_rule(),
+            Action::NextSkill => self.next_skill(),
+            Action::TurnPlan => self.turn_plan(),
+            Action::NextView => self.view = self.view.next(),
+            Action::NextShot => self.choose(true),
+            Action::PreviousShot => self.choose(false),
+            Action::Bundled => {
+                let tutor = Tutor { policy: None, ..self.tutor.clone() };
+                self.take_tutor(&self.table.clone(), tutor);
+            }
             other => self.play(other),
         }
         None
@@ -100,7 +111,7 @@ impl CoachScreen {
 
     /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
     pub(super) fn place(&mut self, layout: Layout) {
-        self.balls.push(Position { layout, shot: None });
+        self.balls.push(Position { layout, advised: None });
         self.rest();
     }
 
@@ -112,30 +123,5 @@ impl CoachScreen {
     pub(super) fn rest(&mut self) {
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
-    }
-
-    fn go_on(&mut self) {
-        let Some(end) = self.shot().map(|shot| shot.recording.final_layout()) else { return };
-        match end.validate(&self.table) {
-            Ok(()) => self.place(end),
-            Err(error) => self.message = Some(Message::warning(error.to_string())),
-        }
-    }
-
-    fn ask(&mut self) -> Effect {
-        self.questions += 1;
-        self.playback.playing = false;
-        let cancel = Arc::new(AtomicBool::new(false));
-        self.pending = Some(Pending { id: self.questions, cancel: Arc::clone(&cancel), waited: 0.0 });
-        let (table, layout) = (self.table.clone(), *self.layout());
-        let tutor = self.tutor.clone();
-        Effect::Recommend(Box::new(Job { id: self.questions, table, layout, tutor, seed: self.questions, cancel }))
-    }
-
-    pub(super) fn cancel(&mut self) {
-        if let Some(pending) = self.pending.take() {
-            pending.cancel.store(true, Ordering::Relaxed);
-            self.message = Some(Message::plain("the coach has stopped thinking"));
-        }
     }
 }

@@ -1,20 +1,23 @@
-//! The state of the coach's screen: the balls, the shot that was found for them, and the clock of its playback.
+//! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
-//! [`actions`] is what each key does to it.
+//! [`actions`] is what each key does to it, [`asking`] how the coach is asked.
 
 mod actions;
+mod advised;
+mod asking;
 
-use std::sync::{Arc, atomic::AtomicBool};
+use std::sync::Arc;
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
+use self::asking::{Pending, Studying};
 use super::{
+    advice::{Proposal, Tutor},
     app::Mode,
     history::History,
     keymap::CoachWhen,
     playback::Playback,
-    recommender::{Answer, Effort, Tutor},
     shot::Shot,
     status::Message,
 };
@@ -23,25 +26,45 @@ use crate::{
     table::{Layout, LayoutError, Table},
 };
 
+pub use advised::{Advised, Choice};
+
 /// Step sizes of the arrow keys, mm; Shift makes them ten times larger, Ctrl ten times smaller.
 const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
 const FIRST_STEP: usize = 2;
 /// Seconds a picture of the spinner stays.
 const SPINNER_INTERVAL: f64 = 0.1;
 
-/// The balls and the shot that was found for them.
+/// The balls and the advice on them.
 #[derive(Clone, Debug)]
 struct Position {
     layout: Layout,
-    shot: Option<Arc<Shot>>,
+    advised: Option<Advised>,
 }
 
-/// A question that the coach has not answered yet.
-#[derive(Debug)]
-struct Pending {
-    id: u64,
-    cancel: Arc<AtomicBool>,
-    waited: f64,
+/// What the panel beside the shot's tells; see the screen for what goes with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// Where the balls lie and how they move.
+    #[default]
+    Balls,
+    /// How often each shot is made that may be chosen.
+    Chances,
+    /// How far off each input may be.
+    Margins,
+    /// Where the balls stop, and the next shot.
+    Plan,
+}
+
+impl View {
+    /// The one after it; after the last the first.
+    const fn next(self) -> Self {
+        match self {
+            Self::Balls => Self::Chances,
+            Self::Chances => Self::Margins,
+            Self::Margins => Self::Plan,
+            Self::Plan => Self::Balls,
+        }
+    }
 }
 
 /// The state of the coach's screen.
@@ -57,11 +80,14 @@ pub struct CoachScreen {
     pub playback: Playback,
     /// What the status line says.
     pub message: Option<Message>,
-    /// Whose advice is asked, and what counts as a point.
+    /// Whose advice is asked, and for what.
     pub tutor: Tutor,
+    /// What the panels show.
+    pub view: View,
     balls: History<Position>,
     step: usize,
     pending: Option<Pending>,
+    studying: Option<Studying>,
     questions: u64,
     rng: Xoshiro256PlusPlus,
 }
@@ -80,27 +106,29 @@ impl CoachScreen {
             playback: Playback::default(),
             message: None,
             tutor: Tutor::default(),
-            balls: History::new(Position { layout, shot: None }),
+            view: View::default(),
+            balls: History::new(Position { layout, advised: None }),
             step: FIRST_STEP,
             pending: None,
+            studying: None,
             questions: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
     }
 
-    /// Asks `tutor` from now on, on `table`: balls stay where they lie if it is the same table.
+    /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
     pub fn take_tutor(&mut self, table: &Table, tutor: Tutor) {
         self.cancel();
         if self.table == *table {
             let layout = *self.layout();
             self.place(layout);
         } else {
-            self.balls = History::new(Position { layout: Layout::opening(table), shot: None });
+            self.balls = History::new(Position { layout: Layout::opening(table), advised: None });
             self.table = table.clone();
             self.rest();
         }
         self.message = Some(Message::good(format!("the coach plays with {}; Enter asks it", tutor.name())));
-        self.tutor = tutor;
+        self.tutor = Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor };
     }
 
     /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
@@ -120,9 +148,30 @@ impl CoachScreen {
         &self.balls.present().layout
     }
 
-    /// The shot that was found for the layout.
-    pub const fn shot(&self) -> Option<&Arc<Shot>> {
-        self.balls.present().shot.as_ref()
+    /// The advice on the layout, if it answers what is asked now.
+    pub fn advised(&self) -> Option<&Advised> {
+        self.balls.present().advised.as_ref().filter(|advised| advised.tutor == self.tutor)
+    }
+
+    /// The same for whoever looks at it: nothing while the coach thinks of something better.
+    pub fn shown(&self) -> Option<&Advised> {
+        self.advised().filter(|_| self.pending.is_none())
+    }
+
+    fn advised_mut(&mut self) -> Option<&mut Advised> {
+        let tutor = &self.tutor;
+        self.balls.present_mut().advised.as_mut().filter(|advised| advised.tutor == *tutor)
+    }
+
+    /// The shot that is shown: the best so far while the coach thinks, else the chosen one of its advice.
+    pub fn proposal(&self) -> Option<&Proposal> {
+        let so_far = self.pending.as_ref().and_then(|pending| pending.so_far.as_ref());
+        so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
+    }
+
+    /// The same without what is known about it.
+    pub fn shot(&self) -> Option<&Arc<Shot>> {
+        self.proposal().map(|proposal| &proposal.shot)
     }
 
     /// The chosen step, mm.
@@ -151,26 +200,13 @@ impl CoachScreen {
             }
             CoachWhen::Idle | CoachWhen::Shot => None,
             CoachWhen::Watching => refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one"),
+            CoachWhen::Choice => refuse(
+                self.advised().is_none_or(|advised| advised.choices().len() < 2),
+                "there is no other shot to choose",
+            ),
             CoachWhen::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachWhen::Trained => refuse(self.tutor.policy.is_none(), "the bundled weights are asked already"),
             CoachWhen::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
-        }
-    }
-
-    /// The coach has answered. Late answers to cancelled questions are dropped.
-    pub fn receive(&mut self, answer: Answer) {
-        if self.pending.as_ref().is_none_or(|pending| pending.id != answer.id) {
-            return;
-        }
-        self.pending = None;
-        match answer.shot {
-            Ok(shot) => {
-                self.playback.jump(0.0);
-                self.message = Some(news(&shot, answer.effort));
-                self.balls.present_mut().shot = Some(shot);
-                self.mode = Mode::Watching;
-            }
-            Err(sentence) => self.message = Some(Message::warning(sentence)),
         }
     }
 
@@ -195,17 +231,4 @@ impl CoachScreen {
     pub fn frame_interval(&self) -> Option<f64> {
         if self.playback.playing { Some(1.0 / 30.0) } else { self.pending.as_ref().map(|_| SPINNER_INTERVAL) }
     }
-}
-
-fn news(shot: &Shot, effort: Option<Effort>) -> Message {
-    let contact = shot.contact_words().map_or(String::new(), |words| format!("; {words}"));
-    let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
-        0 => ", under 1 ms".to_owned(),
-        milliseconds => format!(", {milliseconds} ms"),
-    });
-    if shot.solved {
-        return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
-    }
-    let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
-    Message::warning(format!("no point found{tried}; this is the best attempt ({}{took}){contact}", shot.source))
 }

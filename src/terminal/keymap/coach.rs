@@ -54,6 +54,18 @@ pub enum CoachAction {
     PlaceBalls,
     /// Takes the balls as the shot leaves them.
     Continue,
+    /// Chooses what counts as a point.
+    NextRule,
+    /// Chooses who is to play the shot.
+    NextSkill,
+    /// Chooses whether the next point counts.
+    TurnPlan,
+    /// Shows something else in the panels.
+    NextView,
+    /// Shows the next of the shots that may be chosen.
+    NextShot,
+    /// Shows the one before.
+    PreviousShot,
     /// Asks the bundled policies again.
     Bundled,
 }
@@ -73,6 +85,8 @@ pub enum CoachWhen {
     Shot,
     /// While the coach thinks.
     Thinking,
+    /// Where there are several shots to choose from.
+    Choice,
     /// Where a change can be taken back.
     Undoable,
     /// Where a change was taken back.
@@ -113,6 +127,10 @@ pub const COACH: &[Binding] = &[
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
+    bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("other shot", 2)),
+        "step through the shots that the coach lists"),
+    bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
+        "turn the panels: balls, chances, margins and maps, plan"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
     bind(Balls, W::Placing, &[
         key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
@@ -143,7 +161,9 @@ pub const COACH: &[Binding] = &[
     bind(Shot, W::Shot, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('0', A::ToStart), letter('$', A::ToEnd)],
         None, "to the stroke, to the end"),
     bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
-        "go on with the balls as the shot leaves them"),
+        "go on with the balls as the shot leaves them, with the next shot of the plan"),
+    bind(Shot, W::Idle, &[letter('R', A::NextRule), letter('S', A::NextSkill), letter('P', A::TurnPlan)],
+        Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too"),
     bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),
         letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red"),
     bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
@@ -153,7 +173,7 @@ pub const COACH: &[Binding] = &[
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
     bind(Program, W::Anytime, &[(Chord::char('d'), Action::OpenDrills)], Some(("drills", 1)),
         "practise: exercises, exams, and your own positions"),
-    bind(Balls, W::Anytime, &[(Chord::char('S'), Action::SavePosition)], None, "save the balls as a position to practise"),
+    bind(Balls, W::Anytime, &[(Chord::char('s'), Action::SavePosition)], None, "save the balls as a position to practise"),
     bind(Program, W::Anytime, &[(Chord::char('t'), Action::OpenTraining)], Some(("train", 1)),
         "train agents and watch them learn"),
 ];

@@ -4,22 +4,30 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panes::Panes;
 use crate::{
+    coach::{Mark, line_of_aim},
     table::BALLS,
     terminal::{
         app::{App, Mode},
+        coach::{Advised, View},
         playback::passed,
+        shot::Shot,
         status::Message,
         widgets::{
-            TableView, draw_balls, draw_events, draw_header, draw_hints, draw_shot, draw_status, draw_table, draw_tip,
+            TableView, draw_aim_map, draw_balls, draw_chances, draw_events, draw_header, draw_hints, draw_legend,
+            draw_margins, draw_plan, draw_proposal, draw_shot, draw_status, draw_table, draw_tip, draw_tip_map,
+            plan_spots,
         },
-        words::{BALL_NAMES, event_words, fixed, millimetres, step_words},
+        words::{BALL_NAMES, event_words, fixed, millimetres, percent, rail_word, step_words},
     },
 };
 
 /// Draws the screen.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let panes = Panes::new(app.table(), area);
+    let (theme, look) = (app.theme(), app.look());
     draw_header(app, panes.header, buffer);
+    let choice = app.coach().shown().map(Advised::choice);
+    let spots = choice.filter(|_| app.coach().view == View::Plan).map_or_else(Vec::new, |one| plan_spots(one, theme));
     let view = TableView {
         table: app.table(),
         layout: app.layout(),
@@ -27,20 +35,61 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         time: app.playback().time,
         is_moving: app.mode() == Mode::Watching,
         front: app.selected(),
-        spots: &[],
-        theme: app.theme(),
-        look: app.look(),
+        spots: &spots,
+        theme,
+        look,
     };
     draw_table(&view, panes.table, buffer);
-    draw_balls(app, panes.balls, buffer);
-    let (table, shot, theme, look) = (app.table(), app.shot().map(AsRef::as_ref), app.theme(), app.look());
-    draw_shot(shot, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, theme, look, buffer);
+    draw_panels(app, &panes, buffer);
+    let standing = || Message::plain(standing(app));
+    draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, theme, look, buffer);
+    draw_hints(app, panes.hints, buffer);
+}
+
+/// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
+/// far as there is room.
+fn draw_panels(app: &App, panes: &Panes, buffer: &mut Buffer) {
+    let (theme, look, table, shot) = (app.theme(), app.look(), app.table(), app.shot().map(AsRef::as_ref));
+    let chosen = app.coach().view;
+    draw_info(app, chosen, panes.info, buffer);
+    let others = [View::Chances, View::Margins, View::Plan].into_iter().filter(|view| *view != chosen);
+    for (view, area) in others.zip(panes.more).filter(|(_, area)| !area.is_empty()) {
+        draw_info(app, view, area, buffer);
+    }
+    let study = app.coach().shown().and_then(|advised| advised.choice().study.as_ref());
+    if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
+        draw_aim_map(&study.aim, app.coach().tutor.skill, panes.shot, theme, look, buffer);
+        draw_tip_map(&study.tip, &shot.cue, table, panes.tip, theme, look, buffer);
+        return draw_legend(panes.events, theme, look, buffer);
+    }
+    match app.coach().proposal() {
+        Some(proposal) => draw_proposal(proposal, table, app.layout(), panes.shot, theme, look, buffer),
+        None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, theme, look, buffer),
+    }
     draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, theme, look, buffer);
     let time = app.watched().map(|_| app.playback().readout);
     draw_events(shot, time, panes.events, theme, look, buffer);
-    let standing = || Message::plain(standing(app));
-    draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, app.theme(), app.look(), buffer);
-    draw_hints(app, panes.hints, buffer);
+}
+
+/// Draws what one of the views tells.
+fn draw_info(app: &App, view: View, area: Rect, buffer: &mut Buffer) {
+    let (theme, look, coach) = (app.theme(), app.look(), app.coach());
+    let advised = coach.shown();
+    let choice = advised.map(Advised::choice);
+    let empty = match (app.spinner(), choice) {
+        (Some(_), _) => "the coach is thinking",
+        (None, Some(_)) => "being worked out",
+        (None, None) => "no shot yet; Enter asks the coach",
+    };
+    match view {
+        View::Balls => draw_balls(app, area, buffer),
+        View::Chances => draw_chances(advised, empty, area, theme, look, buffer),
+        View::Margins => {
+            let study = choice.and_then(|choice| choice.study.as_deref());
+            draw_margins(study, coach.tutor.skill, empty, area, theme, look, buffer);
+        }
+        View::Plan => draw_plan(choice, empty, area, theme, look, buffer),
+    }
 }
 
 /// What the status line says while there is no news.
@@ -48,9 +97,14 @@ fn standing(app: &App) -> String {
     if let Some(picture) = app.spinner() {
         let pictures =
             app.look().pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
-        return format!("{} the coach is thinking; Esc stops it", pictures[picture % pictures.len()]);
+        let so_far = app.coach().proposal().filter(|proposal| proposal.is_early).and_then(|proposal| proposal.made);
+        let words = so_far.map_or("the coach is thinking; Esc stops it".to_owned(), |made| {
+            format!("so far a shot that makes the point {} % of the time; Esc takes it", percent(made.rate))
+        });
+        return format!("{} {words}", pictures[picture % pictures.len()]);
     }
     match app.watched() {
+        Some(shot) if app.playback().time == 0.0 => aim_words(app, shot),
         Some(shot) => {
             let (events, time) = (shot.recording.events(), app.playback().readout);
             events.get(passed(events, time)).map_or("all balls lie still".to_owned(), |next| {
@@ -59,6 +113,14 @@ fn standing(app: &App) -> String {
         }
         None => selected_ball(app),
     }
+}
+
+/// How the first ball is hit, and the line of aim in diamonds, as a player reads it off the rails.
+fn aim_words(app: &App, shot: &Shot) -> String {
+    let hit = shot.contact_words().unwrap_or_else(|| "hits no ball".to_owned());
+    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
+    let [ahead, behind] = line_of_aim(app.table(), app.layout(), &shot.cue).map(mark);
+    format!("{hit}; aim from {behind} to {ahead} diamonds")
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.

@@ -4,18 +4,22 @@ use ratatui::layout::Rect;
 
 use crate::{table::Table, terminal::geometry::Mapping};
 
-/// Rows of the panels below the table where all of them stand there: a title and seven lines.
-const BELOW: u16 = 8;
+/// Rows of the panels below the table where all of them stand there: a title and seven lines at least; of every so many
+/// rows beyond those of the second size one more is theirs, up to the third number.
+const BELOW: (u16, u16, u16) = (8, 40, 12);
+const ROWS_A_PANEL_ROW: u16 = 5;
 /// Rows of the panels below the table where there is a column beside it: a title and three balls.
 const BELOW_BESIDE: u16 = 4;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (16, 36);
-/// Columns of the panels of balls, shot and tip where they stand side by side.
-const BALLS_WIDTH: u16 = 39;
+/// Columns of the panels of balls, shot and tip where they stand side by side; the tip's may be wider.
+const INFO_WIDTH: u16 = 39;
 const SHOT_WIDTH: u16 = 33;
-const TIP_WIDTH: u16 = 16;
+const TIP_WIDTH: (u16, u16) = (16, 20);
+/// Columns that the events need.
+const EVENTS_WIDTH: u16 = 24;
 /// Columns from which on the events find room beside these three.
-const ALL_BELOW_WIDTH: u16 = BALLS_WIDTH + SHOT_WIDTH + TIP_WIDTH + 24;
+const ALL_BELOW_WIDTH: u16 = INFO_WIDTH + SHOT_WIDTH + TIP_WIDTH.0 + EVENTS_WIDTH;
 
 /// The areas of the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +28,10 @@ pub struct Panes {
     pub header: Rect,
     /// Rails and cloth are drawn as large as fits in here.
     pub table: Rect,
-    /// Where the balls lie and how they move.
-    pub balls: Rect,
+    /// What the chosen view tells.
+    pub info: Rect,
+    /// What other views tell, where there is room; empty where there is none.
+    pub more: [Rect; 2],
     /// The cue inputs and the impulse.
     pub shot: Rect,
     /// The cue ball's face.
@@ -55,25 +61,24 @@ impl Panes {
 
     fn all_below(table: &Table, area: Rect) -> Self {
         let (header, middle, status, hints) = Self::frame(area);
-        let room = Rect { height: middle.height.saturating_sub(BELOW), ..middle };
+        let (least, from, most) = BELOW;
+        let rows = (least + area.height.saturating_sub(from) / ROWS_A_PANEL_ROW).min(most);
+        let room = Rect { height: middle.height.saturating_sub(rows), ..middle };
         let outer = Mapping::fit(table, room).outer();
         let top = outer.bottom().min(middle.bottom());
-        let panel = |x: u16, width: u16| {
-            let left = (area.x + x).min(area.right());
-            Rect::new(left, top, width.min(area.right() - left), middle.bottom() - top)
+        let mut left = area.x;
+        let mut panel = |width: u16| {
+            let panel = Rect::new(left, top, width.min(area.right() - left), middle.bottom() - top);
+            left = (left + width + u16::from(width > 0)).min(area.right());
+            panel
         };
-        let (shot, tip) = (BALLS_WIDTH + 1, BALLS_WIDTH + SHOT_WIDTH + 2);
-        let events = tip + TIP_WIDTH + 1;
-        Self {
-            header,
-            table: room,
-            balls: panel(0, BALLS_WIDTH),
-            shot: panel(shot, SHOT_WIDTH),
-            tip: panel(tip, TIP_WIDTH),
-            events: panel(events, area.width.saturating_sub(events)),
-            status,
-            hints,
-        }
+        let tip = (2 * rows).clamp(TIP_WIDTH.0, TIP_WIDTH.1);
+        let taken = INFO_WIDTH + SHOT_WIDTH + tip + 3 + EVENTS_WIDTH;
+        let others = area.width.saturating_sub(taken) / (INFO_WIDTH + 1);
+        let [info, shot, tip] = [INFO_WIDTH, SHOT_WIDTH, tip].map(&mut panel);
+        let more = [1, 2].map(|n| panel(if n <= others { INFO_WIDTH } else { 0 }));
+        let events = panel(area.width);
+        Self { header, table: room, info, more, shot, tip, events, status, hints }
     }
 
     fn some_beside(table: &Table, area: Rect) -> Self {
@@ -90,14 +95,15 @@ impl Panes {
         let room = Rect { width: left - 1 - area.x, ..room };
         let outer = Mapping::fit(table, room).outer();
         let bottom = outer.bottom().min(middle.bottom());
-        let tip_rows = BELOW.min((bottom - middle.y) / 2);
+        let tip_rows = BELOW.0.min((bottom - middle.y) / 2);
         let column = |y: u16, height: u16| Rect::new(left, y, width, height);
         let half = area.width / 2;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, middle.bottom() - bottom);
         Self {
             header,
             table: room,
-            balls: below(0, half),
+            info: below(0, half),
+            more: [Rect::ZERO; 2],
             shot: column(middle.y, bottom - middle.y - tip_rows),
             tip: column(bottom - tip_rows, tip_rows),
             events: below(half + 1, area.width - half - 1),
@@ -121,6 +127,7 @@ mod tests {
     fn the_table_is_as_large_as_the_panels_allow() {
         assert_eq!(bed(80, 24), (60, 15));
         assert_eq!(bed(120, 40), (108, 27));
+        assert_eq!(bed(200, 60), (172, 43));
     }
 
     #[test]
@@ -130,10 +137,11 @@ mod tests {
             for height in 24..=80 {
                 let panes = Panes::new(&table, Rect::new(0, 0, width, height));
                 let table = Mapping::fit(&table, panes.table).outer();
-                let Panes { header, balls, shot, tip, events, status, hints, .. } = panes;
-                let all = [header, table, balls, shot, tip, events, status, hints];
+                let Panes { header, info, more, shot, tip, events, status, hints, .. } = panes;
+                let all = [header, table, info, shot, tip, events, status, hints, more[0], more[1]];
                 for (n, one) in all.iter().enumerate() {
-                    assert!(one.right() <= width && one.bottom() <= height && !one.is_empty(), "{width}×{height} {n}");
+                    assert!(one.right() <= width && one.bottom() <= height, "{width}×{height} {n}");
+                    assert!(n > 7 || !one.is_empty(), "{width}×{height} {n}");
                     for other in &all[n + 1..] {
                         assert!(one.intersection(*other).is_empty(), "{width}×{height}: {one} and {other}");
                     }

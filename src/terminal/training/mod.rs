@@ -20,7 +20,7 @@ use std::{
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::{keymap::Place, recommender::Tutor, status::Message};
+use super::{advice::Tutor, keymap::Place, status::Message};
 use crate::{
     game::Reward,
     learning::{
@@ -298,7 +298,7 @@ impl TrainingScreen {
         match policy {
             Ok(policy) => {
                 let rule = watch.reward().and_then(Reward::rule).unwrap_or_default();
-                Some((table, Tutor { policy: Some((watch.own.name.clone(), policy)), rule }))
+                Some((table, Tutor { policy: Some((watch.own.name.clone(), policy)), rule, ..Tutor::default() }))
             }
             Err(sentence) => {
                 self.message = Some(Message::warning(sentence));

@@ -1,4 +1,4 @@
-//! The first row: the program, the table, and how far the shot has played.
+//! The first row: the program, the table, what is asked, and how far the shot has played.
 
 use ratatui::{
     buffer::Buffer,
@@ -7,16 +7,16 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use crate::{
-    game::Rule,
-    terminal::{
-        app::{App, Mode},
-        words::fixed,
-    },
+use crate::terminal::{
+    app::{App, Mode},
+    words::{fixed, skill_word},
 };
 
 /// Most cells of the bar that shows how far the shot has played.
 const BAR: u16 = 40;
+
+/// Columns from which on the table's size is told.
+const WIDE: u16 = 100;
 
 /// Draws the row.
 pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -28,12 +28,12 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
         Span::styled(format!(" {}", table.name), theme.text()),
     ]);
     match &tutor.policy {
-        None => left.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint())),
         Some((name, _)) => left.push_span(Span::styled(format!(" {name}"), theme.good())),
+        None if area.width < WIDE => {}
+        None => left.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint())),
     }
-    if tutor.rule != Rule::default() {
-        left.push_span(Span::styled(format!(" {}", tutor.rule), theme.text()));
-    }
+    let plan = if tutor.plan { ", plan" } else { "" };
+    left.push_span(Span::styled(format!("  {}, {}{plan}", tutor.rule, skill_word(tutor.skill)), theme.text()));
     let taken = buffer.set_line(area.x, area.y, &left, area.width).0;
     let room = area.right().saturating_sub(taken + 4);
     // The bar is left out where a long name leaves it no room.

@@ -1,9 +1,13 @@
 //! The parts of the screens.
 
 mod balls;
+mod chances;
 mod events;
 mod footer;
 mod header;
+mod maps;
+mod margins;
+mod plan;
 mod rails;
 mod shot;
 mod table;
@@ -19,12 +23,16 @@ use ratatui::{
 use super::{look::Look, theme::Theme};
 
 pub use balls::draw_balls;
+pub use chances::{draw_chances, sort_words};
 pub use events::draw_events;
 pub use footer::{draw_hints, draw_question, draw_status, wrap};
 pub use header::draw_header;
-pub use shot::draw_shot;
+pub use maps::{draw_aim_map, draw_legend, draw_tip_map};
+pub use margins::draw_margins;
+pub use plan::{draw_plan, plan_spots};
+pub use shot::{draw_proposal, draw_shot};
 pub use table::{Spot, TableView, draw_table};
-pub use tip::draw_tip;
+pub use tip::{draw_tip, face_in};
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
 pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> Rect {

@@ -8,12 +8,15 @@ use ratatui::{
 
 use super::{draw_nothing, draw_title};
 use crate::{
-    table::Table,
+    coach::{Mark, line_of_aim},
+    learning::evaluation::SuccessRate,
+    table::{Layout, Table},
     terminal::{
+        advice::Proposal,
         look::Look,
         shot::Shot,
         theme::Theme,
-        words::{across_word, fixed, height_word},
+        words::{across_word, chance_words, fixed, height_word, percent, rail_word},
     },
 };
 
@@ -40,9 +43,50 @@ pub fn draw_shot(
         }
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
-    let Some(shot) = shot else { return draw_nothing(empty, inner, theme, buffer) };
+    match shot {
+        Some(shot) => draw_rows(shot, String::from("from the x axis"), table, inner, theme, look, buffer),
+        None => draw_nothing(empty, inner, theme, buffer),
+    }
+}
+
+/// Draws the panel of a shot that the coach proposes: how often it is made, and the aim in diamonds.
+pub fn draw_proposal(
+    proposal: &Proposal,
+    table: &Table,
+    layout: &Layout,
+    area: Rect,
+    theme: &Theme,
+    look: Look,
+    buffer: &mut Buffer,
+) {
+    let shot = &proposal.shot;
+    let wide = area.width >= WIDE;
+    let chance = |rate: &SuccessRate| if wide { chance_words(rate) } else { format!("{} %", percent(rate.rate)) };
+    let (words, style) = match &proposal.made {
+        _ if !shot.solved => ("no point".to_owned(), theme.warning()),
+        None => ("point".to_owned(), theme.good()),
+        Some(made) if proposal.is_early => (format!("so far {} %", percent(made.rate)), theme.accent()),
+        Some(made) => (chance(made), theme.good()),
+    };
+    let mut title = Vec::new();
+    if wide || !proposal.is_early {
+        title = vec![Span::styled("Shot", theme.text()), Span::styled(look.pick(" · ", " - "), theme.faint())];
+    }
+    title.push(Span::styled(words, style));
+    if wide {
+        title.push(Span::styled(format!(" {}", shot.source), theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
+    let [ahead, behind] = line_of_aim(table, layout, &shot.cue).map(mark);
+    let aim = format!("{behind} {} {ahead}", look.pick("→", ">"));
+    draw_rows(shot, aim, table, inner, theme, look, buffer);
+}
+
+/// The numbers, with a note on the direction.
+fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let wide = inner.width >= WIDE;
-    let rows = if wide { wide_rows(shot, table.radius, look) } else { narrow_rows(shot, look) };
+    let rows = if wide { wide_rows(shot, aim, table.radius, look) } else { narrow_rows(shot, look) };
     for ((name, value, note), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let line = Line::from(vec![
             Span::styled(format!("{name:<3}"), theme.faint()),
@@ -56,7 +100,7 @@ pub fn draw_shot(
 
 type Row = (&'static str, String, String);
 
-fn wide_rows(shot: &Shot, radius: f64, look: Look) -> Vec<Row> {
+fn wide_rows(shot: &Shot, aim: String, radius: f64, look: Look) -> Vec<Row> {
     let cue = &shot.cue;
     let offset = |value: f64, word: &str| match value {
         0.0 => "R, at the centre".to_owned(),
@@ -69,7 +113,7 @@ fn wide_rows(shot: &Shot, radius: f64, look: Look) -> Vec<Row> {
         ("a", value(fixed(cue.a, 3)), offset(cue.a, across_word(cue.a))),
         ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
         (look.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
-        (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + degree), "from the x axis".into()),
+        (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + degree), aim),
         ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
         ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
         (

@@ -29,9 +29,7 @@ const TIP_WEIGHT: u8 = 16;
 pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let title = Line::from(Span::styled("Tip", theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
-    // A row is as high as two columns are wide: a circle is twice as many columns as rows.
-    let rows = inner.height.min(inner.width / 2);
-    let face = Rect::new(inner.x + (inner.width - 2 * rows) / 2, inner.y, 2 * rows, rows);
+    let face = face_in(inner);
     let limit = table.miscue_limit.sqrt();
     // In radii, right and up as the shooter sees it: positive `a` is on the left.
     let tip = cue.map(|cue| (-cue.a, cue.b));
@@ -40,6 +38,12 @@ pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, theme: &Them
     } else {
         draw_blocks(tip, limit, face, theme, look, buffer);
     }
+}
+
+/// The largest face in a panel. A row is as high as two columns are wide: a circle is twice as many columns as rows.
+pub fn face_in(inner: Rect) -> Rect {
+    let rows = inner.height.min(inner.width / 2);
+    Rect::new(inner.x + (inner.width - 2 * rows) / 2, inner.y, 2 * rows, rows)
 }
 
 fn draw_blocks(tip: Option<(f64, f64)>, limit: f64, face: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {

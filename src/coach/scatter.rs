@@ -1,0 +1,94 @@
+//! Where the balls come to rest when a player tries a shot again and again.
+
+use std::{sync::atomic::AtomicBool, time::Duration};
+
+use glam::DVec2;
+
+use super::{
+    Skill,
+    clock::Clock,
+    crew,
+    errors::{self, Errors},
+    next::end_of,
+    trial::Task,
+};
+use crate::{
+    game::Rule,
+    learning::evaluation::SuccessRate,
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// Steps of resting contacts after which an attempt is given up as a miss, as in a search.
+const PATIENCE: u32 = 100;
+
+/// What comes of many attempts at a shot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scatter {
+    /// Where the balls come to rest, for each attempt that makes the point.
+    pub ends: Vec<Layout>,
+    /// The share of attempts that make it.
+    pub made: SuccessRate,
+}
+
+impl Scatter {
+    /// The distance from `place`, m, within which `ball` comes to rest in half of the attempts that make the point; `None`
+    /// where none does.
+    pub fn spread(&self, ball: usize, place: DVec2) -> Option<f64> {
+        let mut distances: Vec<f64> = self.ends.iter().map(|end| end.balls[ball].distance(place)).collect();
+        distances.sort_by(f64::total_cmp);
+        distances.get(distances.len().saturating_sub(1) / 2).copied()
+    }
+}
+
+/// Lets a player of this skill try `cue` so many times, on all cores. The same seed draws the same errors. `cancel`, set
+/// from another thread, ends it: what is left then counts as missed.
+#[expect(clippy::too_many_arguments, reason = "a question, a shot, and how it is to be tried")]
+pub fn scatter(
+    skill: Skill,
+    rule: Rule,
+    table: &Table,
+    layout: &Layout,
+    cue: &CueInputs,
+    attempts: usize,
+    seed: u64,
+    cancel: &AtomicBool,
+) -> Scatter {
+    let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
+    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: PATIENCE };
+    let attempt = |errors: &Errors| {
+        if clock.is_cancelled() { None } else { end_of(&task, &skill.stroke(table.radius, cue, errors)) }
+    };
+    let ends = crew::map(crew::cores(), &errors::independent(attempts, seed), attempt);
+    let ends: Vec<Layout> = ends.into_iter().flatten().collect();
+    let made = SuccessRate::new(ends.len(), attempts);
+    Scatter { ends, made }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{coach::make_probability, simulation::Recording};
+
+    #[test]
+    fn a_player_who_errs_makes_what_the_make_probability_says_and_scatters_around_the_meant_end() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("-0.2,0.2,6,82.6,2.5").unwrap();
+        let rule = Rule::StraightRail;
+        let never = AtomicBool::new(false);
+        let meant = Recording::new(&table, &layout, &cue).unwrap().final_layout();
+        let mut before = 0.0;
+        for skill in [Skill::PERFECT, Skill::EXPERT, Skill::CLUB] {
+            let scatter = scatter(skill, rule, &table, &layout, &cue, 200, 5, &never);
+            // The same seed draws the same errors.
+            assert_eq!(scatter.made, make_probability(skill, rule, &table, &layout, &cue, 200, 5));
+            assert_eq!(scatter.ends.len(), scatter.made.successes);
+            let spread = scatter.spread(0, meant.balls[0]).unwrap();
+            assert!(spread > before || skill.is_perfect() && spread == 0.0, "{skill}: {spread} after {before}");
+            before = spread;
+        }
+        let cancelled = scatter(Skill::EXPERT, rule, &table, &layout, &cue, 200, 5, &AtomicBool::new(true));
+        assert_eq!((cancelled.ends.len(), cancelled.spread(0, meant.balls[0])), (0, None));
+    }
+}

@@ -1,0 +1,216 @@
+//! Asking the coach: questions, what it says to them, and the closer look at the shot that is shown.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use super::{Advised, CoachScreen};
+use crate::{
+    coach::Skill,
+    game::Rule,
+    physics::CueInputs,
+    terminal::{
+        advice::{Advice, Effort, Proposal, Tutor},
+        app::{Effect, Mode},
+        recommender::{Answer, Job, Tidings},
+        shot::Shot,
+        status::Message,
+        words::{chance_words, skill_word},
+    },
+};
+
+/// A question that the coach has not answered yet.
+#[derive(Debug)]
+pub struct Pending {
+    id: u64,
+    cancel: Arc<AtomicBool>,
+    /// Seconds since it was asked.
+    pub waited: f64,
+    /// The best shot so far.
+    pub so_far: Option<Proposal>,
+}
+
+/// A closer look that is being taken.
+#[derive(Debug)]
+pub struct Studying {
+    id: u64,
+    cancel: Arc<AtomicBool>,
+    shot: Arc<Shot>,
+}
+
+impl CoachScreen {
+    pub(super) fn ask(&mut self) -> Effect {
+        self.playback.pause();
+        let job = self.job(None);
+        let cancel = Arc::clone(&job.cancel);
+        self.pending = Some(Pending { id: job.id, cancel, waited: 0.0, so_far: None });
+        Effect::Recommend(Box::new(job))
+    }
+
+    fn job(&mut self, shot: Option<CueInputs>) -> Job {
+        self.questions += 1;
+        Job {
+            id: self.questions,
+            table: self.table.clone(),
+            layout: *self.layout(),
+            tutor: self.tutor.clone(),
+            shot,
+            seed: self.questions,
+            cancel: Arc::default(),
+        }
+    }
+
+    /// Stops asking; the best shot so far stays.
+    pub(super) fn cancel(&mut self) {
+        let Some(pending) = self.pending.take() else { return };
+        pending.cancel.store(true, Ordering::Relaxed);
+        let mut words = "the coach has stopped thinking".to_owned();
+        if let Some(so_far) = pending.so_far {
+            words += "; this is the best shot so far";
+            self.show(Advice { proposals: vec![so_far], effort: None });
+        }
+        self.message = Some(Message::plain(words));
+    }
+
+    /// The coach has something to say. Late answers to cancelled questions are dropped.
+    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+        let is_awaited = self.pending.as_ref().is_some_and(|pending| pending.id == answer.id);
+        let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
+        match answer.news {
+            Tidings::Better(proposal) if is_awaited => {
+                self.watch_from_the_stroke();
+                if let Some(pending) = &mut self.pending {
+                    pending.so_far = Some(proposal);
+                }
+            }
+            Tidings::Advice(advice) if is_awaited => {
+                self.pending = None;
+                self.message = advice.proposals.first().map(|best| news(best, advice.effort, &self.tutor));
+                self.show(advice);
+            }
+            Tidings::Refused(sentence) if is_awaited => {
+                self.cancel();
+                self.message = Some(Message::warning(sentence));
+            }
+            Tidings::Study(study) if is_study => {
+                if let Some(advised) = self.advised_mut() {
+                    advised.choice_mut().study = Some(study);
+                }
+            }
+            Tidings::Next(next) if is_study => {
+                self.studying = None;
+                if let Some(advised) = self.advised_mut() {
+                    let choice = advised.choice_mut();
+                    (choice.next, choice.is_studied) = (next, true);
+                }
+            }
+            _ => {}
+        }
+        self.study()
+    }
+
+    /// Shows advice on the layout from its best shot on.
+    pub(super) fn show(&mut self, advice: Advice) {
+        self.balls.present_mut().advised = Advised::new(self.tutor.clone(), advice);
+        self.watch_from_the_stroke();
+    }
+
+    fn watch_from_the_stroke(&mut self) {
+        self.playback.jump(0.0);
+        self.mode = Mode::Watching;
+    }
+
+    /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other.
+    pub(super) fn study(&mut self) -> Option<Effect> {
+        let advised = self.advised().filter(|_| self.pending.is_none());
+        let wanted = advised.map(Advised::choice).filter(|choice| !choice.is_studied);
+        let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
+        if let (Some(studying), Some(shot)) = (&self.studying, &wanted)
+            && Arc::ptr_eq(&studying.shot, shot)
+        {
+            return None;
+        }
+        if let Some(old) = self.studying.take() {
+            old.cancel.store(true, Ordering::Relaxed);
+        }
+        let shot = wanted?;
+        let job = self.job(Some(shot.cue));
+        self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
+        Some(Effect::Study(Box::new(job)))
+    }
+
+    pub(super) fn choose(&mut self, forward: bool) {
+        if let Some(advised) = self.advised_mut() {
+            advised.turn(forward);
+            let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
+            self.message = Some(news(&advised.choice().proposal, None, &advised.tutor).after(&words));
+        }
+        self.watch_from_the_stroke();
+    }
+
+    pub(super) fn go_on(&mut self) -> Option<Effect> {
+        let choice = self.advised()?.choice();
+        let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
+        if let Err(error) = end.validate(&self.table) {
+            self.message = Some(Message::warning(error.to_string()));
+            return None;
+        }
+        self.place(end);
+        let Some(next) = next else { return Some(self.ask()) };
+        self.message = next.proposals.first().map(|best| news(best, None, &self.tutor));
+        self.show(next);
+        None
+    }
+
+    pub(super) fn next_rule(&mut self) {
+        let rule = after(&Rule::ALL, &self.tutor.rule);
+        self.ask_for(Tutor { rule, ..self.tutor.clone() }, format!("what counts: {rule}"));
+    }
+
+    pub(super) fn next_skill(&mut self) {
+        let skill = after(&Skill::NAMED.map(|(_, skill)| skill), &self.tutor.skill);
+        let words = format!("the player: {}", skill_word(skill));
+        self.ask_for(Tutor { skill, ..self.tutor.clone() }, words);
+    }
+
+    pub(super) fn turn_plan(&mut self) {
+        let plan = !self.tutor.plan;
+        let words = if plan { "the next point counts too" } else { "only this point counts" };
+        self.ask_for(Tutor { plan, ..self.tutor.clone() }, words.to_owned());
+    }
+
+    /// Asks for something else from now on. A shot that answers another question is not shown, until that is asked again.
+    fn ask_for(&mut self, tutor: Tutor, words: String) {
+        self.tutor = tutor;
+        self.rest();
+        let hint = if self.advised().is_some() { "the shot for it is known" } else { "Enter asks the coach" };
+        self.message = Some(Message::plain(format!("{words}; {hint}")));
+    }
+}
+
+/// What comes after `one` in `all`; after the last the first.
+fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
+    let place = all.iter().position(|other| other == one).map_or(0, |place| place + 1);
+    all[place % all.len()]
+}
+
+/// A proposal in a sentence.
+fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor) -> Message {
+    let shot = &proposal.shot;
+    let contact = shot.contact_words().map_or(String::new(), |words| format!("; {words}"));
+    let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
+        0 => ", under 1 ms".to_owned(),
+        milliseconds => format!(", {milliseconds} ms"),
+    });
+    if !shot.solved {
+        let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
+        let source = &shot.source;
+        return Message::warning(format!("no point found{tried}; this is the best attempt ({source}{took}){contact}"));
+    }
+    let Some(made) = proposal.made.filter(|_| !tutor.skill.is_perfect()) else {
+        return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
+    };
+    let chance = chance_words(&made);
+    Message::good(format!("makes the point {chance} of the time ({}{took}){contact}", skill_word(tutor.skill)))
+}

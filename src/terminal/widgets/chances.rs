@@ -1,0 +1,62 @@
+//! The panel of chances: the shots that the coach lists, how often the player makes each, and what sort each is.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use super::{draw_nothing, draw_title, write_right};
+use crate::terminal::{
+    advice::Proposal,
+    coach::Advised,
+    look::Look,
+    theme::Theme,
+    words::{chance_words, kind_words, percent, skill_word},
+};
+
+/// Columns at which the number of a shot and its probability end, and before its words.
+const NUMBER_END: u16 = 3;
+const CHANCE_END: u16 = 9;
+const WORDS: u16 = 10;
+
+/// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`.
+pub fn draw_chances(
+    advised: Option<&Advised>,
+    empty: &str,
+    area: Rect,
+    theme: &Theme,
+    look: Look,
+    buffer: &mut Buffer,
+) {
+    let mut title = vec![Span::styled("Chances", theme.text())];
+    if let Some(advised) = advised {
+        title.push(Span::styled(look.pick(" · ", " - "), theme.faint()));
+        title.push(Span::styled(skill_word(advised.tutor.skill), theme.text()));
+        if let Some(made) = advised.choice().proposal.made {
+            title.push(Span::styled(format!(" {}", chance_words(&made)), theme.good()));
+        }
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    let Some(advised) = advised else { return draw_nothing(&[empty], inner, theme, buffer) };
+    let (rows, count) = (usize::from(inner.height), advised.choices().len());
+    let first = advised.chosen().saturating_sub(rows / 2).min(count.saturating_sub(rows));
+    for (n, row) in (first..count).zip(inner.y..inner.bottom()) {
+        let is_chosen = n == advised.chosen();
+        let style = if is_chosen { theme.accent() } else { theme.text() };
+        let proposal = &advised.choices()[n].proposal;
+        if is_chosen {
+            buffer.set_string(inner.x, row, look.pick("▸", ">"), theme.accent());
+        }
+        write_right(buffer, inner.x, inner.x + NUMBER_END, row, &(n + 1).to_string(), theme.faint());
+        let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + "%");
+        write_right(buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
+        let room = usize::from(inner.width.saturating_sub(WORDS));
+        buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal), room, style);
+    }
+}
+
+/// What sort of shot it is, or that it makes no point.
+pub fn sort_words(proposal: &Proposal) -> String {
+    proposal.kind.map_or_else(|| "no point".to_owned(), kind_words)
+}

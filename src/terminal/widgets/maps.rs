@@ -1,0 +1,245 @@
+//! Maps of the outcome: over the tip's place on the ball's face, and over direction and speed around the stroke.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Modifier,
+    text::{Line, Span},
+};
+
+use super::{draw_title, face_in, write_right};
+use crate::{
+    coach::{Map, Outcome, Skill},
+    physics::CueInputs,
+    table::Table,
+    terminal::{
+        canvas::{Canvas, Ink},
+        look::{Glyphs, Look},
+        theme::Theme,
+        words::fixed,
+    },
+};
+
+/// All outcomes in the order of the theme's colours, with their letters where there are no blocks, and in words.
+const OUTCOMES: [(Outcome, char, &str); 5] = [
+    (Outcome::NoStroke, ' ', "no stroke"),
+    (Outcome::NoBall, '.', "no ball"),
+    (Outcome::OneBall, '-', "one ball"),
+    (Outcome::TooFewCushions, '=', "too few cushions"),
+    (Outcome::Point, '#', "point"),
+];
+
+/// Weights of what shares a cell (see [`Ink`]): the stroke and the player's errors stay before the outcomes.
+const OUTCOME_WEIGHT: u8 = 3;
+const ERRORS_WEIGHT: u8 = 7;
+const STROKE_WEIGHT: u8 = 16;
+
+/// Radius of the mark of the stroke, in ball radii and as a share of the other map's half.
+const TIP_RADIUS: f64 = 0.12;
+const STROKE_RADIUS: f64 = 0.07;
+
+/// Standard errors at which the player's errors are outlined: 86 of 100 strokes lie inside in both inputs.
+const OUTLINE: f64 = 2.0;
+
+/// Columns of the panel from which on the speeds stand beside the map, and theirs.
+const WIDE: u16 = 24;
+const GUTTER: u16 = 6;
+
+/// What a place of a map shows.
+#[derive(Clone, Copy, PartialEq)]
+enum Sign {
+    Outcome(Outcome),
+    /// The outline of the player's errors.
+    Errors,
+    /// The stroke itself.
+    Stroke,
+}
+
+/// Draws the outcomes over the ball's face, as the shooter sees it, and where the tip meets it.
+pub fn draw_tip_map(
+    map: &Map,
+    cue: &CueInputs,
+    table: &Table,
+    area: Rect,
+    theme: &Theme,
+    look: Look,
+    buffer: &mut Buffer,
+) {
+    let inner = draw_title(&Line::from(Span::styled("Tip: a, b", theme.text())), area, theme, look, buffer);
+    let limit = table.miscue_limit.sqrt();
+    draw_signs(face_in(inner), theme, look, buffer, |x, y, cell| {
+        let radius = x.hypot(y);
+        let (right, up) = (x + cue.a, y - cue.b);
+        let is_tip =
+            if cell > 0.0 { right.abs() <= 0.5 * cell && up.abs() <= cell } else { right.hypot(up) <= TIP_RADIUS };
+        match () {
+            () if radius > 1.0 => None,
+            () if is_tip => Some(Sign::Stroke),
+            () if radius > limit => Some(Sign::Outcome(Outcome::NoStroke)),
+            () => Some(Sign::Outcome(at(map, -x, y))),
+        }
+    });
+}
+
+/// Draws the outcomes over direction, to the left as the shooter sees it, and speed, upwards, with the outline of the
+/// player's errors around the stroke in the middle.
+pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let (phi, degree) = (look.pick("φ", "ph"), look.pick("°", ""));
+    let wide = area.width >= WIDE;
+    let span = |values: &[f64]| values.last().copied().unwrap_or_default();
+    let mut title = vec![Span::styled(format!("Aim: {phi}, V"), theme.text())];
+    if !wide {
+        let reach = format!(" {}{}", look.pick("±", "+-"), fixed(span(&map.rows), 1));
+        title.push(Span::styled(reach, theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    if inner.height < 2 {
+        return;
+    }
+    let gutter = if wide { GUTTER } else { 0 };
+    let plot = Rect { x: inner.x + gutter, width: inner.width - gutter, height: inner.height - 1, ..inner };
+    let (across, up) = (span(&map.columns), span(&map.rows));
+    if wide {
+        let middle = plot.y + plot.height / 2;
+        for (row, text) in [
+            (plot.y, format!("+{}", fixed(up, 2))),
+            (middle, "V m/s".to_owned()),
+            (plot.bottom() - 1, format!("-{}", fixed(up, 2))),
+        ] {
+            write_right(buffer, inner.x, plot.x - 1, row, &text, theme.faint());
+        }
+    }
+    let axis = plot.bottom();
+    buffer.set_string(plot.x, axis, format!("+{}{degree}", fixed(across, 2)), theme.faint());
+    buffer.set_string(plot.x + (plot.width - 1) / 2, axis, phi, theme.faint());
+    write_right(buffer, plot.x, plot.right(), axis, &format!("-{}{degree}", fixed(across, 2)), theme.faint());
+    let errors = (OUTLINE * skill.phi.to_degrees() / across, OUTLINE * skill.speed / up);
+    draw_signs(plot, theme, look, buffer, |x, y, cell| {
+        let is_stroke = if cell > 0.0 {
+            x.abs() <= 1.0 / f64::from(plot.width) && y.abs() <= 1.0 / f64::from(plot.height)
+        } else {
+            // Round on the screen, whatever the panel's shape.
+            let aspect = f64::from(plot.width) / (2.0 * f64::from(plot.height));
+            (x * aspect.max(1.0)).hypot(y / aspect.min(1.0)) <= STROKE_RADIUS.max(1.0 / f64::from(plot.height) / 2.0)
+        };
+        let from_errors = (x / errors.0).hypot(y / errors.1);
+        match () {
+            () if is_stroke => Some(Sign::Stroke),
+            () if cell == 0.0 && (from_errors - 1.0).abs() <= 0.09 => Some(Sign::Errors),
+            () => Some(Sign::Outcome(at(map, -x, y))),
+        }
+    });
+}
+
+/// Draws what the colours or letters mean.
+pub fn draw_legend(area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let inner = draw_title(&Line::from(Span::styled("The maps", theme.text())), area, theme, look, buffer);
+    let letters = look.glyphs == Glyphs::Letters;
+    let mut lines = vec![Line::default()];
+    let mut add = |spans: [Span<'static>; 2]| {
+        let width: usize = spans.iter().map(Span::width).sum();
+        if lines.last().is_some_and(|line| line.width() + width + 1 > usize::from(inner.width)) {
+            lines.push(Line::default());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.spans.extend(spans);
+        }
+    };
+    for (n, (_, letter, words)) in OUTCOMES.into_iter().enumerate().rev() {
+        // Nothing is drawn with a blank.
+        if letters && letter == ' ' {
+            continue;
+        }
+        let sign = if letters { letter } else { '■' };
+        add([
+            Span::styled(format!(" {sign}"), theme.text().fg(theme.outcomes[n])),
+            Span::styled(format!(" {words}"), theme.faint()),
+        ]);
+    }
+    let stroke = if letters { " X" } else { " ●" };
+    add([Span::styled(stroke, theme.text().fg(theme.tip)), Span::styled(" the stroke", theme.faint())]);
+    if !letters {
+        add([Span::styled(" ○", theme.text()), Span::styled(" twice your errors", theme.faint())]);
+    }
+    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
+        buffer.set_line(inner.x, row, line, inner.width);
+    }
+}
+
+/// The outcome at a place of the map: `x` and `y` from -1 to 1, to its ends.
+fn at(map: &Map, x: f64, y: f64) -> Outcome {
+    let index = |at: f64, count: usize| {
+        let place = 0.5 * (at + 1.0) * (count as f64 - 1.0);
+        (place.round().max(0.0) as usize).min(count.saturating_sub(1))
+    };
+    map.outcomes[index(y, map.rows.len())][index(x, map.columns.len())]
+}
+
+/// Paints `area` with what `sign` says of each place: right and up from the middle, -1 to 1, and half the height of a cell
+/// where letters are drawn, nought where sub-pixels are.
+fn draw_signs(
+    area: Rect,
+    theme: &Theme,
+    look: Look,
+    buffer: &mut Buffer,
+    sign: impl Fn(f64, f64, f64) -> Option<Sign>,
+) {
+    let place = |at: i32, size: i32| f64::from(2 * at + 1) / f64::from(size) - 1.0;
+    let index = |outcome| OUTCOMES.iter().position(|(one, ..)| *one == outcome).unwrap_or_default();
+    if look.glyphs == Glyphs::Letters {
+        let (width, height) = (i32::from(area.width), i32::from(area.height));
+        for (y, row) in (0..height).zip(area.y..) {
+            for (x, column) in (0..width).zip(area.x..) {
+                let (symbol, style) = match sign(place(x, width), -place(y, height), 1.0 / f64::from(height)) {
+                    None => continue,
+                    Some(Sign::Stroke | Sign::Errors) => ('X', theme.accent().add_modifier(Modifier::REVERSED)),
+                    Some(Sign::Outcome(outcome)) => {
+                        let index = index(outcome);
+                        (OUTCOMES[index].1, theme.text().fg(theme.outcomes[index]))
+                    }
+                };
+                buffer[(column, row)].set_char(symbol).set_style(style);
+            }
+        }
+        return;
+    }
+    let mut canvas = Canvas::new(area, look.glyphs, theme.background);
+    let (width, height) = canvas.size();
+    for y in 0..height {
+        for x in 0..width {
+            let (color, weight) = match sign(place(x, width), -place(y, height), 0.0) {
+                None => continue,
+                Some(Sign::Stroke) => (theme.tip, STROKE_WEIGHT),
+                Some(Sign::Errors) => (theme.text, ERRORS_WEIGHT),
+                Some(Sign::Outcome(outcome)) => (theme.outcomes[index(outcome)], OUTCOME_WEIGHT),
+            };
+            canvas.set(x, y, Ink { color, weight });
+        }
+    }
+    canvas.paint(buffer);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::Input;
+
+    #[test]
+    fn the_corners_of_a_map_are_its_ends() {
+        let row = |one, other| vec![one, Outcome::Point, other];
+        let map = Map {
+            across: Input::Side,
+            up: Input::Height,
+            columns: vec![-1.0, 0.0, 1.0],
+            rows: vec![-1.0, 0.0, 1.0],
+            outcomes: vec![
+                row(Outcome::NoStroke, Outcome::NoBall),
+                row(Outcome::Point, Outcome::Point),
+                row(Outcome::OneBall, Outcome::TooFewCushions),
+            ],
+        };
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| at(&map, x, y));
+        use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
+        assert_eq!(corners, [NoStroke, NoBall, OneBall, TooFewCushions, Point]);
+    }
+}

@@ -1,0 +1,163 @@
+//! The panel of margins: how far off each input may be beside how far the player is off as a rule.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use super::{draw_nothing, draw_title, write_right};
+use crate::{
+    coach::{Input, Margin, Skill},
+    terminal::{advice::Study, look::Look, theme::Theme, words::fixed},
+};
+
+/// Rows from which on every input has one of its own.
+const TALL: u16 = 6;
+
+/// Columns of the tall table: where its numbers end, from the panel's left edge.
+const LESS_END: u16 = 11;
+const MORE_END: u16 = 19;
+const YOURS_END: u16 = 28;
+const UNIT: u16 = 29;
+
+/// Columns of an input where two share a row.
+const HALF: u16 = 20;
+
+/// Draws the panel; the tightest input, the one that the player's errors leave first, is marked. Without
+/// a study it says `empty`.
+pub fn draw_margins(
+    study: Option<&Study>,
+    skill: Skill,
+    empty: &str,
+    area: Rect,
+    theme: &Theme,
+    look: Look,
+    buffer: &mut Buffer,
+) {
+    let tall = area.height > TALL;
+    let mut title = vec![Span::styled("Margins", theme.text())];
+    if study.is_some() && !tall {
+        let units = look.pick(" less, more, ± yours: mm, °, m/s", " less, more, yours: mm, deg, m/s");
+        title.push(Span::styled(units, theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    let margins = match study {
+        None => return draw_nothing(&[empty], inner, theme, buffer),
+        Some(Study { margins: None, .. }) => {
+            return draw_nothing(&["none: this shot makes no point"], inner, theme, buffer);
+        }
+        Some(Study { margins: Some(margins), .. }) => margins,
+    };
+    let tightest = tightest(margins, skill);
+    let rows: Vec<Row> = margins
+        .iter()
+        .enumerate()
+        .map(|(n, margin)| {
+            let is_tightest = Some(n) == tightest;
+            Row { margin, yours: skill.error(margin.input), is_tightest, theme, look }
+        })
+        .collect();
+    if tall {
+        for (end, label) in [(LESS_END, "less"), (MORE_END, "more"), (YOURS_END, look.pick("yours ±", "yours"))] {
+            write_right(buffer, inner.x, inner.x + end, inner.y, label, theme.faint());
+        }
+        for (row, y) in rows.iter().zip(inner.y + 1..inner.bottom()) {
+            row.draw_whole(Rect { y, height: 1, ..inner }, buffer);
+        }
+        let note = inner.y + 1 + rows.len() as u16;
+        if tightest.is_some() && note < inner.bottom() {
+            let words = format!("{} tightest: errors leave it first", look.pick("◂", "<"));
+            buffer.set_stringn(inner.x + 1, note, words, usize::from(inner.width.saturating_sub(1)), theme.faint());
+        }
+    } else {
+        let places = (0..2).flat_map(|column| (inner.y..inner.bottom()).map(move |y| (column, y)));
+        for (row, (column, y)) in rows.iter().zip(places) {
+            row.draw_half(inner.x + HALF * column, y, buffer);
+        }
+    }
+}
+
+/// The input whose nearer margin is the fewest of the player's standard errors.
+fn tightest(margins: &[Margin; 5], skill: Skill) -> Option<usize> {
+    let errors = |margin: &Margin| {
+        let nearer = margin.less.unwrap_or(f64::INFINITY).min(margin.more.unwrap_or(f64::INFINITY));
+        nearer / skill.error(margin.input)
+    };
+    let all = margins.iter().map(errors).enumerate().filter(|(_, errors)| errors.is_finite());
+    all.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(n, _)| n)
+}
+
+struct Row<'a> {
+    margin: &'a Margin,
+    /// The player's standard error, in the input's unit.
+    yours: f64,
+    is_tightest: bool,
+    theme: &'a Theme,
+    look: Look,
+}
+
+impl Row<'_> {
+    fn style(&self) -> Style {
+        if self.is_tightest { self.theme.accent() } else { self.theme.text() }
+    }
+
+    fn name(&self) -> &'static str {
+        match self.margin.input {
+            Input::Elevation => self.look.pick("θ", "th"),
+            Input::Direction => self.look.pick("φ", "ph"),
+            input => input.name(),
+        }
+    }
+
+    fn draw_whole(&self, area: Rect, buffer: &mut Buffer) {
+        let (x, y) = (area.x, area.y);
+        buffer.set_string(x + 1, y, self.name(), self.theme.faint());
+        write_right(buffer, x + 3, x + LESS_END, y, &size(self.margin.less, "-"), self.style());
+        write_right(buffer, x + 3, x + MORE_END, y, &size(self.margin.more, "+"), self.style());
+        write_right(buffer, x + 3, x + YOURS_END, y, &fixed(self.yours, 2), self.theme.text());
+        let unit = match self.margin.unit {
+            "degrees" => self.look.pick("°", "deg"),
+            unit => unit,
+        };
+        let mark = if self.is_tightest { self.look.pick(" ◂", " <") } else { "" };
+        let line = Line::from(vec![Span::styled(unit, self.theme.faint()), Span::styled(mark, self.theme.accent())]);
+        buffer.set_line(x + UNIT, y, &line, area.right().saturating_sub(x + UNIT));
+    }
+
+    fn draw_half(&self, x: u16, y: u16, buffer: &mut Buffer) {
+        let mark = if self.is_tightest { self.look.pick("▸", ">") } else { " " };
+        buffer.set_string(x, y, mark, self.theme.accent());
+        buffer.set_string(x + 1, y, self.name(), self.theme.faint());
+        write_right(buffer, x + 3, x + 8, y, &size(self.margin.less, "-"), self.style());
+        write_right(buffer, x + 8, x + 14, y, &size(self.margin.more, "+"), self.style());
+        write_right(buffer, x + 14, x + 19, y, &fixed(self.yours, 2), self.theme.faint());
+    }
+}
+
+/// A margin in five columns at most.
+fn size(margin: Option<f64>, sign: &str) -> String {
+    margin.map_or("any".to_owned(), |margin| format!("{sign}{}", fixed(margin, if margin < 9.995 { 2 } else { 1 })))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tightest_input_is_measured_in_the_players_errors() {
+        let margin = |input: Input, less, more| Margin { input, unit: input.unit(), less, more };
+        let margins = [
+            margin(Input::Side, Some(3.0), Some(0.6)),
+            margin(Input::Height, None, None),
+            margin(Input::Elevation, None, Some(5.0)),
+            margin(Input::Direction, Some(0.14), None),
+            margin(Input::Speed, Some(0.3), Some(0.2)),
+        ];
+        // 0.6 mm are 1.2 errors of 0.5 mm, 0.14° are 1.12 of 0.125°.
+        assert_eq!(tightest(&margins, Skill::EXPERT), Some(3));
+        assert_eq!(tightest(&margins, Skill::PERFECT), None, "who never errs finds nothing tight");
+        assert_eq!([size(Some(9.994), "-"), size(Some(9.996), "+"), size(None, "-")], ["-9.99", "+10.0", "any"]);
+    }
+}

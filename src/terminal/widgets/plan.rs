@@ -1,0 +1,86 @@
+//! The panel of the plan: this shot, where the balls stop, and the next shot; and what of it is drawn on the table.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use super::{Spot, draw_nothing, draw_title, sort_words};
+use crate::{
+    table::BALLS,
+    terminal::{
+        advice::Proposal,
+        coach::Choice,
+        look::Look,
+        theme::Theme,
+        words::{BALL_NAMES, fixed, percent},
+    },
+};
+
+/// Draws the panel; without a shot it says `empty`.
+pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let mut title = vec![Span::styled("Plan", theme.text())];
+    if let Some(next) = choice.and_then(|choice| choice.proposal.next) {
+        title.push(Span::styled(look.pick(" · ", " - "), theme.faint()));
+        title.push(Span::styled(format!("the point after it {} %", percent(next)), theme.text()));
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    let Some(choice) = choice else { return draw_nothing(&[empty], inner, theme, buffer) };
+    let mut rows =
+        vec![("now", shot_words(&choice.proposal)), ("stop", stop_words(choice)), ("next", next_words(choice))];
+    let mut note = |words: &str| rows.push(("", words.to_owned()));
+    if choice.study.is_some() {
+        note("stop: half of its points leave the");
+        note("balls so near to the meant places");
+    }
+    if choice.next.is_some() {
+        note(look.pick("yellow dots: the cue ball's way then", "*: the cue ball's way then"));
+        note("n goes on from there");
+    }
+    for ((name, words), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let style = if name.is_empty() { theme.faint() } else { theme.text() };
+        let line = Line::from(vec![Span::styled(format!(" {name:<5}"), theme.faint()), Span::styled(words, style)]);
+        buffer.set_line(inner.x, row, &line, inner.width);
+    }
+}
+
+fn shot_words(proposal: &Proposal) -> String {
+    let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
+    format!("{chance} % {}", sort_words(proposal))
+}
+
+/// How near to the meant places the balls stop, in half of the attempts that make the point.
+fn stop_words(choice: &Choice) -> String {
+    let Some(study) = &choice.study else { return "being tried".to_owned() };
+    let meant = choice.proposal.shot.recording.final_layout();
+    let spread = |ball: usize| Some(100.0 * study.scatter.spread(ball, meant.balls[ball])?);
+    let words: Vec<_> =
+        (0..BALLS).filter_map(|ball| Some(format!("{} {}", BALL_NAMES[ball], fixed(spread(ball)?, 0)))).collect();
+    if words.is_empty() { "no attempt made the point".to_owned() } else { words.join(", ") + " cm" }
+}
+
+fn next_words(choice: &Choice) -> String {
+    match (&choice.next, choice.is_studied) {
+        (Some(next), _) => next.proposals.first().map_or_else(String::new, shot_words),
+        (None, false) => "being looked for".to_owned(),
+        (None, true) => "none".to_owned(),
+    }
+}
+
+/// What is drawn of the plan: where the balls stop in many attempts, and the way of the cue ball in the next shot.
+pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
+    let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
+    let cloud = ends.flat_map(|end| {
+        let spot = |ball: usize| Spot { place: end.balls[ball], is_ball: false, color: theme.balls[ball], letter: ':' };
+        (0..BALLS).map(spot)
+    });
+    let next = choice.next.as_ref().and_then(|next| next.proposals.first());
+    let way = next.into_iter().flat_map(|next| {
+        let spot =
+            |place, is_ball| Spot { place, is_ball, color: theme.accent, letter: if is_ball { 'w' } else { '*' } };
+        let dots = next.shot.paths[0].iter().step_by(2).map(move |dot| spot(dot.place, false));
+        dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
+    });
+    cloud.chain(way).collect()
+}
