@@ -11,7 +11,7 @@ use ratatui::Frame;
 
 use super::{
     coach::CoachScreen,
-    drills::{DrillReport, DrillScreen, Errand, ForCoach},
+    drills::{Balls, DrillReport, DrillScreen, Errand},
     keymap::{self, Action, Place, When},
     look::Look,
     recommender::{Answer, Job},
@@ -176,23 +176,27 @@ impl App {
             Action::OpenDrills => {
                 self.coach.playback.pause();
                 self.screen = Screen::Drills;
-                return Some(self.drills.open());
+                return Some(self.drills.open(self.coach.tutor.skill));
             }
             Action::SavePosition => {
                 self.coach.playback.pause();
                 self.screen = Screen::Drills;
                 let shot = self.coach.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
-                let (table, layout, rule) = (&self.coach.table, *self.coach.layout(), self.coach.tutor.rule);
-                return Some(self.drills.open_to_save(table, layout, rule, shot));
+                let (table, layout) = (self.coach.table.clone(), *self.coach.layout());
+                let balls = Balls { table, layout, rule: self.coach.tutor.rule };
+                return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
             }
             Action::Coach(action) => return self.coach.update(action),
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
-                if let Some(ForCoach { table, layout, rule }) = self.drills.take_for_coach() {
+                let balls = self.drills.take_for_coach();
+                if balls.is_some() || self.drills.is_left() {
+                    self.screen = Screen::Coach;
+                    // Whoever plays there is the same.
+                    self.coach.tutor.skill = self.drills.player.skill;
+                }
+                if let Some(Balls { table, layout, rule }) = balls {
                     self.coach.take_position(&table, layout, rule);
-                    self.screen = Screen::Coach;
-                } else if self.drills.is_left() {
-                    self.screen = Screen::Coach;
                 }
                 return effect;
             }

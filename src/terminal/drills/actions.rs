@@ -1,9 +1,9 @@
 //! What each key does to the library and the records, and what is done with answers.
 
-use super::{DrillScreen, Errand, ForCoach, Page, Question, Turn, question};
+use super::{DrillScreen, Errand, Balls, Page, Question, Turn, question};
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
-    terminal::{app::Effect, keymap::DrillAction as Action, status::Message},
+    terminal::{app::Effect, keymap::DrillAction as Action, status::Message, words::skill_word},
 };
 
 impl DrillScreen {
@@ -29,7 +29,7 @@ impl DrillScreen {
             }
             Action::Player if self.turn.is_none() => {
                 self.player.choose_next();
-                self.message = Some(Message::plain(format!("the player is {}", self.player.name())));
+                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
             }
             Action::ToCoach => self.to_coach(),
             Action::Yes => return self.yes(),
@@ -125,14 +125,14 @@ impl DrillScreen {
     }
 
     fn to_coach(&mut self) {
-        let turn = self.turn.as_ref().map(|turn| ForCoach {
+        let turn = self.turn.as_ref().map(|turn| Balls {
             table: turn.table.clone(),
             layout: turn.layout,
             rule: turn.exercise.rule,
         });
         let marked = || {
             let exercise = self.catalogue.marked()?;
-            let found = exercise.table().map(|table| ForCoach { table, layout: exercise.layout, rule: exercise.rule });
+            let found = exercise.table().map(|table| Balls { table, layout: exercise.layout, rule: exercise.rule });
             Some(found.map_err(|error| error.to_string()))
         };
         match turn.map(Ok).or_else(marked) {

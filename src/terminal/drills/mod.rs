@@ -67,11 +67,6 @@ pub struct Player {
 }
 
 impl Player {
-    /// What the player is called.
-    pub fn name(&self) -> String {
-        if self.own == Some(self.skill) { "own".to_owned() } else { self.skill.to_string() }
-    }
-
     /// The next of those there are.
     fn choose_next(&mut self) {
         let named = Skill::NAMED.iter().rev().map(|(_, skill)| *skill);
@@ -88,9 +83,9 @@ struct Wishes {
     shifted: bool,
 }
 
-/// Balls that go to the coach's table.
+/// Balls that come from the coach's table or go there.
 #[derive(Clone, Debug)]
-pub struct ForCoach {
+pub struct Balls {
     /// The table.
     pub table: Table,
     /// Where the balls lie.
@@ -119,7 +114,7 @@ pub struct DrillScreen {
     /// What the status line says.
     pub message: Option<Message>,
     wishes: Wishes,
-    for_coach: Option<ForCoach>,
+    for_coach: Option<Balls>,
     /// The pages one has come through; the last one is open.
     pages: Vec<Page>,
     rng: Xoshiro256PlusPlus,
@@ -136,7 +131,7 @@ impl DrillScreen {
             book: Book::default(),
             turn: None,
             records: Records::default(),
-            player: Player { skill: Skill::CLUB, own: None },
+            player: Player { skill: Skill::default(), own: None },
             question: None,
             message: None,
             wishes: Wishes { goal: Goal::Free, shifted: false },
@@ -146,9 +141,10 @@ impl DrillScreen {
         }
     }
 
-    /// Opens the page that was open last, or the library; what is on the disk is read again.
-    pub fn open(&mut self) -> Effect {
+    /// Opens the page that was open last, or the library, for a player of `skill`; what is on the disk is read again.
+    pub fn open(&mut self, skill: Skill) -> Effect {
         self.message = None;
+        self.player.skill = skill;
         if self.pages.is_empty() {
             self.pages.push(Page::Library);
         }
@@ -156,7 +152,8 @@ impl DrillScreen {
     }
 
     /// Opens the library and asks under which name the position on the coach's table is to be saved.
-    pub fn open_to_save(&mut self, table: &Table, layout: Layout, rule: Rule, shot: Option<CueInputs>) -> Effect {
+    pub fn open_to_save(&mut self, balls: Balls, skill: Skill, shot: Option<CueInputs>) -> Effect {
+        let Balls { table, layout, rule } = balls;
         self.leave_turn();
         self.pages = vec![Page::Library];
         let position = Exercise {
@@ -172,9 +169,9 @@ impl DrillScreen {
             shot,
             par: None,
         };
-        let effect = self.open();
+        let effect = self.open(skill);
         match position.table() {
-            Ok(known) if known == *table => self.question = Some(Question::Name(String::new(), Box::new(position))),
+            Ok(known) if known == table => self.question = Some(Question::Name(String::new(), Box::new(position))),
             _ => {
                 let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
                 self.message = Some(Message::warning(words));
@@ -189,7 +186,7 @@ impl DrillScreen {
     }
 
     /// Balls that are to go to the coach's table; asked once.
-    pub const fn take_for_coach(&mut self) -> Option<ForCoach> {
+    pub const fn take_for_coach(&mut self) -> Option<Balls> {
         self.for_coach.take()
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Book, DrillReport, DrillScreen, Errand, Estimate, Loaded, Question, Stage, Turn};
 use crate::{
+    coach::Skill,
     drills::{Exercise, Library, Session},
     terminal::status::Message,
 };
@@ -64,7 +65,7 @@ impl DrillScreen {
             DrillReport::SkillKept(skill, kept) => {
                 self.player.own = Some(skill);
                 self.player.skill = skill;
-                self.message = Some(Message::good("this is your skill now: you are the player \"own\""));
+                self.message = Some(Message::good("this is your skill now: you are the player \"own skill\""));
                 self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
             }
         }
@@ -75,8 +76,12 @@ impl DrillScreen {
         let Loaded { sessions, positions, skill, troubles } = loaded;
         self.book = Book::new(sessions, troubles);
         self.take_own(positions);
-        if self.player.own.is_none() && skill.is_some() {
-            self.player.own = skill;
+        // Whoever has kept a skill plays with it, as long as nobody has chosen another.
+        if let Some(skill) = skill.filter(|_| self.player.own.is_none()) {
+            self.player.own = Some(skill);
+            if self.player.skill == Skill::default() {
+                self.player.skill = skill;
+            }
         }
     }
 

@@ -9,6 +9,7 @@ use crate::{
         app::Effect,
         keymap::{DrillAction as Action, DrillWhen as When},
         status::Message,
+        words::skill_word,
     },
 };
 
@@ -98,7 +99,7 @@ impl DrillScreen {
             }
             Action::Player => {
                 self.player.choose_next();
-                self.message = Some(Message::plain(format!("the player is {}", self.player.name())));
+                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
                 return self.restart(None);
             }
             Action::Log(made) => return self.log(made),
@@ -177,6 +178,9 @@ impl DrillScreen {
             Ok(()) => {
                 if let Some(note) = session.attempts.last_mut() {
                     note.helped = turn.is_helped;
+                    // What was to be played tells how good whoever made it is.
+                    note.advised = turn.lesson().map(|taught| taught.advice.cue);
+                    note.advised_chance = turn.lesson().map(|taught| taught.advice.chance.rate);
                 }
                 errands.insert(0, turn.save(session));
             }

@@ -13,9 +13,10 @@ use std::{
 };
 
 use crate::{
-    coach::Coach,
+    coach::{Coach, Skill},
     drills::{
         Advice, Session, advise, chance,
+        estimate::{Estimate, estimate},
         store::{Store, StoreError},
     },
     table::Table,
@@ -81,7 +82,10 @@ impl Clerk {
                 let kept = self.with_store(|store| store.keep_skill(skill));
                 reply(DrillReport::SkillKept(skill, kept));
             }
-            Errand::Estimate(_) => {}
+            Errand::Estimate(sessions) => {
+                let found = catch_unwind(AssertUnwindSafe(|| estimated(&sessions)));
+                reply(DrillReport::Estimated(found.unwrap_or_else(|_| Err(failed.to_owned()))));
+            }
         }
     }
 
@@ -185,6 +189,17 @@ pub fn start(to_screen: Sender<News>) -> io::Result<Sender<Errand>> {
 
 /// What is said before the first look at the disk, which nobody sees: that look comes first.
 const UNKNOWN: &str = "it is not known where to write";
+
+/// The player's skill, and how sure that is.
+fn estimated(sessions: &[Session]) -> Result<(Skill, String), String> {
+    let found = estimate(sessions).map_err(|error| error.to_string())?;
+    let Estimate { skill, scale, low, high, attempts, .. } = found;
+    let sentence = format!(
+        "your errors are {scale:.1} times an expert's ({low:.1}-{high:.1}), from {attempts} attempts at a real table; club is \
+         2, beginner 4"
+    );
+    Ok((skill, sentence))
+}
 
 fn load(store: &Store) -> Loaded {
     let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());

@@ -270,7 +270,7 @@ pub const RESULT: &[Binding] = &[
 #[rustfmt::skip]
 pub const RECORD: &[Binding] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
-    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as your own: the player \"own\""),
+    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as your own, and play with it"),
     bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions"),
     BACK,
 ];

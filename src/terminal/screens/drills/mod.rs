@@ -16,12 +16,12 @@ use ratatui::{
 };
 
 use crate::{
-    learning::evaluation::SuccessRate,
     terminal::{
         app::App,
         drills::Page,
         status::Message,
         widgets::{draw_hints, draw_question, draw_status, wrap, write_right},
+        words::{self, skill_word},
     },
 };
 
@@ -51,7 +51,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 /// The first row of a page: what it is, more about that, and who plays.
 fn draw_header(app: &App, title: &str, more: &str, area: Rect, buffer: &mut Buffer) {
     let theme = app.theme();
-    let player = format!("player {} ", app.drills().player.name());
+    let player = format!("player: {} ", skill_word(app.drills().player.skill));
     let room = usize::from(area.width).saturating_sub(player.chars().count() + 2);
     let mut line = Line::from(vec![
         Span::styled(" carom ", theme.accent().add_modifier(Modifier::REVERSED)),
@@ -80,10 +80,5 @@ fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, buffer: &mut Buf
 
 /// A share as people say it, like `55 %`.
 fn percent(share: f64) -> String {
-    format!("{:.0} %", 100.0 * share)
-}
-
-/// A share with the interval in which the true one lies, like `70 % (40-89)`.
-fn rate_words(rate: &SuccessRate) -> String {
-    format!("{} ({:.0}-{:.0})", percent(rate.rate), 100.0 * rate.low, 100.0 * rate.high)
+    format!("{} %", words::percent(share))
 }

@@ -9,7 +9,7 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use super::{draw_header, percent, rate_words, write_paragraphs};
+use super::{draw_header, percent, write_paragraphs};
 use crate::{
     drills::{Goal, Record, Session, Venue},
     learning::{
@@ -22,6 +22,7 @@ use crate::{
         drills::{Estimate, record_of},
         status::Message,
         widgets::{draw_title, write_right},
+        words::chance_words,
     },
 };
 
@@ -78,7 +79,7 @@ fn draw_numbers(app: &App, sessions: &[&Session], scope: Option<&str>, area: Rec
     });
     let mut rows = vec![("attempts", record.tried.to_string())];
     if record.tried > 0 {
-        rows.push(("made", format!("{}, {}", record.made, rate_words(&record.rate))));
+        rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
         rows.push(("average", record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning"))));
         rows.push(("high run", record.high_run.to_string()));
     }

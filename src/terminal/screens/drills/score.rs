@@ -7,10 +7,10 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use super::{percent, rate_words, write_paragraphs};
+use super::{percent, write_paragraphs};
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue, exam},
-    terminal::{app::App, drills::Turn, look::Look, theme::Theme, widgets::draw_title},
+    terminal::{app::App, drills::Turn, look::Look, theme::Theme, widgets::draw_title, words::chance_words},
 };
 
 /// Draws the panel.
@@ -95,7 +95,7 @@ fn lines(session: &Session) -> Vec<String> {
         lines.push(format!("{made} points in {} innings{average}", record.innings));
         lines.push(format!("run {}, best {}", session.run(), record.high_run));
     } else {
-        lines.push(format!("{made} of {tried} made, {}", rate_words(&record.rate)));
+        lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
         lines.push(format!("run {}, best {}{average}", session.run(), record.high_run));
     }
     if helped > 0 {
