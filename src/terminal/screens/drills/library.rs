@@ -13,14 +13,14 @@ use crate::{
         app::App,
         geometry::Mapping,
         status::Message,
-        widgets::{TableView, draw_table, draw_title, write_right},
+        widgets::{TableView, cut, draw_table, draw_title, wrap, write_right},
     },
 };
 
 /// Columns of the marked exercise, of a hundred, and at least.
 const PREVIEW: (u16, u16) = (44, 35);
 /// Columns at which grade, points and best run end, from the list's right edge.
-const GRADE_END: u16 = 16;
+const GRADE_END: u16 = 15;
 const MADE_END: u16 = 7;
 const RUN_END: u16 = 1;
 
@@ -117,13 +117,8 @@ fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer:
     if is_marked {
         buffer.set_string(area.x, area.y, look.pick("▸", ">"), theme.accent());
     }
-    let room = usize::from(area.width.saturating_sub(2 + GRADE_END));
-    let mut title: String = exercise.title.chars().take(room).collect();
-    if title.chars().count() < exercise.title.chars().count() {
-        let more = look.pick("…", "...");
-        title = title.chars().take(room.saturating_sub(more.chars().count())).collect::<String>() + more;
-    }
-    buffer.set_stringn(area.x + 2, area.y, title, room, style);
+    let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
+    let title = cut(wrap(&exercise.title, room), 1, room, look).swap_remove(0);
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(buffer, area.x, area.right() - GRADE_END, area.y, &grade, theme.faint());
     if let Some(score) = app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
@@ -176,7 +171,7 @@ fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer
         let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{tag}")).collect();
         paragraphs.push((tags.join(" "), theme.faint()));
     }
-    write_paragraphs(&paragraphs, text, buffer);
+    write_paragraphs(&paragraphs, text, look, buffer);
 }
 
 fn draw_nothing(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -189,5 +184,5 @@ fn draw_nothing(app: &App, area: Rect, buffer: &mut Buffer) {
         "No exercise is like that. Esc lists all."
     };
     let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
-    write_paragraphs(&[(words.to_owned(), theme.faint())], text, buffer);
+    write_paragraphs(&[(words.to_owned(), theme.faint())], text, look, buffer);
 }

@@ -19,8 +19,9 @@ use crate::{
     terminal::{
         app::App,
         drills::Page,
+        look::Look,
         status::Message,
-        widgets::{draw_hints, draw_question, draw_status, wrap, write_right},
+        widgets::{cut, draw_hints, draw_question, draw_status, wrap, write_right},
         words::{self, skill_word},
     },
 };
@@ -65,15 +66,20 @@ fn draw_header(app: &App, title: &str, more: &str, area: Rect, buffer: &mut Buff
     write_right(buffer, area.x, area.right(), area.y, &player, theme.text());
 }
 
-/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; gives the first row
-/// that is left.
-fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, buffer: &mut Buffer) -> u16 {
+/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
+/// so by its end. Gives the first row that is left.
+fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, look: Look, buffer: &mut Buffer) -> u16 {
     let width = usize::from(area.width);
-    let lines = paragraphs.iter().flat_map(|(text, style)| wrap(text, width).into_iter().map(move |line| (line, *style)));
     let mut row = area.y;
-    for (line, style) in lines.take(usize::from(area.height)) {
-        buffer.set_stringn(area.x, row, line, width, style);
-        row += 1;
+    for (text, style) in paragraphs {
+        let room = usize::from(area.bottom() - row);
+        if room == 0 {
+            break;
+        }
+        for line in cut(wrap(text, width), room, width, look) {
+            buffer.set_stringn(area.x, row, line, width, *style);
+            row += 1;
+        }
     }
     row
 }

@@ -7,13 +7,19 @@ use ratatui::{
 };
 
 use super::{percent, write_paragraphs};
-use crate::terminal::{
+use crate::{
+    physics::CueInputs,
+    terminal::{
     app::App,
-    drills::{Meets, Sight, Taught, Turn, Watched, changes},
+    drills::{Meets, Sight, Turn, Watched, changes},
     look::Look,
     widgets::draw_title,
     words::{BALL_NAMES, fixed, rail_name},
+},
 };
+
+/// Fullness from which on a hit is called 100 % full.
+const FULL: f64 = 0.995;
 
 /// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
@@ -65,7 +71,7 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
             paragraphs.push((turn.exercise.point.clone(), theme.text()));
         }
     }
-    write_paragraphs(&paragraphs, text, buffer);
+    write_paragraphs(&paragraphs, text, look, buffer);
 }
 
 /// What the line of aim meets.
@@ -73,42 +79,42 @@ fn sight_words(sight: &Sight) -> String {
     let way = fixed(100.0 * sight.way, 0);
     match sight.meets {
         Meets::Ball(hit) => {
-            let side = if hit.left { "left" } else { "right" };
-            let fullness = percent(hit.fullness);
-            format!("{} {fullness} full, {side} side, after {way} cm", BALL_NAMES[hit.ball])
+            let side = match hit.left {
+                // Head-on has no side.
+                _ if hit.fullness > FULL => "",
+                true => ", left side",
+                false => ", right side",
+            };
+            format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(rail, diamond) => {
-            format!("{} at {} diamonds, after {way} cm", rail_name(rail), fixed(diamond, 1))
+            format!("{} at {} diamonds, {way} cm", rail_name(rail), fixed(diamond, 1))
         }
     }
 }
 
-fn whose(taught: &Taught) -> &'static str {
-    if taught.is_own { "the one taught" } else { "the coach's" }
-}
-
 /// Both chances, what would make the stroke the one that is taught, and what the player's hand has added to it.
 fn compared(turn: &Turn, watched: &Watched, look: Look) -> Vec<String> {
-    let plain = |words: Vec<String>| {
-        let words = words.join(", ");
-        if look.unicode { words } else { words.replace('°', " deg") }
+    let told = |from: &CueInputs, to: &CueInputs, none: &str| {
+        let words = changes(&turn.table, from, to).join(", ");
+        match words.is_empty() {
+            true => none.to_owned(),
+            false if look.unicode => words,
+            false => words.replace('°', " deg"),
+        }
     };
-    let mut lines = Vec::new();
     let own = watched.chance.map_or_else(|| look.pick("…", "...").to_owned(), percent);
-    let changed = match turn.lesson() {
+    let mut lines = match turn.lesson() {
         Some(taught) => {
-            lines.push(format!("makes: your stroke {own}, {} {}", whose(taught), percent(taught.advice.chance.rate)));
-            let changes = changes(&turn.table, &watched.meant, &taught.advice.cue);
-            if changes.is_empty() { format!("yours is as good as {}", whose(taught)) } else { format!("to {}: {}", whose(taught), plain(changes)) }
+            let whose = if taught.is_own { "taught" } else { "coach" };
+            let advice = &taught.advice;
+            let changes = told(&watched.meant, &advice.cue, "no change worth telling");
+            vec![format!("makes: yours {own}, {whose} {}", percent(advice.chance.rate)), format!("{whose}: {changes}")]
         }
-        None => {
-            lines.push(format!("makes: your stroke {own}"));
-            if turn.taught.is_none() { "the coach is still thinking" } else { "the coach has found no shot here" }.to_owned()
-        }
+        None if turn.taught.is_none() => vec![format!("makes: yours {own}, the coach is still thinking")],
+        None => vec![format!("makes: yours {own}; the coach has found no shot")],
     };
-    lines.push(changed);
-    let added = changes(&turn.table, &watched.meant, &watched.outcome.played.stroke);
-    let added = if added.is_empty() { "nothing to speak of".to_owned() } else { plain(added) };
+    let added = told(&watched.meant, &watched.outcome.played.stroke, "nothing worth telling");
     lines.push(format!("your hand added: {added}"));
     lines
 }

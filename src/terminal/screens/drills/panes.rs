@@ -13,6 +13,8 @@ const BESIDE: (u16, u16) = (20, 36);
 /// Columns of the stroke and the tip where all panels stand side by side.
 const STROKE_WIDTH: u16 = 24;
 const TIP_WIDTH: u16 = 16;
+/// Share of the aim's words in the room that they have beside the score.
+const AIM: (u16, u16) = (3, 5);
 /// Columns from which on all panels find room side by side.
 const ALL_BELOW_WIDTH: u16 = 112;
 
@@ -47,13 +49,13 @@ impl Panes {
             Rect::new(left, top, width.min(area.right() - left), area.bottom() - top)
         };
         let aim = STROKE_WIDTH + TIP_WIDTH + 2;
-        let half = area.width.saturating_sub(aim + 1) / 2;
-        let score = aim + half + 1;
+        let words = area.width.saturating_sub(aim + 1) * AIM.0 / AIM.1;
+        let score = aim + words + 1;
         Self {
             table: room,
             stroke: panel(0, STROKE_WIDTH),
             tip: panel(STROKE_WIDTH + 1, TIP_WIDTH),
-            aim: panel(aim, half),
+            aim: panel(aim, words),
             score: panel(score, area.width.saturating_sub(score)),
         }
     }
@@ -69,14 +71,14 @@ impl Panes {
         let bottom = Mapping::fit(table, room).outer().bottom().min(area.bottom());
         let tip_rows = BELOW.min((bottom - area.y) / 2);
         let column = |y: u16, height: u16| Rect::new(left, y, width, height);
-        let half = area.width / 2;
+        let aim = area.width * AIM.0 / AIM.1;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, area.bottom() - bottom);
         Self {
             table: room,
             stroke: column(area.y, bottom - area.y - tip_rows),
             tip: column(bottom - tip_rows, tip_rows),
-            aim: below(0, half),
-            score: below(half + 1, area.width - half - 1),
+            aim: below(0, aim),
+            score: below(aim + 1, area.width - aim - 1),
         }
     }
 }

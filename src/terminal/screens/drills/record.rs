@@ -99,7 +99,7 @@ fn draw_numbers(app: &App, sessions: &[&Session], scope: Option<&str>, area: Rec
         Estimate::Missing(sentence) => (sentence.clone(), theme.faint()),
     };
     let rest = Rect { x: inner.x + 1, y: y + 1, width: inner.width - 1, height: inner.bottom().saturating_sub(y + 1) };
-    write_paragraphs(&[skill], rest, buffer);
+    write_paragraphs(&[skill], rest, look, buffer);
 }
 
 /// The share of points in each session, over the attempts made.

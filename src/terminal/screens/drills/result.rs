@@ -52,7 +52,7 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
         (String::new(), theme.text()),
         ("Who plays the shots that are taught makes, on average in the same exam:".to_owned(), theme.text()),
     ];
-    let top = write_paragraphs(&paragraphs, text, buffer) + 1;
+    let top = write_paragraphs(&paragraphs, text, look, buffer) + 1;
     let players = [
         ("beginner", mark.expected.beginner),
         ("club", mark.expected.club),
@@ -68,6 +68,6 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
     if helped > 0 {
         paragraphs.push((format!("{helped} with a hint"), theme.faint()));
     }
-    write_paragraphs(&paragraphs, rest, buffer);
+    write_paragraphs(&paragraphs, rest, look, buffer);
     Message::good(format!("the exam is over: {} of {}, nearest to the {} player", mark.made, mark.tried, mark.nearest))
 }

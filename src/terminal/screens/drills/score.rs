@@ -36,7 +36,7 @@ pub fn draw(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
             paragraphs.push((words, theme.faint()));
         }
     }
-    write_paragraphs(&paragraphs, text, buffer);
+    write_paragraphs(&paragraphs, text, look, buffer);
 }
 
 fn goal_words(goal: Goal) -> String {
