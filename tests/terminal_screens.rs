@@ -2,12 +2,18 @@
 
 mod keys;
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    sync::{Arc, atomic::Ordering},
+    time::Duration,
+};
 
 use carom::{
+    coach::{Kind, Pace, Skill, Way},
+    game::Rule,
+    learning::evaluation::SuccessRate,
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{Answer, App, Depth, Effect, Effort, Glyphs, Job, Look, Office, Shot},
+    terminal::{Advice, Answer, App, Depth, Effect, Effort, Glyphs, Job, Look, Office, Proposal, Shot, Tidings, View},
 };
 use keys::key;
 use proptest::prelude::*;
@@ -17,19 +23,44 @@ const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, un
 const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
 const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
 
-/// A shot that makes the point from the opening position, so that the pictures do not change with the coach.
+/// A shot that makes the point from the opening position, so that the pictures do not change with the coach, two others,
+/// and one that makes the point from where the first leaves the balls.
 const SHOT: &str = "-0.2,0.2,6,82.6,2.5";
+const OTHERS: [&str; 2] = ["0.362,-0.11,0.467,107.632,5.525", "0.295,0.308,3.879,107.102,2.182"];
+const NEXT: &str = "-0.051,0.323,7.533,-146.013,6";
 
 struct Player {
     app: App,
     asked: Option<Box<Job>>,
+    study: Option<Box<Job>>,
+}
+
+/// A shot with `made` of 1000 attempts.
+fn proposal(table: &Table, layout: &Layout, cue: &str, way: Way, made: usize) -> Proposal {
+    let shot = Shot::new(table, layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
+    let pace = if shot.cue.speed < 2.5 { Pace::Soft } else { Pace::Hard };
+    Proposal {
+        shot: Arc::new(shot),
+        kind: Some(Kind { first_ball: 1, cushion_first: false, way, pace }),
+        made: Some(SuccessRate::new(made, 1000)),
+        next: Some(0.97),
+        is_early: false,
+    }
+}
+
+/// The coach's advice on the opening position.
+fn advice(job: &Job) -> Advice {
+    let proposal = |cue, way, made| proposal(&job.table, &job.layout, cue, way, made);
+    let best = proposal(SHOT, Way::OffCushion, 940);
+    let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, Way::AroundTheTable, made));
+    Advice { proposals: std::iter::once(best).chain(others).collect(), effort: None }
 }
 
 impl Player {
     fn with(look: Look) -> Self {
         let table = Table::default();
         let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap();
-        Self { app, asked: None }
+        Self { app, asked: None, study: None }
     }
 
     fn new() -> Self {
@@ -39,26 +70,54 @@ impl Player {
     /// Presses keys: letters as they are, names like `Left`, `S-Left`, `C-Left`, `Enter` between blanks.
     fn press(mut self, keys: &str) -> Self {
         for word in keys.split_whitespace() {
-            match self.app.handle(&key(word)) {
-                Some(Effect::Recommend(job)) => self.asked = Some(job),
-                Some(other) => panic!("{word} gives {other:?}"),
-                None => {}
-            }
+            let effect = self.app.handle(&key(word));
+            self.take(effect);
         }
         self
     }
 
-    /// The coach answers with [`SHOT`].
-    fn answer(self) -> Self {
-        self.answer_with(true, None)
+    fn take(&mut self, effect: Option<Effect>) {
+        match effect {
+            Some(Effect::Recommend(job)) => self.asked = Some(job),
+            Some(Effect::Study(job)) => self.study = Some(job),
+            Some(other) => panic!("{other:?}"),
+            None => {}
+        }
     }
 
-    fn answer_with(mut self, solved: bool, effort: Option<Effort>) -> Self {
-        let job = self.asked.take().expect("the coach was asked");
-        let cue = CueInputs::parse(SHOT).unwrap();
-        let shot = Shot::new(&job.table, &job.layout, cue, solved, "policy").unwrap();
-        self.app.receive(Answer { id: job.id, shot: Ok(Arc::new(shot)), effort });
+    fn tell(mut self, id: u64, news: Tidings) -> Self {
+        let effect = self.app.receive(Answer { id, news });
+        self.take(effect);
         self
+    }
+
+    /// The coach answers with [`SHOT`] and [`OTHERS`].
+    fn answer(mut self) -> Self {
+        let job = self.asked.take().expect("the coach was asked");
+        let advice = advice(&job);
+        self.tell(job.id, Tidings::Advice(advice))
+    }
+
+    /// The coach says that the shot with this cue is the best so far, with `made` of 1000 attempts.
+    fn better(self, cue: &str, made: usize) -> Self {
+        let job = self.asked.clone().expect("the coach was asked");
+        let so_far = proposal(&job.table, &job.layout, cue, Way::OffCushion, made);
+        self.tell(job.id, Tidings::Better(Proposal { is_early: true, ..so_far }))
+    }
+
+    /// The closer look at the shot that is shown, by the real coach, but for the next shot, which is [`NEXT`].
+    fn studied(mut self) -> Self {
+        let job = self.study.take().expect("a closer look is wanted");
+        let mut study = None;
+        Office::unhurried(1).answer(&job, |answer| {
+            if let Tidings::Study(found) = answer.news {
+                study = Some(found);
+            }
+        });
+        let end = self.app.shot().unwrap().recording.final_layout();
+        let next = proposal(&job.table, &end, NEXT, Way::Direct, 1000);
+        self.tell(job.id, Tidings::Study(study.unwrap()))
+            .tell(job.id, Tidings::Next(Some(Advice { proposals: vec![next], effort: None })))
     }
 
     fn wait(mut self, seconds: f64) -> Self {
@@ -83,7 +142,11 @@ impl Player {
 
 /// Compares the picture at both sizes.
 fn check(name: &str, player: &Player) {
-    for (width, height) in [(80, 24), (120, 40)] {
+    check_at(&[(80, 24), (120, 40)], name, player);
+}
+
+fn check_at(sizes: &[(u16, u16)], name: &str, player: &Player) {
+    for &(width, height) in sizes {
         insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
     }
 }
@@ -125,9 +188,38 @@ fn the_coach_thinks_and_can_be_stopped() {
     assert!(player.text(80, 24).contains("the coach is thinking; Esc stops it"));
     let late = player.asked.clone().unwrap();
     let mut player = player.press("Esc");
-    assert!(late.cancel.load(std::sync::atomic::Ordering::Relaxed));
+    assert!(late.cancel.load(Ordering::Relaxed));
     player.asked = Some(late);
     assert!(player.answer().app.shot().is_none(), "a late answer is dropped");
+}
+
+#[test]
+fn every_better_shot_is_shown_while_the_coach_thinks_until_its_answer_replaces_it() {
+    let player = Player::new().press("Enter").better(OTHERS[1], 612).wait(0.35);
+    assert!(player.text(80, 24).contains("so far a shot that makes the point 61 % of the time; Esc takes it"));
+    let player = player.better(OTHERS[0], 893);
+    check("so_far", &player);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert!(player.study.is_none(), "nothing is studied as long as there may be a better shot");
+    let player = player.press("Space");
+    assert!(player.text(80, 24).contains("so far") || !player.app.playback().playing);
+    let player = player.answer();
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    assert!(player.study.is_some());
+}
+
+#[test]
+fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
+    let player = Player::new().press("Enter").better(OTHERS[0], 893);
+    let late = player.asked.clone();
+    let mut player = player.press("Esc");
+    assert!(late.as_ref().unwrap().cancel.load(Ordering::Relaxed));
+    check("so_far_taken", &player);
+    assert_eq!(player.study.as_ref().unwrap().shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    player.asked = late;
+    let player = player.better(SHOT, 940).answer();
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.app.frame_interval(), None);
 }
 
 #[test]
@@ -135,15 +227,113 @@ fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
     let text = player.text(120, 40);
-    for part in ["makes the point", "-0.200 R, 6.2 mm right", "82.60°", "V0", "ω0", "hits yellow"] {
+    for part in ["makes the point 94 % (92-95) of the time (expert)", "-0.200 R, 6.2 mm right", "82.60°", "V0", "ω0"]
+    {
         assert!(text.contains(part), "{part}\n{text}");
     }
+    // The line of aim in diamonds beside the degrees.
+    assert!(text.contains("82.60° bottom 1.7 → top 2.3") && text.contains("hits yellow"), "{text}");
+}
+
+#[test]
+fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown() {
+    for (keys, words, header) in [
+        ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan"),
+        ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan"),
+        ("S", "the player: club; Enter asks the coach", "R straight S club P plan"),
+        ("R S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan"),
+        ("P", "only this point counts; Enter asks the coach", "R straight S expert P off"),
+    ] {
+        let player = Player::new().press("Enter").answer().press(keys);
+        let text = player.text(80, 24);
+        assert!(text.contains(words) && text.contains(header), "{keys}\n{text}");
+        assert!(player.app.shot().is_none(), "{keys}");
+        let tutor = &player.press("Enter").asked.unwrap().tutor;
+        assert_eq!(tutor.plan, keys != "P");
+        assert_eq!(tutor.skill == Skill::PERFECT, keys.contains("S S S"));
+    }
+    let player = Player::new().press("Enter").answer();
+    let player = player.press("R S");
+    check("other_question", &player);
+    let cancelled = player.study.clone().unwrap().cancel;
+    assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
+    let player = player.press("R R S S S");
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
+    let asked = player.press("R R Enter").asked.unwrap();
+    assert_eq!(asked.tutor.rule, Rule::ThreeCushion);
+}
+
+#[test]
+fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its_own_closer_look() {
+    let player = Player::new().press("Enter").answer().press("v");
+    check("chances", &player);
+    let first = player.study.clone().unwrap();
+    let player = player.press("]");
+    check("chances_second", &player);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert!(first.cancel.load(Ordering::Relaxed));
+    let second = player.study.clone().unwrap();
+    assert_eq!(second.shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    // What comes late about the first shot is not taken for the second.
+    let mut late = Player { study: Some(first), ..player }.studied().press("v");
+    assert!(late.text(80, 24).contains("being worked out"));
+    late.study = Some(second);
+    let player = late.studied();
+    assert!(!player.text(80, 24).contains("being worked out"));
+    // Back at it, it is known already.
+    let player = player.press("[ [");
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[1]).unwrap(), "after the first comes the last");
+    let mut player = player.press("[");
+    player.study = None;
+    let player = player.press("Space Esc");
+    assert!(player.study.is_none() && player.text(80, 24).contains("yours"));
+}
+
+#[test]
+fn margins_and_maps() {
+    let player = Player::new().press("Enter").answer().press("v v");
+    assert!(player.text(80, 24).contains("being worked out"));
+    let player = player.studied();
+    check_at(&[(80, 24), (120, 40), (200, 60)], "margins", &player);
+    let picture = player.picture(120, 40);
+    let (point, tip) = (Color::Rgb(0x5c, 0xbd, 0x72), Color::Rgb(0x1f, 0x63, 0xc8));
+    // The map of direction and speed from column 46 to 72: the stroke in its middle, and a point all around it.
+    assert_eq!(picture[(59, 33)].fg, tip);
+    for around in [(57, 33), (61, 33), (59, 32), (59, 34)] {
+        assert!([picture[around].fg, picture[around].bg].contains(&point), "{around:?} {:?}", picture[around]);
+    }
+    // The tip is right of the middle of its own map, at column 82, as the shooter sees it.
+    let tips: Vec<u16> = (74..90).filter(|&x| (30..38).any(|y| picture[(x, y)].fg == tip)).collect();
+    assert!(!tips.is_empty() && tips.iter().all(|&x| x >= 82), "{tips:?}");
+}
+
+#[test]
+fn the_plan_and_where_it_goes_on() {
+    let player = Player::new().press("Enter").answer();
+    let before = player.picture(120, 40);
+    let player = player.press("v v v").studied();
+    check_at(&[(80, 24), (120, 40), (200, 60)], "plan", &player);
+    assert_eq!(player.app.coach().view, View::Plan);
+    // Ends of the balls are drawn around the places where they are meant to stop.
+    let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
+    let count = |picture: &Buffer| picture.content().iter().filter(|cell| cell.fg == yellow).count();
+    assert!(count(&player.picture(120, 40)) > count(&before) + 5);
+    let end = player.app.shot().unwrap().recording.final_layout();
+    let player = player.press("n");
+    assert_eq!(*player.app.layout(), end);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
+    check("went_on", &player);
+    assert!(player.asked.as_ref().is_some_and(|job| job.id == 1), "nothing more was asked");
 }
 
 #[test]
 fn a_shot_without_a_point_is_said_to_be_one() {
-    let effort = Effort { simulations: 4321, elapsed: Duration::from_secs(2) };
-    let player = Player::new().press("Enter").answer_with(false, Some(effort));
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.take().unwrap();
+    let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
+    let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
+    let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
+    let player = player.tell(job.id, Tidings::Advice(Advice { proposals: vec![attempt], effort }));
     check("no_point", &player);
     assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
 }
@@ -152,8 +342,7 @@ fn a_shot_without_a_point_is_said_to_be_one() {
 fn what_the_coach_refuses_is_said_in_its_words() {
     let mut player = Player::new().press("Enter");
     let job = player.asked.take().unwrap();
-    let shot = Err("the weights file is corrupt".to_owned());
-    player.app.receive(Answer { id: job.id, shot, effort: None });
+    let player = player.tell(job.id, Tidings::Refused("the weights file is corrupt".to_owned()));
     assert!(player.text(80, 24).contains("the weights file is corrupt"));
 }
 
@@ -178,7 +367,8 @@ fn the_end_of_a_shot_is_a_new_beginning() {
     let player = player.press("n");
     assert_eq!(*player.app.layout(), end);
     assert!(player.app.shot().is_none());
-    let player = player.press("u");
+    assert_eq!(player.asked.as_ref().unwrap().layout, end, "the next shot is not known yet, so the coach is asked");
+    let player = player.press("Esc u");
     assert!(player.app.shot().is_some(), "undo brings the shot back as well");
 }
 
@@ -220,16 +410,26 @@ fn without_colours_letters_tell_everything() {
     for (name, look) in [("no_colour", NO_COLOUR), ("ascii", ASCII)] {
         let player = Player::with(look).press("Enter").answer().press(". .");
         check(name, &player);
-        check(&format!("{name}_placing"), &player.press("2"));
+        let player = player.press("2");
+        check(&format!("{name}_placing"), &player);
+        let player = player.press("v v").studied();
+        check(&format!("{name}_margins"), &player);
+        check(&format!("{name}_plan"), &player.press("v"));
     }
-    assert!(Player::with(ASCII).press("Enter").answer().text(120, 40).is_ascii());
+    for views in ["v", "v v", "v v v"] {
+        let player = Player::with(ASCII).press("Enter").answer().studied().press(views);
+        assert!(player.text(200, 60).is_ascii(), "{views}");
+    }
 }
 
 #[test]
 fn monochrome_pictures_hold_no_colour_at_all() {
-    let player = Player::with(NO_COLOUR).press("Enter").answer();
-    for cell in player.picture(120, 40).content() {
-        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
+    let mut player = Player::with(NO_COLOUR).press("Enter").answer().studied();
+    for _ in 0..4 {
+        for cell in player.picture(200, 60).content() {
+            assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
+        }
+        player = player.press("v");
     }
 }
 
@@ -251,11 +451,14 @@ fn too_small_a_terminal_names_both_sizes() {
 
 #[test]
 fn every_size_can_be_drawn() {
-    let player = Player::new().press("Enter").answer().press(".");
-    for width in (1..=240).step_by(7) {
-        for height in (1..=90).step_by(5) {
-            player.picture(width, height);
+    let mut player = Player::new().press("Enter").answer().studied().press(".");
+    for _ in 0..4 {
+        for width in (1..=240).step_by(7) {
+            for height in (1..=90).step_by(5) {
+                player.picture(width, height);
+            }
         }
+        player = player.press("v");
     }
 }
 
@@ -270,6 +473,9 @@ proptest! {
             if player.asked.is_some() && key % 3 > 0 {
                 player = player.answer();
             }
+            if let Some(job) = player.study.take_if(|_| key % 5 == 0) {
+                player = player.tell(job.id, Tidings::Next(Some(advice(&job))));
+            }
         }
         prop_assert!(player.app.layout().validate(player.app.table()).is_ok());
         player.picture(width, 40);
@@ -280,6 +486,7 @@ proptest! {
 const KEYS: &[&str] = &[
     "Left", "S-Left", "C-Left", "Up", "S-Up", "Right", "S-Right", "Down", "S-Down", "h", "J", "+", "-", "Tab", "1",
     "2", "3", "Enter", "Enter", "Enter", "Esc", "Space", ",", ".", "0", "End", "n", "u", "U", "o", "r", "g", "?", "x",
+    "R", "S", "P", "v", "[", "]",
 ];
 
 #[test]
@@ -302,11 +509,43 @@ fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
 }
 
 #[test]
-fn the_real_coach_answers() {
-    let player = Player::new().press("Enter");
-    let mut app = player.app;
-    app.receive(Office::default().answer(&player.asked.unwrap()));
-    assert!(app.shot().is_some());
+fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() {
+    let mut office = Office::unhurried(30_000);
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.clone().unwrap();
+    let mut told = Vec::new();
+    office.answer(&job, |answer| told.push(answer));
+    assert!(told.len() > 1 && told[..told.len() - 1].iter().all(|one| matches!(one.news, Tidings::Better(_))));
+    for Answer { id, news } in told {
+        player = player.tell(id, news);
+    }
+    let best = player.app.coach().proposal().unwrap().clone();
+    assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.9) && best.next.is_some());
+    let job = player.study.clone().unwrap();
+    let mut told = Vec::new();
+    office.answer(&job, |answer| told.push(answer));
+    assert_eq!(told.len(), 2);
+    for Answer { id, news } in told {
+        player = player.tell(id, news);
+    }
+    let player = player.press("n");
+    assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
+    // Nobody waits any more: nothing but the end is told, at once.
+    let mut told = Vec::new();
+    job.cancel.store(true, Ordering::Relaxed);
+    office.answer(&job, |answer| told.push(answer));
+    assert!(matches!(&told[..], [Answer { news: Tidings::Next(None), .. }]));
+}
+
+#[test]
+fn a_perfect_player_gets_the_first_point() {
+    let player = Player::new().press("S S S Enter");
+    let mut told = Vec::new();
+    Office::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
+    let [Answer { news: Tidings::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
+    assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
+    let player = told.into_iter().fold(player, |player, Answer { id, news }| player.tell(id, news));
+    assert!(player.text(80, 24).contains("makes the point (policy"), "{}", player.text(80, 24));
 }
 
 #[test]

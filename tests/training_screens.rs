@@ -372,7 +372,7 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     player = player.press("Enter");
     let Some(Effect::Recommend(job)) = player.effects.pop() else { panic!("the coach is not asked") };
     assert_eq!(job.tutor.rule, Rule::ThreeCushion);
-    player.app.receive(Office::default().answer(&job));
+    Office::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
     assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
 }
 

@@ -88,7 +88,7 @@ pub struct Advice {
 pub struct Study {
     /// How far off each input may be, if the shot makes the point.
     pub margins: Option<[Margin; 5]>,
-    /// The outcome over the whole of the ball's face, as changes from its centre.
+    /// The outcome over all tips that do not slip off, as changes from the ball's centre.
     pub tip: Map,
     /// The outcome over direction and speed around the stroke.
     pub aim: Map,

@@ -36,6 +36,9 @@ const CELLS: usize = 61;
 /// stroke is off by more than three; for a perfect player an expert's count.
 const REACH: f64 = 5.0;
 
+/// How far the map of the tip reaches beyond where the tip slips off: its edge is to be seen.
+const RIM: f64 = 1.1;
+
 /// Attempts whose ends are shown: enough to see the cloud, few enough to see through it.
 const ATTEMPTS: usize = 100;
 
@@ -199,8 +202,8 @@ fn study(job: &Job, cue: &CueInputs) -> Option<Study> {
     let margins = margins(*rule, table, layout, cue);
     go_on()?;
     let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
-    let radius = 1e3 * table.radius;
-    let tip = map(*rule, table, layout, &centre, (Input::Side, radius), (Input::Height, radius), CELLS);
+    let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
+    let tip = map(*rule, table, layout, &centre, (Input::Side, face), (Input::Height, face), CELLS);
     go_on()?;
     let usual = if skill.is_perfect() { Skill::EXPERT } else { *skill };
     let span = (Input::Direction, REACH * usual.phi.to_degrees());

@@ -4,6 +4,7 @@ use indicatif::HumanCount;
 
 use crate::{
     coach::{Kind, Skill, Way},
+    game::Rule,
     learning::evaluation::SuccessRate,
     simulation::{EventKind, Rail},
     table::BALLS,
@@ -56,6 +57,15 @@ pub fn kind_words(kind: Kind) -> String {
     format!("{bank}{}, {way}, {}", BALL_NAMES[kind.first_ball.min(BALLS - 1)], kind.pace)
 }
 
+/// The rule's name where there is little room.
+pub const fn rule_word(rule: Rule) -> &'static str {
+    match rule {
+        Rule::StraightRail => "straight",
+        Rule::OneCushion => "1-cushion",
+        Rule::ThreeCushion => "3-cushion",
+    }
+}
+
 /// The player's name: that of one of the skills that have one.
 pub fn skill_word(skill: Skill) -> &'static str {
     Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("own skill", |(name, _)| name)
@@ -64,7 +74,7 @@ pub fn skill_word(skill: Skill) -> &'static str {
 /// A probability in per cent, to a tenth where it is almost certain, never 100 before it is.
 pub fn percent(probability: f64) -> String {
     let percent = 100.0 * probability;
-    if percent < 98.5 || percent >= 100.0 { fixed(percent, 0) } else { fixed((10.0 * percent).floor() / 10.0, 1) }
+    if (98.5..100.0).contains(&percent) { fixed((10.0 * percent).floor() / 10.0, 1) } else { fixed(percent, 0) }
 }
 
 /// A share with its 95 % interval, like 94 % (92-95).

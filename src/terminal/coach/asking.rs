@@ -165,23 +165,23 @@ impl CoachScreen {
 
     pub(super) fn next_rule(&mut self) {
         let rule = after(&Rule::ALL, &self.tutor.rule);
-        self.ask_for(Tutor { rule, ..self.tutor.clone() }, format!("what counts: {rule}"));
+        self.ask_for(Tutor { rule, ..self.tutor.clone() }, &format!("what counts: {rule}"));
     }
 
     pub(super) fn next_skill(&mut self) {
         let skill = after(&Skill::NAMED.map(|(_, skill)| skill), &self.tutor.skill);
         let words = format!("the player: {}", skill_word(skill));
-        self.ask_for(Tutor { skill, ..self.tutor.clone() }, words);
+        self.ask_for(Tutor { skill, ..self.tutor.clone() }, &words);
     }
 
     pub(super) fn turn_plan(&mut self) {
         let plan = !self.tutor.plan;
         let words = if plan { "the next point counts too" } else { "only this point counts" };
-        self.ask_for(Tutor { plan, ..self.tutor.clone() }, words.to_owned());
+        self.ask_for(Tutor { plan, ..self.tutor.clone() }, words);
     }
 
     /// Asks for something else from now on. A shot that answers another question is not shown, until that is asked again.
-    fn ask_for(&mut self, tutor: Tutor, words: String) {
+    fn ask_for(&mut self, tutor: Tutor, words: &str) {
         self.tutor = tutor;
         self.rest();
         let hint = if self.advised().is_some() { "the shot for it is known" } else { "Enter asks the coach" };

@@ -27,7 +27,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     draw_header(app, panes.header, buffer);
     let choice = app.coach().shown().map(Advised::choice);
-    let spots = choice.filter(|_| app.coach().view == View::Plan).map_or_else(Vec::new, |one| plan_spots(one, theme));
+    let planned = choice.filter(|_| app.coach().view == View::Plan);
+    let spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, theme));
     let view = TableView {
         table: app.table(),
         layout: app.layout(),
@@ -35,6 +36,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         time: app.playback().time,
         is_moving: app.mode() == Mode::Watching,
         front: app.selected(),
+        is_lean: planned.is_some(),
         spots: &spots,
         theme,
         look,

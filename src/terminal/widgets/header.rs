@@ -9,7 +9,7 @@ use ratatui::{
 
 use crate::terminal::{
     app::{App, Mode},
-    words::{fixed, skill_word},
+    words::{fixed, rule_word, skill_word},
 };
 
 /// Most cells of the bar that shows how far the shot has played.
@@ -32,8 +32,11 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
         None if area.width < WIDE => {}
         None => left.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), theme.faint())),
     }
-    let plan = if tutor.plan { ", plan" } else { "" };
-    left.push_span(Span::styled(format!("  {}, {}{plan}", tutor.rule, skill_word(tutor.skill)), theme.text()));
+    let plan = if tutor.plan { "plan" } else { "off" };
+    for (key, words) in [(" R", rule_word(tutor.rule)), ("S", skill_word(tutor.skill)), ("P", plan)] {
+        left.push_span(Span::styled(format!(" {key}"), theme.accent()));
+        left.push_span(Span::styled(format!(" {words}"), theme.text()));
+    }
     let taken = buffer.set_line(area.x, area.y, &left, area.width).0;
     let room = area.right().saturating_sub(taken + 4);
     // The bar is left out where a long name leaves it no room.

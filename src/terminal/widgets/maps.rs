@@ -34,7 +34,7 @@ const OUTCOME_WEIGHT: u8 = 3;
 const ERRORS_WEIGHT: u8 = 7;
 const STROKE_WEIGHT: u8 = 16;
 
-/// Radius of the mark of the stroke, in ball radii and as a share of the other map's half.
+/// Radius of the mark of the stroke, as a share of half of the map.
 const TIP_RADIUS: f64 = 0.12;
 const STROKE_RADIUS: f64 = 0.07;
 
@@ -55,7 +55,8 @@ enum Sign {
     Stroke,
 }
 
-/// Draws the outcomes over the ball's face, as the shooter sees it, and where the tip meets it.
+/// Draws the outcomes over the part of the ball's face where the tip does not slip off, with its rim, as the shooter sees it,
+/// and where the tip meets it.
 pub fn draw_tip_map(
     map: &Map,
     cue: &CueInputs,
@@ -65,17 +66,20 @@ pub fn draw_tip_map(
     look: Look,
     buffer: &mut Buffer,
 ) {
-    let inner = draw_title(&Line::from(Span::styled("Tip: a, b", theme.text())), area, theme, look, buffer);
-    let limit = table.miscue_limit.sqrt();
+    let reach = map.columns.last().copied().unwrap_or_default();
+    let title = format!("Tip {}{} mm", look.pick("±", "+-"), fixed(reach, 0));
+    let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
+    // How far the tip is from the middle of the map, as a share of its half.
+    let share = 1e3 * table.radius / reach;
     draw_signs(face_in(inner), theme, look, buffer, |x, y, cell| {
-        let radius = x.hypot(y);
-        let (right, up) = (x + cue.a, y - cue.b);
-        let is_tip =
-            if cell > 0.0 { right.abs() <= 0.5 * cell && up.abs() <= cell } else { right.hypot(up) <= TIP_RADIUS };
+        let (right, up) = (x + share * cue.a, y - share * cue.b);
+        let is_tip = match cell {
+            0.0 => right.hypot(up) <= TIP_RADIUS,
+            _ => right.abs() <= 0.5 * cell && up.abs() <= cell,
+        };
         match () {
-            () if radius > 1.0 => None,
+            () if x.hypot(y) > 1.0 => None,
             () if is_tip => Some(Sign::Stroke),
-            () if radius > limit => Some(Sign::Outcome(Outcome::NoStroke)),
             () => Some(Sign::Outcome(at(map, -x, y))),
         }
     });
@@ -87,7 +91,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, theme: &Theme, look: Lo
     let (phi, degree) = (look.pick("φ", "ph"), look.pick("°", ""));
     let wide = area.width >= WIDE;
     let span = |values: &[f64]| values.last().copied().unwrap_or_default();
-    let mut title = vec![Span::styled(format!("Aim: {phi}, V"), theme.text())];
+    let mut title = vec![Span::styled(format!("{}{phi}, V", if wide { "Aim: " } else { "" }), theme.text())];
     if !wide {
         let reach = format!(" {}{}", look.pick("±", "+-"), fixed(span(&map.rows), 1));
         title.push(Span::styled(reach, theme.faint()));

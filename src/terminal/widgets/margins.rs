@@ -39,7 +39,7 @@ pub fn draw_margins(
     let tall = area.height > TALL;
     let mut title = vec![Span::styled("Margins", theme.text())];
     if study.is_some() && !tall {
-        let units = look.pick(" less, more, ± yours: mm, °, m/s", " less, more, yours: mm, deg, m/s");
+        let units = look.pick(" less, more, ± yours mm ° m/s", " less, more, yours mm deg m/s");
         title.push(Span::styled(units, theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
@@ -56,7 +56,10 @@ pub fn draw_margins(
         .enumerate()
         .map(|(n, margin)| {
             let is_tightest = Some(n) == tightest;
-            Row { margin, yours: skill.error(margin.input), is_tightest, theme, look }
+            // No more digits than it has: 0.5, 0.125.
+            let yours = fixed(skill.error(margin.input), 3);
+            let yours = yours.trim_end_matches('0').trim_end_matches('.').to_owned();
+            Row { margin, yours, is_tightest, theme, look }
         })
         .collect();
     if tall {
@@ -92,7 +95,7 @@ fn tightest(margins: &[Margin; 5], skill: Skill) -> Option<usize> {
 struct Row<'a> {
     margin: &'a Margin,
     /// The player's standard error, in the input's unit.
-    yours: f64,
+    yours: String,
     is_tightest: bool,
     theme: &'a Theme,
     look: Look,
@@ -116,7 +119,7 @@ impl Row<'_> {
         buffer.set_string(x + 1, y, self.name(), self.theme.faint());
         write_right(buffer, x + 3, x + LESS_END, y, &size(self.margin.less, "-"), self.style());
         write_right(buffer, x + 3, x + MORE_END, y, &size(self.margin.more, "+"), self.style());
-        write_right(buffer, x + 3, x + YOURS_END, y, &fixed(self.yours, 2), self.theme.text());
+        write_right(buffer, x + 3, x + YOURS_END, y, &self.yours, self.theme.text());
         let unit = match self.margin.unit {
             "degrees" => self.look.pick("°", "deg"),
             unit => unit,
@@ -132,7 +135,7 @@ impl Row<'_> {
         buffer.set_string(x + 1, y, self.name(), self.theme.faint());
         write_right(buffer, x + 3, x + 8, y, &size(self.margin.less, "-"), self.style());
         write_right(buffer, x + 8, x + 14, y, &size(self.margin.more, "+"), self.style());
-        write_right(buffer, x + 14, x + 19, y, &fixed(self.yours, 2), self.theme.faint());
+        write_right(buffer, x + 14, x + 19, y, &self.yours, self.theme.faint());
     }
 }
 

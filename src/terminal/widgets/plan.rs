@@ -6,17 +6,24 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use super::{Spot, draw_nothing, draw_title, sort_words};
+use super::{Spot, draw_nothing, draw_title, sort_words, wrap};
 use crate::{
     table::BALLS,
     terminal::{
         advice::Proposal,
         coach::Choice,
-        look::Look,
+        look::{Glyphs, Look},
         theme::Theme,
         words::{BALL_NAMES, fixed, percent},
     },
 };
+
+/// Signs of an end of a ball and of the cue ball's next way where only letters are drawn.
+const END_LETTER: char = ':';
+const WAY_LETTER: char = '*';
+
+/// What the distances of the stops are.
+const SPREAD_WORDS: &str = "half of the points leave the balls so near to the places that are meant";
 
 /// Draws the panel; without a shot it says `empty`.
 pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
@@ -27,20 +34,25 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let Some(choice) = choice else { return draw_nothing(&[empty], inner, theme, buffer) };
-    let mut rows =
-        vec![("now", shot_words(&choice.proposal)), ("stop", stop_words(choice)), ("next", next_words(choice))];
-    let mut note = |words: &str| rows.push(("", words.to_owned()));
+    let rows = [("now", shot_words(&choice.proposal)), ("stop", stop_words(choice)), ("next", next_words(choice))];
+    let mut lines: Vec<Line> = rows
+        .into_iter()
+        .map(|(name, words)| {
+            Line::from(vec![Span::styled(format!(" {name:<5}"), theme.faint()), Span::styled(words, theme.text())])
+        })
+        .collect();
     if choice.study.is_some() {
-        note("stop: half of its points leave the");
-        note("balls so near to the meant places");
+        let words = wrap(SPREAD_WORDS, usize::from(inner.width.saturating_sub(2)));
+        lines.extend(words.into_iter().map(|words| Line::styled(format!(" {words}"), theme.faint())));
     }
     if choice.next.is_some() {
-        note(look.pick("yellow dots: the cue ball's way then", "*: the cue ball's way then"));
-        note("n goes on from there");
+        let sign = if look.glyphs == Glyphs::Letters { WAY_LETTER } else { '•' };
+        lines.push(Line::from(vec![
+            Span::styled(format!(" {sign}"), theme.accent()),
+            Span::styled(" the cue ball's way then; n goes on", theme.faint()),
+        ]));
     }
-    for ((name, words), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
-        let style = if name.is_empty() { theme.faint() } else { theme.text() };
-        let line = Line::from(vec![Span::styled(format!(" {name:<5}"), theme.faint()), Span::styled(words, style)]);
+    for (line, row) in lines.into_iter().zip(inner.y..inner.bottom()) {
         buffer.set_line(inner.x, row, &line, inner.width);
     }
 }
@@ -72,13 +84,18 @@ fn next_words(choice: &Choice) -> String {
 pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
     let cloud = ends.flat_map(|end| {
-        let spot = |ball: usize| Spot { place: end.balls[ball], is_ball: false, color: theme.balls[ball], letter: ':' };
+        let spot =
+            |ball: usize| Spot { place: end.balls[ball], is_ball: false, color: theme.balls[ball], letter: END_LETTER };
         (0..BALLS).map(spot)
     });
     let next = choice.next.as_ref().and_then(|next| next.proposals.first());
     let way = next.into_iter().flat_map(|next| {
-        let spot =
-            |place, is_ball| Spot { place, is_ball, color: theme.accent, letter: if is_ball { 'w' } else { '*' } };
+        let spot = |place, is_ball| Spot {
+            place,
+            is_ball,
+            color: theme.accent,
+            letter: if is_ball { 'w' } else { WAY_LETTER },
+        };
         let dots = next.shot.paths[0].iter().step_by(2).map(move |dot| spot(dot.place, false));
         dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
     });

@@ -70,6 +70,8 @@ pub struct TableView<'a> {
     pub is_moving: bool,
     /// The ball that lies on top of the others; marked while balls are placed.
     pub front: usize,
+    /// Whether the paths of the object balls are left out, for something else that there is to see.
+    pub is_lean: bool,
     /// What else is drawn, below the paths and the balls, the first lowest.
     pub spots: &'a [Spot],
     /// The colours.
@@ -143,7 +145,8 @@ impl Scene<'_> {
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
         let is_free = |place: DVec2| ghosts.iter().all(|(_, ghost)| ghost.distance(place) > 0.75 * self.clear);
-        for (ball, path) in shot.paths.iter().enumerate().rev() {
+        let balls = if self.view.is_lean { 1 } else { BALLS };
+        for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
             for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place) && is_free(dot.place)) {
                 draw(ball, dot.place);
             }

@@ -53,6 +53,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
         time: replay.time(),
         is_moving: true,
         front: 0,
+        is_lean: false,
         spots: &[],
         theme,
         look,
