@@ -49,7 +49,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     layout.validate(&table).map_err(Failure::wrong_input)?;
     let game = Exercise {
         name: GAME.to_owned(),
-        title: "game".to_owned(),
+        title: GAME.to_owned(),
         category: Category::Own,
         grade: 0,
         rule: args.rule,
@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         shot: None,
         par: None,
     };
-    let session = args.means.session(Goal::Game { innings: args.innings }, vec![game])?;
+    let session = args.means.session(Goal::Game { innings: args.innings }, vec![game]);
     let desk = Desk::open()?;
     play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)
 }

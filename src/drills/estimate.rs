@@ -28,7 +28,8 @@ const STEPS: usize = 4;
 /// Scales that are looked at.
 const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
 
-/// Simulated strokes for each scale and shot. They are the same errors for all: the curve p_e(s) is smooth, and off by 1 %.
+/// Simulated strokes for each scale and shot. They are the same errors for all, evenly spread: the curve p_e(s) is smooth,
+/// and off by about 1 %.
 const STROKES: usize = 1000;
 
 /// The logarithm of the likelihood may be so much below its maximum within the 95 % interval: half of the 95 % point of the
@@ -101,7 +102,8 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let counts: Vec<_> = shots.iter().map(|shot| (shot.made, shot.tried)).collect();
     let [low, scale, high] = fit(&curves, &counts).ok_or(NoEstimate::Uninformative { attempts })?;
     Ok(Estimate {
-        skill: Skill::EXPERT.scaled(scale),
+        // Nobody knows more digits of it.
+        skill: Skill::EXPERT.scaled((100.0 * scale).round() / 100.0),
         scale,
         low,
         high,

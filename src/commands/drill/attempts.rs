@@ -69,21 +69,21 @@ pub struct ExamArgs {
 pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
     let stroke: Stroke = args.shot.parse()?;
     let desk = Desk::open()?;
-    let mut session = args.means.session(Goal::Free, vec![desk.exercise(&args.name)?.clone()])?;
+    let mut session = args.means.session(Goal::Free, vec![desk.exercise(&args.name)?.clone()]);
     session.shifted = args.shifted;
     play(&desk.store, session, &args.means, Strokes::Same(stroke), args.repeat as usize)
 }
 
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let desk = Desk::open()?;
-    let mut session = args.means.session(Goal::Run(args.goal), vec![desk.exercise(&args.name)?.clone()])?;
+    let mut session = args.means.session(Goal::Run(args.goal), vec![desk.exercise(&args.name)?.clone()]);
     session.shifted = args.shifted;
     play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)
 }
 
 pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
     let desk = Desk::open()?;
-    let mut session = args.means.session(Goal::Exam, Vec::new())?;
+    let mut session = args.means.session(Goal::Exam, Vec::new());
     // The exam and the errors in it come from one seed.
     session.exercises = draw(desk.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
     play(&desk.store, session, &args.means, strokes(args.coach), LENGTH)

@@ -35,9 +35,15 @@ impl Desk {
     }
 }
 
-/// The skill that was given, else the user's own, else an expert's.
-pub fn player(given: Option<Skill>) -> Result<Skill, Failure> {
-    Ok(given.or(own_skill()?).unwrap_or(Skill::EXPERT))
+/// The skill that was given, else the user's own, else an expert's: also where the user's own cannot be read, which is told.
+pub fn player(given: Option<Skill>) -> Skill {
+    let own = || {
+        own_skill().unwrap_or_else(|failure| {
+            note(&[failure.to_string()]);
+            None
+        })
+    };
+    given.or_else(own).unwrap_or(Skill::EXPERT)
 }
 
 /// Tells what could not be read.

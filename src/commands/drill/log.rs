@@ -66,7 +66,7 @@ impl Word {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let desk = Desk::open()?;
     let exercise = desk.exercise(&args.name)?.clone();
-    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None)?, 0);
+    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
     let mut log = Log { desk, session, json: args.json };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {

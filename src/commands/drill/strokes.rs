@@ -52,9 +52,9 @@ pub struct Means {
 
 impl Means {
     /// A session that is played here.
-    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Result<Session, Failure> {
+    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Session {
         let seed = self.seed.unwrap_or_else(rand::random);
-        Ok(Session::new(goal, Venue::Program, exercises, player(self.skill)?, seed))
+        Session::new(goal, Venue::Program, exercises, player(self.skill), seed)
     }
 }
 
@@ -240,7 +240,8 @@ impl Bout<'_> {
             let rule = rule.name();
             json_line(&Position { kind: "position", number, exercise: name, title, rule, table, layout })?;
         } else {
-            line(format_args!("{name} ({rule}): {title}; balls {}", layout_text(layout)))?;
+            let title = if title == name { String::new() } else { format!("{title}; ") };
+            line(format_args!("{name} ({rule}): {title}balls {}", layout_text(layout)))?;
         }
         self.shown = shown;
         Ok(())
