@@ -144,6 +144,9 @@ mod tests {
     #[test]
     fn what_is_copied_is_written_as_the_rfc_has_it() {
         let texts = ["", "f", "fo", "foo", "foob", "fooba", "foobar"];
-        assert_eq!(texts.map(|text| base64(text.as_bytes())), ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]);
+        assert_eq!(
+            texts.map(|text| base64(text.as_bytes())),
+            ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]
+        );
     }
 }

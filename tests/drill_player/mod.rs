@@ -52,7 +52,8 @@ pub fn exercise(name: &str, title: &str) -> Exercise {
         rule: Rule::StraightRail,
         table: "match".to_owned(),
         layout: Layout::opening(&Table::default()),
-        point: "The first shot of every match. Hit yellow thin with left side and let the cushions do the rest.".to_owned(),
+        point: "The first shot of every match. Hit yellow thin with left side and let the cushions do the rest."
+            .to_owned(),
         tags: vec!["opening".to_owned()],
         shot: Some(CueInputs::parse(SHOT).unwrap()),
         par: None,
@@ -64,10 +65,8 @@ pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
     let mut session = Session::new(goal, Venue::Table, vec![exercise(name, "From the opening")], Skill::CLUB, 1);
     session.id = format!("202611{number:02}-120000-0000000{number}");
     session.started = 1_793_534_400 + number * 86_400;
-    session.attempts = results
-        .chars()
-        .map(|result| Attempt { at: session.started, ..Attempt::new(name, result == 'x') })
-        .collect();
+    session.attempts =
+        results.chars().map(|result| Attempt { at: session.started, ..Attempt::new(name, result == 'x') }).collect();
     session
 }
 

@@ -6,8 +6,8 @@ use super::{App, Mode, Screen};
 use crate::{
     table::{Layout, Table},
     terminal::{
-        coach::CoachScreen, drills::DrillScreen, look::Look, playback::Playback, shot::Shot, status::Message, theme::Theme,
-        training::TrainingScreen,
+        coach::CoachScreen, drills::DrillScreen, look::Look, playback::Playback, shot::Shot, status::Message,
+        theme::Theme, training::TrainingScreen,
     },
 };
 

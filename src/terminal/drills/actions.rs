@@ -1,6 +1,6 @@
 //! What each key does to the library and the records, and what is done with answers.
 
-use super::{DrillScreen, Errand, Balls, Page, Question, Turn, question};
+use super::{Balls, DrillScreen, Errand, Page, Question, Turn, question};
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{app::Effect, keymap::DrillAction as Action, status::Message, words::skill_word},
@@ -21,7 +21,9 @@ impl DrillScreen {
             Action::Exam(level) => return self.begin_exam(level),
             Action::Record => return self.open_records(),
             Action::Scope => self.records.toggle_scope(),
-            Action::KeepSkill => return self.records.skill().map(|skill| Effect::Drill(vec![Errand::KeepSkill(skill)])),
+            Action::KeepSkill => {
+                return self.records.skill().map(|skill| Effect::Drill(vec![Errand::KeepSkill(skill)]));
+            }
             Action::Share => return self.share(),
             Action::Add => self.question = Some(Question::Code(String::new())),
             Action::Remove => {
@@ -149,7 +151,8 @@ impl DrillScreen {
     }
 
     fn yes(&mut self) -> Option<Effect> {
-        let save = |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![Errand::SavePosition(exercise, replace)]));
+        let save =
+            |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![Errand::SavePosition(exercise, replace)]));
         let question = self.question.take()?;
         let answer = match &question {
             Question::Search(_) => return None,

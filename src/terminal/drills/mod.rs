@@ -14,7 +14,6 @@ mod reports;
 mod sight;
 mod turn;
 mod turn_actions;
-mod verdict;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use rand::{RngExt, SeedableRng};
@@ -42,7 +41,6 @@ pub use question::Question;
 pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
 pub use turn::{Stage, Turn, Watched};
-pub use verdict::changes;
 
 /// A page of the drill screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,7 +11,6 @@ use super::{
     aiming,
     errand::{Errand, Outcome, Position, Stroke, Taught},
     sight::{Sight, sight},
-    verdict,
 };
 use crate::{
     coach::Skill,
@@ -159,11 +158,7 @@ impl Turn {
     pub fn verdict(&self) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
-        let text = if played.miscue {
-            "missed: the tip slipped off the ball".to_owned()
-        } else {
-            verdict::verdict(self.exercise.rule, &played.tally)
-        };
+        let text = played.verdict(self.exercise.rule);
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 

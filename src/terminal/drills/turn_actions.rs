@@ -30,7 +30,9 @@ impl Turn {
             (_, When::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
             (_, When::Watching | When::Ended) => refuse(self.watched().is_none(), "no shot is being watched"),
             (_, When::Free | When::Counted) if self.is_exam() => Some("an exam is under way; Esc leaves it"),
-            (_, When::Counted) => refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal"),
+            (_, When::Counted) => {
+                refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
+            }
             (_, When::Advised) => refuse(self.is_exam(), "an exam gives no hints")
                 .or(refuse(self.taught.is_none(), "the coach is still thinking"))
                 .or(refuse(self.lesson().is_none(), "the coach has found no shot that makes the point")),
@@ -74,8 +76,11 @@ impl DrillScreen {
             }
             Action::Shift => {
                 self.wishes.shifted = !turn.session.shifted;
-                let news = if self.wishes.shifted { "from the second repetition on, each ball is shifted by half a ball" }
-                    else { "the balls lie where the exercise has them" };
+                let news = if self.wishes.shifted {
+                    "from the second repetition on, each ball is shifted by half a ball"
+                } else {
+                    "the balls lie where the exercise has them"
+                };
                 self.message = Some(Message::plain(news));
                 return self.restart(None);
             }

@@ -98,7 +98,9 @@ impl Errands {
         for errand in errands {
             if matches!(errand, Errand::Estimate(_)) {
                 let to_screen = self.to_screen.clone();
-                thread::Builder::new().name("estimate".into()).spawn(move || Clerk::default().work(errand, &to_screen))?;
+                thread::Builder::new()
+                    .name("estimate".into())
+                    .spawn(move || Clerk::default().work(errand, &to_screen))?;
                 continue;
             }
             let clerk = match self.clerk.take() {

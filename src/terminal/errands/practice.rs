@@ -209,10 +209,5 @@ fn load(store: &Store) -> Loaded {
         troubles.push(error.to_string());
         None
     });
-    Loaded {
-        sessions: sessions.items,
-        positions: positions.items,
-        skill: skill.map(|own| own.skill),
-        troubles,
-    }
+    Loaded { sessions: sessions.items, positions: positions.items, skill: skill.map(|own| own.skill), troubles }
 }

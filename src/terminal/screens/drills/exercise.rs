@@ -33,6 +33,7 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
         time,
         is_moving: true,
         front: 0,
+        is_lean: false,
         spots: &spots,
         theme,
         look,
@@ -64,7 +65,8 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
     let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke.phi));
     let dot = look.pick('·', '.');
     let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };
-    let steps = |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
+    let steps =
+        |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
     let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, look.pick('─', '-')));
     let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
     let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();

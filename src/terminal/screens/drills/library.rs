@@ -119,6 +119,7 @@ fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer:
     }
     let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
     let title = cut(wrap(&exercise.title, room), 1, room, look).swap_remove(0);
+    buffer.set_stringn(area.x + 2, area.y, title, room, style);
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(buffer, area.x, area.right() - GRADE_END, area.y, &grade, theme.faint());
     if let Some(score) = app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
@@ -142,6 +143,7 @@ fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer
         time: 0.0,
         is_moving: true,
         front: 0,
+        is_lean: false,
         spots: &[],
         theme,
         look,

@@ -15,15 +15,13 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use crate::{
-    terminal::{
-        app::App,
-        drills::Page,
-        look::Look,
-        status::Message,
-        widgets::{cut, draw_hints, draw_question, draw_status, wrap, write_right},
-        words::{self, skill_word},
-    },
+use crate::terminal::{
+    app::App,
+    drills::Page,
+    look::Look,
+    status::Message,
+    widgets::{cut, draw_hints, draw_question, draw_status, wrap, write_right},
+    words::{self, skill_word},
 };
 
 /// Draws the page that is open.

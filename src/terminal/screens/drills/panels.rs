@@ -8,14 +8,15 @@ use ratatui::{
 
 use super::{percent, write_paragraphs};
 use crate::{
+    drills::changes,
     physics::CueInputs,
     terminal::{
-    app::App,
-    drills::{Meets, Sight, Turn, Watched, changes},
-    look::Look,
-    widgets::draw_title,
-    words::{BALL_NAMES, fixed, rail_name},
-},
+        app::App,
+        drills::{Meets, Sight, Turn, Watched},
+        look::Look,
+        widgets::draw_title,
+        words::{BALL_NAMES, fixed, rail_name},
+    },
 };
 
 /// Fullness from which on a hit is called 100 % full.
@@ -39,16 +40,17 @@ pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
         ("side", millimetres(cue.a, ["left", "right"])),
         ("height", millimetres(cue.b, ["up", "down"])),
         ("speed", format!("{} m/s", fixed(cue.speed, 2))),
-        ("cue", match fixed(cue.theta.to_degrees(), 1).as_str() {
-            "0.0" => "level".to_owned(),
-            angle => format!("{angle}{degree} up"),
-        }),
+        (
+            "cue",
+            match fixed(cue.theta.to_degrees(), 1).as_str() {
+                "0.0" => "level".to_owned(),
+                angle => format!("{angle}{degree} up"),
+            },
+        ),
     ];
     for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
-        let line = Line::from(vec![
-            Span::styled(format!("{name:<7}"), theme.faint()),
-            Span::styled(value, theme.text()),
-        ]);
+        let line =
+            Line::from(vec![Span::styled(format!("{name:<7}"), theme.faint()), Span::styled(value, theme.text())]);
         buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
     }
 }

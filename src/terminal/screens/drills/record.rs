@@ -45,7 +45,7 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
     let points = points(&sessions, scope);
     let curves = [Curve { points: &points, odd: Odd::default(), whose: Whose::Own }];
     let tried = points.last().map_or(0, |point| point.shots.1);
-    let title = "points of 100 attempts, session by session";
+    let title = "made of 100, session by session";
     let chart_of = Chart {
         title,
         curves: &curves,
@@ -54,13 +54,15 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
         smoothing: 0.0,
         selected: false,
         with_shots: true,
-        note: Some("nothing is played yet"),
+        note: points.is_empty().then_some("nothing is played yet"),
     };
     draw_chart(&chart_of, chart, theme, look, buffer);
     let list = Rect { y: top.bottom(), height: area.bottom() - top.bottom(), ..area };
     draw_sessions(app, &sessions, scope, list, buffer);
     if sessions.is_empty() {
-        return Message::plain("nothing is played yet: play a stroke, or note what you make at a real table with m and n");
+        return Message::plain(
+            "nothing is played yet: play a stroke, or note what you make at a real table with m and n",
+        );
     }
     Message::plain(match &drills.records.estimate {
         Estimate::Known(..) => "w takes the estimated skill as yours: then strokes are played and judged with it",
@@ -88,7 +90,8 @@ fn draw_numbers(app: &App, sessions: &[&Session], scope: Option<&str>, area: Rec
     }
     let mut y = inner.y;
     for (name, value) in rows {
-        let line = Line::from(vec![Span::styled(format!("{name:<10}"), theme.faint()), Span::styled(value, theme.text())]);
+        let line =
+            Line::from(vec![Span::styled(format!("{name:<10}"), theme.faint()), Span::styled(value, theme.text())]);
         buffer.set_line(inner.x + 1, y, &line, inner.width.saturating_sub(1));
         y += 1;
     }
@@ -159,5 +162,9 @@ fn what(session: &Session, scope: Option<&str>) -> String {
         Goal::Game { .. } => "game".to_owned(),
     };
     let place = if session.venue == Venue::Table { ", real table" } else { "" };
-    if scope.is_some() || session.goal == Goal::Exam { format!("{goal}{place}") } else { format!("{goal}{place}: {title}") }
+    if scope.is_some() || session.goal == Goal::Exam {
+        format!("{goal}{place}")
+    } else {
+        format!("{goal}{place}: {title}")
+    }
 }

@@ -30,8 +30,7 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
     let signs = look.pick(["●", "○"], ["x", "o"]);
     for (n, (attempt, y)) in session.attempts.iter().zip(inner.y..inner.bottom()).enumerate() {
         let Some(exercise) = session.exercise_of(attempt) else { continue };
-        let (sign, style) =
-            if attempt.made { (signs[0], theme.good()) } else { (signs[1], theme.warning()) };
+        let (sign, style) = if attempt.made { (signs[0], theme.good()) } else { (signs[1], theme.warning()) };
         write_right(buffer, inner.x, inner.x + 3, y, &(n + 1).to_string(), theme.faint());
         buffer.set_string(inner.x + 4, y, sign, style);
         let chance = attempt.chance.map_or(String::new(), percent);
@@ -53,11 +52,8 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
         ("Who plays the shots that are taught makes, on average in the same exam:".to_owned(), theme.text()),
     ];
     let top = write_paragraphs(&paragraphs, text, look, buffer) + 1;
-    let players = [
-        ("beginner", mark.expected.beginner),
-        ("club", mark.expected.club),
-        ("expert", mark.expected.expert),
-    ];
+    let players =
+        [("beginner", mark.expected.beginner), ("club", mark.expected.club), ("expert", mark.expected.expert)];
     for ((name, points), y) in players.into_iter().zip(top..text.bottom()) {
         let style = if name == mark.nearest { theme.good() } else { theme.text() };
         buffer.set_stringn(text.x, y, expected(name, points), usize::from(text.width), style);

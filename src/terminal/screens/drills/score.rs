@@ -18,10 +18,8 @@ pub fn draw(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     let session = turn.told();
     let venue = if session.venue == Venue::Table { " at a real table" } else { "" };
-    let title = Line::from(vec![
-        Span::styled(goal_words(session.goal), theme.text()),
-        Span::styled(venue, theme.faint()),
-    ]);
+    let title =
+        Line::from(vec![Span::styled(goal_words(session.goal), theme.text()), Span::styled(venue, theme.faint())]);
     let inner = draw_title(&title, area, theme, look, buffer);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let top = draw_marks(&session, text, theme, look, buffer);
