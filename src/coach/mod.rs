@@ -8,7 +8,7 @@ mod clock;
 mod coach;
 mod crew;
 mod ease;
-mod errors;
+pub mod errors;
 mod first;
 mod kind;
 mod margins;

@@ -4,11 +4,13 @@ mod accuracy;
 mod bench;
 mod config;
 mod documents;
+mod drill;
 mod evaluate;
 mod failure;
 mod input;
 mod named;
 mod output;
+mod play;
 mod recommend;
 mod reproduce;
 mod simulate;
@@ -42,6 +44,8 @@ enum Command {
     Recommend(recommend::Args),
     Train(train::Args),
     Watch(watch::Args),
+    Drill(drill::Args),
+    Play(play::Args),
     Evaluate(evaluate::Args),
     Accuracy(accuracy::Args),
     Bench(bench::Args),
@@ -78,6 +82,8 @@ impl Cli {
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),
             Some(Command::Watch(args)) => watch::run(&args),
+            Some(Command::Drill(args)) => drill::run(&args),
+            Some(Command::Play(args)) => play::run(&args),
             Some(Command::Evaluate(args)) => evaluate::run(&args),
             Some(Command::Accuracy(args)) => accuracy::run(&args),
             Some(Command::Bench(args)) => bench::run(&args),

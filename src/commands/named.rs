@@ -1,9 +1,11 @@
-//! Runs and policies by the names that people call them.
+//! Runs, policies and skills by the names that people call them.
 
 use std::path::{Path, PathBuf};
 
 use super::Failure;
 use crate::{
+    coach::{Skill, SkillError},
+    drills::Store,
     learning::{Policy, PolicyError, policy::kept, run::list::latest_in},
     storage::Places,
 };
@@ -48,4 +50,34 @@ pub fn run_to_watch(name: &Path) -> Result<PathBuf, Failure> {
 /// Where there is none, or none that can be used.
 pub fn policy_called(name: &str) -> Result<Policy, PolicyError> {
     Policy::load(&kept::find(&Places::of_this_user().policies, name))
+}
+
+/// The word for the skill that the user has kept.
+const OWN: &str = "own";
+
+/// The skill called `name`, or the user's own for `own`.
+///
+/// # Errors
+/// Where there is none.
+pub fn skill_called(name: &str) -> Result<Skill, Failure> {
+    if name == OWN {
+        return own_skill()?.ok_or_else(|| {
+            Failure::wrong_input("no skill of your own is kept yet; carom drill skill --keep estimates and keeps it")
+        });
+    }
+    name.parse().map_err(|error| match error {
+        SkillError::Unknown(_) => {
+            Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep kept"))
+        }
+        SkillError::Range { .. } => Failure::wrong_input(error),
+    })
+}
+
+/// The skill that the user has kept.
+///
+/// # Errors
+/// Where its file cannot be read.
+pub fn own_skill() -> Result<Option<Skill>, Failure> {
+    let own = Store::new(&Places::of_this_user()).own_skill().map_err(Failure::failed)?;
+    Ok(own.map(|own| own.skill))
 }

@@ -5,6 +5,8 @@ use std::{
     io::{self, Write},
 };
 
+use serde::Serialize;
+
 use crate::physics::Impulse;
 
 /// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
@@ -19,4 +21,24 @@ pub fn impulse_words(impulse: &Impulse) -> String {
     let tidy = |x: f64| (1e3 * x).round() / 1e3 + 0.0;
     let (v, w) = (impulse.velocity.to_array().map(tidy), impulse.spin.to_array().map(tidy));
     format!("impulse: V0 = ({:.3}, {:.3}, 0) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v[0], v[1], w[0], w[1], w[2])
+}
+
+/// A line of JSON on the standard output.
+pub fn json_line(value: &impl Serialize) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    serde_json::to_writer(&mut out, value)?;
+    writeln!(out)
+}
+
+/// Rows of cells as lines; the columns in `numbers` stand to the right.
+pub fn columns<const COLUMNS: usize>(rows: &[[String; COLUMNS]], numbers: &[usize]) -> Vec<String> {
+    let widths: [usize; COLUMNS] =
+        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+    let line = |row: &[String; COLUMNS]| {
+        let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| {
+            if numbers.contains(&column) { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+        });
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
 }

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     game::Rule,
-    physics::CueInputs,
+    learning::policy::kept::{LONGEST_NAME, is_name},
+    physics::{CueError, CueInputs},
+    simulation::ShotError,
     table::{Layout, LayoutError, Table, TableError},
 };
 
@@ -125,19 +127,34 @@ pub struct Exercise {
     pub par: Option<Par>,
 }
 
-fn match_table() -> String {
+pub(super) fn match_table() -> String {
     "match".to_owned()
 }
 
 /// Why an exercise cannot be played.
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
+    /// It can neither be called so on the command line nor in a file.
+    #[error("\"{0}\" is no name for an exercise; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
+    Name(String),
     /// Its table is none that is bundled.
     #[error(transparent)]
     Table(#[from] TableError),
     /// Its layout is impossible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
+    /// Its shot is impossible.
+    #[error(transparent)]
+    Shot(#[from] CueError),
+}
+
+impl From<ShotError> for ExerciseError {
+    fn from(error: ShotError) -> Self {
+        match error {
+            ShotError::Layout(error) => Self::Layout(error),
+            ShotError::Cue(error) => Self::Shot(error),
+        }
+    }
 }
 
 impl Exercise {
@@ -149,5 +166,21 @@ impl Exercise {
         let table = Table::preset(&self.table)?;
         self.layout.validate(&table)?;
         Ok(table)
+    }
+
+    /// Checks all that others rely on: the name, the table, the layout and the shot.
+    ///
+    /// # Errors
+    /// The first problem found.
+    pub fn validate(&self) -> Result<(), ExerciseError> {
+        if !is_name(&self.name) {
+            return Err(ExerciseError::Name(self.name.clone()));
+        }
+        let table = self.table()?;
+        if let Some(shot) = &self.shot {
+            shot.validate()?;
+            shot.validate_tip(table.miscue_limit)?;
+        }
+        Ok(())
     }
 }

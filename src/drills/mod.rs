@@ -1,5 +1,30 @@
 //! Practice: positions with what they teach, sessions that keep score, and what the score says of a player.
 
+mod code;
+mod compare;
+pub mod estimate;
+pub mod exam;
 mod exercise;
+mod file;
+mod library;
+pub mod par;
+mod play;
+mod record;
+mod session;
+mod shift;
+pub mod store;
+mod technique;
+mod verdict;
 
+pub use code::{CodeError, decode, encode};
+pub use compare::{Advice, advise, chance, difference};
 pub use exercise::{Category, Exercise, ExerciseError, Par};
+pub use file::{LibraryFile, LibraryFileError};
+pub use library::{Filter, Library, LibraryError};
+pub use play::{PlayError, Played, check};
+pub use record::Record;
+pub use session::{Attempt, Goal, Session, Venue};
+pub use shift::shifted;
+pub use store::Store;
+pub use technique::{GATHERED, PATTERNS, Pattern, Technique, flaws};
+pub use verdict::{changes, verdict};

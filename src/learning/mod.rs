@@ -17,6 +17,6 @@ pub mod run;
 pub mod settings;
 pub mod thesis;
 
-pub use calendar::timestamp;
+pub use calendar::{moment, timestamp};
 pub use normal::normal_pair;
 pub use policy::{Policy, Proposal, file::PolicyError};

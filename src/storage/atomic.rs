@@ -3,12 +3,16 @@
 use std::{
     io::{self, Write},
     path::{Path, PathBuf},
+    time::{Duration, SystemTime},
 };
 
 use tempfile::NamedTempFile;
 
 /// Begin and end of the names of files that are being written: what a killed process leaves can be told by them.
 const PARTIAL: [&str; 2] = [".carom-", ".partial"];
+
+/// Age from which a file that is being written has lost its writer: a few kilobytes do not take an hour.
+const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// Replaces the file at `path` by `bytes`. A reader sees the old content or the new one, never a part; missing folders
 /// are made.
@@ -17,6 +21,15 @@ const PARTIAL: [&str; 2] = [".carom-", ".partial"];
 /// Whatever the file system reports; the old file is then untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish()
+}
+
+/// Like [`write_atomic`] for a name that nobody has yet: of several programs that create the same file at once, one does.
+///
+/// # Errors
+/// [`io::ErrorKind::AlreadyExists`] where there is such a file, else whatever the file system reports; what stands there
+/// is untouched.
+pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    Staged::new(path, bytes)?.publish_new()
 }
 
 /// Like [`write_atomic`] for what need not outlive a power cut: a reader sees the old content or the new one, and nobody
@@ -59,11 +72,25 @@ impl Staged {
     /// Whatever the file system reports; what stands there is then untouched.
     pub fn publish(self) -> io::Result<()> {
         self.file.persist(&self.path)?;
-        // The rename itself must outlive a power cut. Folders can be opened and synced on Unix alone.
-        #[cfg(unix)]
-        std::fs::File::open(folder_of(&self.path))?.sync_all()?;
-        Ok(())
+        sync_folder(&self.path)
     }
+
+    /// Puts the file in its place if nothing stands there.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`], or whatever the file system reports; what stands there is then untouched.
+    pub fn publish_new(self) -> io::Result<()> {
+        // Not with the temporary file's own name in the message.
+        self.file.persist_noclobber(&self.path).map_err(|error| error.error)?;
+        sync_folder(&self.path)
+    }
+}
+
+/// Has the name of a file outlive a power cut. Folders can be opened and synced on Unix alone.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    std::fs::File::open(folder_of(path))?.sync_all()?;
+    Ok(())
 }
 
 /// Removes from `folder` what a process that was killed while writing has left there. Nobody may be writing into it.
@@ -71,14 +98,33 @@ impl Staged {
 /// # Errors
 /// Whatever the file system reports.
 pub fn remove_partial_files(folder: &Path) -> io::Result<()> {
+    partial_files(folder)?.iter().try_for_each(std::fs::remove_file)
+}
+
+/// The same where others may be writing: what is less than an hour old stays.
+///
+/// # Errors
+/// Whatever the file system reports.
+pub fn remove_abandoned_files(folder: &Path) -> io::Result<()> {
+    let is_old = |file: &PathBuf| {
+        let changed = std::fs::metadata(file).and_then(|metadata| metadata.modified());
+        // One that has vanished meanwhile was somebody's who has finished it.
+        changed.is_ok_and(|changed| SystemTime::now().duration_since(changed).is_ok_and(|age| age > ABANDONED))
+    };
+    partial_files(folder)?.iter().filter(|file| is_old(file)).try_for_each(std::fs::remove_file)
+}
+
+/// The files in `folder` that are being written, or were when their writer was killed.
+fn partial_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let [begin, end] = PARTIAL;
+    let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let name = entry?.file_name();
         if name.to_str().is_some_and(|name| name.starts_with(begin) && name.ends_with(end)) {
-            std::fs::remove_file(folder.join(name))?;
+            files.push(folder.join(name));
         }
     }
-    Ok(())
+    Ok(files)
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -123,11 +169,29 @@ mod tests {
     }
 
     #[test]
+    fn a_new_file_is_created_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/file.json");
+        create_atomic(&path, b"first").unwrap();
+        let error = create_atomic(&path, b"second").unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read(&path).unwrap(), b"first");
+        assert_eq!(std::fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[test]
     fn what_a_killed_writer_left_is_told_from_other_files() {
         let folder = tempfile::tempdir().unwrap();
         let staged = Staged::new(&folder.path().join("file"), b"half").unwrap();
         let (_, left) = staged.file.keep().unwrap();
         std::fs::write(folder.path().join(".carom-notes"), b"kept").unwrap();
+        remove_abandoned_files(folder.path()).unwrap();
+        assert!(left.exists(), "its writer may still be at work");
+        let long_ago = SystemTime::now() - 2 * ABANDONED;
+        std::fs::File::options().write(true).open(&left).unwrap().set_modified(long_ago).unwrap();
+        remove_abandoned_files(folder.path()).unwrap();
+        assert!(!left.exists());
+        std::fs::write(&left, b"half").unwrap();
         remove_partial_files(folder.path()).unwrap();
         assert!(!left.exists() && folder.path().join(".carom-notes").exists());
     }

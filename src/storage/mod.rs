@@ -4,6 +4,6 @@ mod atomic;
 mod lock;
 mod places;
 
-pub use atomic::{Staged, remove_partial_files, replace, write_atomic};
+pub use atomic::{Staged, create_atomic, remove_abandoned_files, remove_partial_files, replace, write_atomic};
 pub use lock::Lock;
 pub use places::Places;

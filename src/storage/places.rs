@@ -11,6 +11,12 @@ pub struct Places {
     pub runs: PathBuf,
     /// Policies that the user has kept under a name.
     pub policies: PathBuf,
+    /// Sessions of practice, one file each.
+    pub sessions: PathBuf,
+    /// The user's own positions, one file each.
+    pub positions: PathBuf,
+    /// The file of the user's own skill.
+    pub player: PathBuf,
 }
 
 impl Places {
@@ -18,6 +24,12 @@ impl Places {
     pub fn of_this_user() -> Self {
         let data = ProjectDirs::from("", "", "carom")
             .map_or_else(|| PathBuf::from("carom-data"), |dirs| dirs.data_dir().to_owned());
-        Self { runs: data.join("runs"), policies: data.join("policies") }
+        Self {
+            runs: data.join("runs"),
+            policies: data.join("policies"),
+            sessions: data.join("sessions"),
+            positions: data.join("positions"),
+            player: data.join("player.json"),
+        }
     }
 }

@@ -9,6 +9,9 @@ use super::Table;
 /// Number of balls in carom billiards.
 pub const BALLS: usize = 3;
 
+/// Their names by their index: ball 0 is the cue ball.
+pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
+
 /// How far balls may overlap each other or a cushion in a layout that is accepted, m. A touching ball written with the
 /// digits of a JSON file is off by rounding; 1e-9 m is far below what can be seen or measured.
 pub const TOUCHING_TOLERANCE: f64 = 1e-9;

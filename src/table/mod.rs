@@ -3,5 +3,5 @@
 mod layout;
 mod parameters;
 
-pub use layout::{BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
+pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
 pub use parameters::{PRESETS, Table, TableError};

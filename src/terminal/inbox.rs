@@ -12,7 +12,7 @@ use signal_hook::{
     iterator::Signals,
 };
 
-use super::{recommender::Answer, training::Report};
+use super::{drills::DrillReport, recommender::Answer, training::Report};
 
 /// Something that the screen has to deal with.
 #[derive(Debug)]
@@ -27,6 +27,8 @@ pub enum News {
     Answer(Answer),
     /// Something has come of what the training screen wanted.
     Report(Report),
+    /// Something has come of an errand of the drill screens.
+    Drill(DrillReport),
 }
 
 /// Starts the threads that read the terminal and the signals into one channel.

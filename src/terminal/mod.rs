@@ -9,6 +9,7 @@ mod canvas;
 mod chart;
 mod chord;
 mod coach;
+mod drills;
 mod errands;
 mod geometry;
 mod history;
@@ -49,8 +50,12 @@ use crate::{
 pub use advice::{Advice, Effort, Proposal, Study, Tutor};
 pub use app::{App, Effect, Mode, Screen};
 pub use coach::View;
+pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
+pub use errands::Clerk;
 pub use geometry::Mapping;
-pub use keymap::{Action, CoachAction, CoachWhen, Place, TrainingAction, TrainingWhen, When};
+pub use keymap::{
+    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, Place, TrainingAction, TrainingWhen, When,
+};
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Job, Office, Tidings};
 pub use settings::{Complaint, Keys, Settings};

@@ -123,6 +123,10 @@ impl Runner {
     fn take(&mut self, news: News) -> io::Result<Next> {
         let effect = match news {
             News::Input(Event::Key(key)) => self.app.handle(&key),
+            News::Input(Event::Paste(text)) => {
+                self.app.paste(&text);
+                None
+            }
             News::Answer(answer) => self.app.receive(answer),
             // A resize needs a picture, which follows anyway.
             News::Input(_) | News::Signal(SIGWINCH) => None,
@@ -140,6 +144,7 @@ impl Runner {
                 self.app.receive_report(report);
                 None
             }
+            News::Drill(report) => Some(Effect::Drill(self.app.receive_drill(report))),
         };
         match effect {
             Some(Effect::Quit) => return Ok(Next::Quit),
@@ -149,6 +154,8 @@ impl Runner {
             Some(Effect::Send(request, folder)) => self.errands.send(request, folder)?,
             Some(Effect::Keep(keeping)) => self.errands.keep(*keeping)?,
             Some(Effect::LoadPolicy(folder)) => self.errands.load_policy(folder)?,
+            Some(Effect::Drill(errands)) => self.errands.practise(errands)?,
+            Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}
         }
         Ok(Next::GoOn)

@@ -2,7 +2,7 @@
 
 use std::{
     fs::File,
-    io::{self, IsTerminal},
+    io::{self, IsTerminal, Write},
     os::fd::AsFd,
     panic,
     sync::atomic::{AtomicBool, Ordering},
@@ -11,6 +11,7 @@ use std::{
 
 use crossterm::{
     cursor::{Hide, Show},
+    event::{DisableBracketedPaste, EnableBracketedPaste},
     execute,
     terminal::{
         EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
@@ -54,7 +55,7 @@ impl Session {
     pub fn enter(&mut self) -> io::Result<()> {
         TAKEN.store(true, Ordering::SeqCst);
         enable_raw_mode()?;
-        execute!(self.output, EnterAlternateScreen, Hide)?;
+        execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
         self.terminal.backend_mut().forget();
         // The next picture has to be painted in full. `Terminal::clear` would ask the terminal for the cursor's place, and
         // the answer would have to get past the thread that reads keys.
@@ -70,8 +71,17 @@ impl Session {
         if !TAKEN.swap(false, Ordering::SeqCst) {
             return Ok(());
         }
-        let shown = execute!(self.output, LeaveAlternateScreen, Show);
+        let shown = execute!(self.output, DisableBracketedPaste, LeaveAlternateScreen, Show);
         disable_raw_mode().and(shown)
+    }
+
+    /// Puts `text` into the terminal's clipboard by OSC 52, which terminals that do not allow it ignore.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn copy(&mut self, text: &str) -> io::Result<()> {
+        write!(self.output, "\x1b]52;c;{}\x07", base64(text.as_bytes()))?;
+        self.output.flush()
     }
 
     /// Draws one picture and writes what has changed, in one piece; nothing where nothing has.
@@ -91,6 +101,20 @@ impl Drop for Session {
     }
 }
 
+/// The bytes in the letters that the terminal wants (RFC 4648, section 4).
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let bits = (0..3).fold(0_u32, |bits, n| bits << 8 | u32::from(three.get(n).copied().unwrap_or(0)));
+        for n in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * n) & 63) as usize];
+            text.push(if n <= three.len() { char::from(letter) } else { '=' });
+        }
+    }
+    text
+}
+
 /// Whether there is a terminal on both sides that can show pictures.
 pub fn has_terminal() -> bool {
     let dumb = std::env::var("TERM").map_or(true, |term| term.is_empty() || term == "dumb");
@@ -105,10 +129,24 @@ fn restore_on_panic() {
     panic::set_hook(Box::new(move |info| {
         if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
-            let _ = execute!(io::stdout(), EndSynchronizedUpdate, LeaveAlternateScreen, Show);
+            let _ = execute!(io::stdout(), EndSynchronizedUpdate, DisableBracketedPaste, LeaveAlternateScreen, Show);
         }
         if thread::current().id() == screen {
             report(info);
         }
     }));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::base64;
+
+    #[test]
+    fn what_is_copied_is_written_as_the_rfc_has_it() {
+        let texts = ["", "f", "fo", "foo", "foob", "fooba", "foobar"];
+        assert_eq!(
+            texts.map(|text| base64(text.as_bytes())),
+            ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]
+        );
+    }
 }

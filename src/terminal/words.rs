@@ -10,8 +10,7 @@ use crate::{
     table::BALLS,
 };
 
-/// The balls' names by their index.
-pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
+pub use crate::table::BALL_NAMES;
 
 /// The cushion's name as it lies on the screen.
 pub const fn rail_name(rail: Rail) -> &'static str {

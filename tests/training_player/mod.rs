@@ -37,7 +37,7 @@ pub struct Player {
 impl Player {
     pub fn with(look: Look) -> Self {
         let table = Table::default();
-        let places = Places { runs: RUNS.into(), policies: "/policies".into() };
+        let places = Places { runs: RUNS.into(), policies: "/policies".into(), ..Places::of_this_user() };
         let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap().with_places(places);
         Self { app, effects: Vec::new() }.press("t")
     }

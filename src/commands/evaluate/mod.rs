@@ -17,7 +17,7 @@ use self::robustness::Robustness;
 use super::{
     Failure,
     input::{note_doubts, table_named},
-    named::policy_called,
+    named::{policy_called, skill_called},
     recommend::coach_for,
 };
 use crate::{
@@ -62,9 +62,9 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
         value_parser = clap::value_parser!(u32).range(1..))]
     random_search: Option<u32>,
-    /// Who plays the shots: perfect, expert, club, beginner, or a player's own standard errors in mm, degrees and m/s like
+    /// Who plays the shots: perfect, expert, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
-    #[arg(long, conflicts_with_all = ["random_search", "reward"])]
+    #[arg(long, value_parser = skill_called, conflicts_with_all = ["random_search", "reward"])]
     skill: Option<Skill>,
     /// Play innings: the recommended shot with the player's errors, until a miss, one inning a layout. The skill is
     /// expert where none is given.

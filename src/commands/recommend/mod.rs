@@ -13,7 +13,7 @@ use self::margins::Margins;
 use super::{
     Failure,
     input::{ByTable, Scene, answer_lines, note_doubts},
-    named::policy_called,
+    named::{policy_called, skill_called},
     output::impulse_words,
 };
 use crate::{
@@ -33,10 +33,10 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Who plays the shot: perfect, expert, club, beginner, or a player's own standard errors in mm, degrees and m/s like
+    /// Who plays the shot: perfect, expert, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one
     /// the first that makes the point.
-    #[arg(long, default_value_t = Skill::EXPERT)]
+    #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]
     skill: Skill,
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
     #[arg(long, conflicts_with = "policy_only")]

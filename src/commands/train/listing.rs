@@ -6,7 +6,10 @@ use std::{
 };
 
 use crate::{
-    commands::{Failure, output::tell},
+    commands::{
+        Failure,
+        output::{columns, tell},
+    },
     learning::run::list::{Listing, Summary, runs_in},
     storage::Places,
 };
@@ -65,14 +68,5 @@ fn table(runs: &[Summary]) -> Vec<String> {
             run.state.name().to_owned(),
         ]
     }));
-    let widths: [usize; HEADINGS.len()] =
-        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
-    rows.iter()
-        .map(|row| {
-            let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| {
-                if NUMBERS.contains(&column) { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
-            });
-            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
-        })
-        .collect()
+    columns(&rows, &NUMBERS)
 }

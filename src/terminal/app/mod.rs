@@ -11,6 +11,7 @@ use ratatui::Frame;
 
 use super::{
     coach::CoachScreen,
+    drills::{Balls, DrillReport, DrillScreen, Errand},
     keymap::{self, Action, Place, When},
     look::Look,
     recommender::{Answer, Job},
@@ -49,6 +50,10 @@ pub enum Effect {
     Keep(Box<Keeping>),
     /// Read the policy of the run in this folder.
     LoadPolicy(PathBuf),
+    /// Do these, one after the other; what comes of them goes to [`App::receive_drill`].
+    Drill(Vec<Errand>),
+    /// Put a text into the terminal's clipboard, where it allows that.
+    Copy(String),
     /// Stop until the shell continues the program.
     Suspend,
     /// End.
@@ -62,6 +67,8 @@ pub enum Screen {
     Coach,
     /// Runs, and how they learn.
     Training,
+    /// Exercises, and the player at them.
+    Drills,
 }
 
 /// The whole state of the terminal program.
@@ -70,6 +77,7 @@ pub struct App {
     screen: Screen,
     coach: CoachScreen,
     training: TrainingScreen,
+    drills: DrillScreen,
     help: Option<u16>,
     /// The first line of the help when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
     help_end: Cell<u16>,
@@ -87,6 +95,7 @@ impl App {
             screen: Screen::Coach,
             coach: CoachScreen::new(table, layout, seed)?,
             training: TrainingScreen::new(Places::of_this_user()),
+            drills: DrillScreen::new(Places::of_this_user(), seed),
             help: None,
             help_end: Cell::new(u16::MAX),
             look,
@@ -112,6 +121,7 @@ impl App {
     #[must_use]
     pub fn with_places(mut self, places: Places) -> Self {
         self.training.folder.clone_from(&places.runs);
+        self.drills.places = places.clone();
         self.training.places = places;
         self
     }
@@ -121,8 +131,15 @@ impl App {
         if key.kind == KeyEventKind::Release {
             return None;
         }
-        if self.screen == Screen::Training && self.help.is_none() && self.training.typed(key) {
-            return None;
+        if self.help.is_none() {
+            let typed = match self.screen {
+                Screen::Coach => false,
+                Screen::Training => self.training.typed(key),
+                Screen::Drills => self.drills.typed(key),
+            };
+            if typed {
+                return None;
+            }
         }
         let found = keymap::find(key, self.place(), |when| self.refusal(when))?;
         *self.message_mut() = None;
@@ -156,7 +173,33 @@ impl App {
                 self.training.open();
                 self.screen = Screen::Training;
             }
+            Action::OpenDrills => {
+                self.coach.playback.pause();
+                self.screen = Screen::Drills;
+                return Some(self.drills.open(self.coach.tutor.skill));
+            }
+            Action::SavePosition => {
+                self.coach.playback.pause();
+                self.screen = Screen::Drills;
+                let shot = self.coach.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
+                let (table, layout) = (self.coach.table.clone(), *self.coach.layout());
+                let balls = Balls { table, layout, rule: self.coach.tutor.rule };
+                return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
+            }
             Action::Coach(action) => return self.coach.update(action),
+            Action::Drill(action) => {
+                let effect = self.drills.update(action);
+                let balls = self.drills.take_for_coach();
+                if balls.is_some() || self.drills.is_left() {
+                    self.screen = Screen::Coach;
+                    // Whoever plays there is the same.
+                    self.coach.tutor.skill = self.drills.player.skill;
+                }
+                if let Some(Balls { table, layout, rule }) = balls {
+                    self.coach.take_position(&table, layout, rule);
+                }
+                return effect;
+            }
             Action::Training(action) => {
                 let effect = self.training.update(action);
                 if self.training.is_left() {
@@ -185,6 +228,7 @@ impl App {
             When::Always => None,
             When::Coach(when) => self.coach.refusal(when),
             When::Training(when) => self.training.refusal(when),
+            When::Drill(when) => self.drills.refusal(when),
         }
     }
 
@@ -194,6 +238,8 @@ impl App {
             Screen::Coach => Place::Coach,
             Screen::Training if self.help.is_some() => self.training.page().place(),
             Screen::Training => self.training.place(),
+            Screen::Drills if self.help.is_some() => Place::Drill(self.drills.page_place()),
+            Screen::Drills => Place::Drill(self.drills.place()),
         }
     }
 
@@ -217,6 +263,18 @@ impl App {
         }
     }
 
+    /// Something has come of an errand of the drill screens; gives what is to be done next.
+    pub fn receive_drill(&mut self, report: DrillReport) -> Vec<Errand> {
+        self.drills.receive(report)
+    }
+
+    /// Text was pasted.
+    pub fn paste(&mut self, text: &str) {
+        if self.screen == Screen::Drills && self.help.is_none() {
+            self.drills.pasted(text);
+        }
+    }
+
     /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_report`].
     pub fn wanted(&self) -> Wanted {
         if self.screen == Screen::Training { self.training.wanted() } else { Wanted::default() }
@@ -227,6 +285,7 @@ impl App {
         match self.screen {
             Screen::Coach => self.coach.tick(seconds),
             Screen::Training => self.training.tick(seconds),
+            Screen::Drills => self.drills.tick(seconds),
         }
     }
 
@@ -235,6 +294,7 @@ impl App {
         match self.screen {
             Screen::Coach => self.coach.frame_interval(),
             Screen::Training => self.training.frame_interval(),
+            Screen::Drills => self.drills.frame_interval(),
         }
     }
 

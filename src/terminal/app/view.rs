@@ -6,8 +6,8 @@ use super::{App, Mode, Screen};
 use crate::{
     table::{Layout, Table},
     terminal::{
-        coach::CoachScreen, look::Look, playback::Playback, shot::Shot, status::Message, theme::Theme,
-        training::TrainingScreen,
+        coach::CoachScreen, drills::DrillScreen, look::Look, playback::Playback, shot::Shot, status::Message,
+        theme::Theme, training::TrainingScreen,
     },
 };
 
@@ -25,6 +25,11 @@ impl App {
     /// The training screen.
     pub const fn training(&self) -> &TrainingScreen {
         &self.training
+    }
+
+    /// The drill screens.
+    pub const fn drills(&self) -> &DrillScreen {
+        &self.drills
     }
 
     /// The table that is played on.
@@ -77,6 +82,7 @@ impl App {
         match self.screen {
             Screen::Coach => self.coach.message.as_ref(),
             Screen::Training => self.training.message.as_ref(),
+            Screen::Drills => self.drills.message.as_ref(),
         }
     }
 
@@ -84,6 +90,7 @@ impl App {
         match self.screen {
             Screen::Coach => &mut self.coach.message,
             Screen::Training => &mut self.training.message,
+            Screen::Drills => &mut self.drills.message,
         }
     }
 

@@ -21,7 +21,10 @@ use super::{
     shot::Shot,
     status::Message,
 };
-use crate::table::{Layout, LayoutError, Table};
+use crate::{
+    game::Rule,
+    table::{Layout, LayoutError, Table},
+};
 
 pub use advised::{Advised, Choice};
 
@@ -126,6 +129,18 @@ impl CoachScreen {
         }
         self.message = Some(Message::good(format!("the coach plays with {}; Enter asks it", tutor.name())));
         self.tutor = Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor };
+    }
+
+    /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
+    /// is the same.
+    pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
+        if self.table != *table {
+            self.take_tutor(table, Tutor::default());
+        }
+        self.cancel();
+        self.tutor.rule = rule;
+        self.place(layout);
+        self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
     }
 
     /// Where the balls lie before the shot.

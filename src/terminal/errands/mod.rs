@@ -1,7 +1,8 @@
-//! What the training screen wants done outside: each on a thread of its own, so that the screen never waits.
+//! What the training screen and the drill screens want done outside: each on a thread of its own, so that the screen never waits.
 
 mod policies;
 mod polling;
+mod practice;
 mod recorder;
 mod trainer;
 
@@ -9,6 +10,7 @@ use std::{io, path::PathBuf, sync::mpsc::Sender, thread, time::Duration};
 
 use self::{polling::Poll, recorder::Recorder};
 use super::{
+    drills::Errand,
     inbox::News,
     training::{Keeping, Launch, Reel, Report, Slot, Wanted},
 };
@@ -23,6 +25,8 @@ use crate::{
     table::Table,
 };
 
+pub use practice::Clerk;
+
 /// Time between two looks at a run that is followed.
 const FOLLOW_INTERVAL: Duration = Duration::from_millis(100);
 /// Time between two looks at the list of runs.
@@ -35,12 +39,14 @@ pub struct Errands {
     wanted: Wanted,
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
+    /// To the thread of the drill screens, which starts with the first errand.
+    clerk: Option<Sender<Errand>>,
 }
 
 impl Errands {
     /// Nothing is wanted yet.
     pub fn new(to_screen: Sender<News>) -> Self {
-        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None] }
+        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], clerk: None }
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -82,6 +88,30 @@ impl Errands {
         if let Some(poll) = poll {
             poll.taken();
         }
+    }
+
+    /// Does errands of the drill screens, one after the other. What takes long and writes nothing keeps no others waiting.
+    ///
+    /// # Errors
+    /// As [`Errands::train`].
+    pub fn practise(&mut self, errands: Vec<Errand>) -> io::Result<()> {
+        for errand in errands {
+            if matches!(errand, Errand::Estimate(_)) {
+                let to_screen = self.to_screen.clone();
+                thread::Builder::new()
+                    .name("estimate".into())
+                    .spawn(move || Clerk::default().work(errand, &to_screen))?;
+                continue;
+            }
+            let clerk = match self.clerk.take() {
+                Some(clerk) => clerk,
+                None => practice::start(self.to_screen.clone())?,
+            };
+            // A thread that is gone has told so by its last report.
+            let _ = clerk.send(errand);
+            self.clerk = Some(clerk);
+        }
+        Ok(())
     }
 
     /// Starts a process that trains.

@@ -171,6 +171,9 @@ pub const COACH: &[Binding] = &[
         "make it again"),
     bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots"),
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
+    bind(Program, W::Anytime, &[(Chord::char('d'), Action::OpenDrills)], Some(("drills", 1)),
+        "practise: exercises, exams, and your own positions"),
+    bind(Balls, W::Anytime, &[(Chord::char('s'), Action::SavePosition)], None, "save the balls as a position to practise"),
     bind(Program, W::Anytime, &[(Chord::char('t'), Action::OpenTraining)], Some(("train", 1)),
         "train agents and watch them learn"),
 ];

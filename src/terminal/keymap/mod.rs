@@ -1,6 +1,7 @@
 //! The tables of keys: dispatch, the hint line and the help all read them, so that they cannot disagree.
 
 mod coach;
+mod drills;
 mod training;
 
 use crossterm::event::{
@@ -11,6 +12,7 @@ use crossterm::event::{
 use super::chord::Chord;
 
 pub use coach::{CoachAction, CoachWhen};
+pub use drills::{DrillAction, DrillPlace, DrillWhen};
 pub use training::{TrainingAction, TrainingWhen};
 
 /// What a key does.
@@ -30,10 +32,16 @@ pub enum Action {
     NextGlyphs,
     /// Opens the training screen.
     OpenTraining,
+    /// Opens the library of exercises.
+    OpenDrills,
+    /// Asks under which name the balls are to be saved.
+    SavePosition,
     /// Something on the coach's screen.
     Coach(CoachAction),
     /// Something on the training screen.
     Training(TrainingAction),
+    /// Something on the drill screens.
+    Drill(DrillAction),
 }
 
 /// When a binding may be used; the app knows whether it holds, and why not.
@@ -47,6 +55,8 @@ pub enum When {
     Coach(CoachWhen),
     /// As the training screen says.
     Training(TrainingWhen),
+    /// As the drill screens say.
+    Drill(DrillWhen),
 }
 
 /// What is on the screen: each has its own keys.
@@ -66,6 +76,8 @@ pub enum Place {
     Question,
     /// A name that is typed.
     Name,
+    /// One of the drill screens.
+    Drill(DrillPlace),
 }
 
 /// Headings of the help, in its order.
@@ -85,6 +97,16 @@ pub enum Section {
     Run,
     /// Keys of the replay.
     Replay,
+    /// Keys of the list of exercises.
+    Library,
+    /// Keys that set and play a stroke.
+    Stroke,
+    /// Keys of what is counted.
+    Score,
+    /// Keys of where the balls lie.
+    Position,
+    /// Keys of the page of records.
+    Record,
     /// All others.
     Program,
 }
@@ -106,8 +128,21 @@ pub struct Binding {
 
 impl Section {
     /// All headings, in the help's order.
-    pub const ALL: [Self; 8] =
-        [Self::Balls, Self::Shot, Self::List, Self::Form, Self::Charts, Self::Run, Self::Replay, Self::Program];
+    pub const ALL: [Self; 13] = [
+        Self::Balls,
+        Self::Shot,
+        Self::List,
+        Self::Form,
+        Self::Charts,
+        Self::Run,
+        Self::Replay,
+        Self::Library,
+        Self::Stroke,
+        Self::Score,
+        Self::Position,
+        Self::Record,
+        Self::Program,
+    ];
 
     /// The heading.
     pub const fn title(self) -> &'static str {
@@ -119,6 +154,11 @@ impl Section {
             Self::Charts => "The charts",
             Self::Run => "The run",
             Self::Replay => "The replay",
+            Self::Library => "The library",
+            Self::Stroke => "Your stroke",
+            Self::Score => "The score",
+            Self::Position => "The position",
+            Self::Record => "The record",
             Self::Program => "The program",
         }
     }
@@ -185,9 +225,11 @@ pub fn bindings(place: Place) -> impl Iterator<Item = &'static Binding> {
         Place::Watch => training::WATCH,
         Place::Question => training::QUESTION,
         Place::Name => training::NAME,
+        Place::Drill(place) => place.bindings(),
     };
     let (help, program) = match place {
         Place::Question | Place::Name => (&[][..], LEAVE),
+        Place::Drill(place) if place.takes_letters() => (&[][..], LEAVE),
         _ => (HELP, PROGRAM),
     };
     help.iter().chain(own).chain(program)
@@ -219,9 +261,13 @@ mod tests {
     const PLACES: [Place; 7] =
         [Place::Coach, Place::Runs, Place::Compare, Place::Form, Place::Watch, Place::Question, Place::Name];
 
+    fn places() -> impl Iterator<Item = Place> {
+        PLACES.into_iter().chain(DrillPlace::ALL.map(Place::Drill))
+    }
+
     #[test]
     fn no_two_bindings_with_the_same_condition_share_a_key() {
-        for place in PLACES {
+        for place in places() {
             let all: Vec<_> = bindings(place).collect();
             for (n, one) in all.iter().enumerate() {
                 for other in all[n + 1..].iter().filter(|other| other.when == one.when) {
@@ -246,7 +292,7 @@ mod tests {
     #[test]
     fn the_program_can_be_left_from_everywhere() {
         let event = KeyEvent::new(KeyCode::Char('c'), crossterm::event::KeyModifiers::CONTROL);
-        for place in PLACES {
+        for place in places() {
             assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
         }
     }

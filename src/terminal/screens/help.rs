@@ -44,10 +44,24 @@ const TRAINING_NOTES: [&str; 4] = [
     "The quantities and their keys:",
 ];
 
+const DRILL_NOTES: [&str; 5] = [
+    "The line of aim is straight and ends where the cue ball meets the first ball or cushion, at the ring. It knows nothing \
+     of swerve, and nothing of what comes after. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
+    "Strokes are played with the errors of the player who is named above. How often a stroke makes the point is from 1000 \
+     simulated strokes of that player.",
+    "An attempt for which the hint was shown counts like any other; the score tells how many there were.",
+    "Grades go from 1, the easiest, to 5; par is how often a beginner, a club player and an expert make the shot that is \
+     taught. An average is points an inning, and each miss ends an inning.",
+    "What you note at a real table tells your skill, as long as you play the shot that is taught. Every attempt is on the \
+     disk before it is shown.",
+];
+
 /// What the help says of the picture at `place`.
 fn notes(place: Place) -> Vec<String> {
-    if place == Place::Coach {
-        return COACH_NOTES.map(str::to_owned).to_vec();
+    match place {
+        Place::Coach => return COACH_NOTES.map(str::to_owned).to_vec(),
+        Place::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
+        _ => {}
     }
     let quantities: Vec<_> =
         Quantity::ALL.iter().enumerate().map(|(n, one)| format!("{} {}", n + 1, one.name())).collect();

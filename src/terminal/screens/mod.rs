@@ -1,6 +1,7 @@
 //! The screens, one file each, and which of them is shown.
 
 mod coach;
+mod drills;
 mod help;
 mod panes;
 mod too_small;
@@ -24,6 +25,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         match app.screen() {
             Screen::Coach => coach::draw(app, area, buffer),
             Screen::Training => training::draw(app, area, buffer),
+            Screen::Drills => drills::draw(app, area, buffer),
         }
     }
 }

@@ -52,7 +52,7 @@ fn draw_rows(message: &Message, most: u16, area: Rect, theme: &Theme, look: Look
 }
 
 /// The first `rows` lines; the last of them says by its end if there are more.
-fn cut(mut lines: Vec<String>, rows: usize, width: usize, look: Look) -> Vec<String> {
+pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, look: Look) -> Vec<String> {
     if lines.len() <= rows {
         return lines;
     }

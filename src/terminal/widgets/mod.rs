@@ -25,7 +25,7 @@ use super::{look::Look, theme::Theme};
 pub use balls::draw_balls;
 pub use chances::{draw_chances, sort_words};
 pub use events::draw_events;
-pub use footer::{draw_hints, draw_question, draw_status, wrap};
+pub use footer::{cut, draw_hints, draw_question, draw_status, wrap};
 pub use header::draw_header;
 pub use maps::{draw_aim_map, draw_legend, draw_tip_map};
 pub use margins::draw_margins;

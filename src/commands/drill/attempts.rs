@@ -1,0 +1,95 @@
+//! `carom drill try`, `run` and `exam`: exercises that are played here.
+
+use super::{
+    Desk, Means,
+    strokes::{Stroke, Strokes, play},
+};
+use crate::{
+    commands::Failure,
+    drills::{
+        Goal,
+        exam::{HIGHEST_LEVEL, LENGTH, draw},
+    },
+};
+
+/// Play a stroke at an exercise, with the player's errors, and compare it with the coach's. Every attempt is logged.
+#[derive(Debug, clap::Args)]
+pub struct TryArgs {
+    /// The exercise.
+    name: String,
+    /// The stroke that is meant: "a,b,theta,phi,V" in radii, degrees and m/s, or "coach".
+    #[arg(long, allow_hyphen_values = true)]
+    shot: String,
+    /// Attempts at it.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    repeat: u32,
+    /// Shift the balls by half a ball at every repetition but the first.
+    #[arg(long)]
+    shifted: bool,
+    #[command(flatten)]
+    means: Means,
+}
+
+/// Play an exercise until it was made so many times in a row. Strokes are read line by line from the standard input:
+/// "a,b,theta,phi,V", or the word coach.
+#[derive(Debug, clap::Args)]
+pub struct RunArgs {
+    /// The exercise.
+    name: String,
+    /// Points in a row that end the session.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    goal: u32,
+    /// Shift the balls by half a ball at every repetition but the first.
+    #[arg(long)]
+    shifted: bool,
+    /// Have the coach play.
+    #[arg(long)]
+    coach: bool,
+    /// Attempts after which it ends in any case.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    strokes: u32,
+    #[command(flatten)]
+    means: Means,
+}
+
+/// Take an exam: twenty exercises, one attempt each. Strokes are read line by line from the standard input:
+/// "a,b,theta,phi,V", or the word coach.
+#[derive(Debug, clap::Args)]
+pub struct ExamArgs {
+    /// How hard: 1, 2 or 3.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=i64::from(HIGHEST_LEVEL)))]
+    level: u8,
+    /// Have the coach play.
+    #[arg(long)]
+    coach: bool,
+    #[command(flatten)]
+    means: Means,
+}
+
+pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
+    let stroke: Stroke = args.shot.parse()?;
+    let desk = Desk::open()?;
+    let mut session = args.means.session(Goal::Free, vec![desk.exercise(&args.name)?.clone()]);
+    session.shifted = args.shifted;
+    play(&desk.store, session, &args.means, Strokes::Same(stroke), args.repeat as usize)
+}
+
+pub fn run(args: &RunArgs) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let mut session = args.means.session(Goal::Run(args.goal), vec![desk.exercise(&args.name)?.clone()]);
+    session.shifted = args.shifted;
+    play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)
+}
+
+pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let mut session = args.means.session(Goal::Exam, Vec::new());
+    // The exam and the errors in it come from one seed.
+    session.exercises = draw(desk.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
+    play(&desk.store, session, &args.means, strokes(args.coach), LENGTH)
+}
+
+/// The coach's strokes, or those of the standard input.
+pub const fn strokes(coach: bool) -> Strokes {
+    if coach { Strokes::Coach } else { Strokes::Input }
+}

@@ -1,0 +1,54 @@
+//! What every practice command starts from: the user's store and the library.
+
+use crate::{
+    coach::Skill,
+    commands::{Failure, named::own_skill, output::tell},
+    drills::{Exercise, Library, Session, Store},
+    storage::Places,
+};
+
+/// The user's store and the library with the user's own positions.
+pub struct Desk {
+    pub store: Store,
+    pub library: Library,
+}
+
+impl Desk {
+    /// Reads the library; files that cannot be read are told on the standard error.
+    pub fn open() -> Result<Self, Failure> {
+        let store = Store::new(&Places::of_this_user());
+        let (library, notes) = store.library().map_err(Failure::failed)?;
+        note(&notes);
+        Ok(Self { store, library })
+    }
+
+    /// The exercise called `name`.
+    pub fn exercise(&self, name: &str) -> Result<&Exercise, Failure> {
+        self.library.get(name).map_err(Failure::failed)
+    }
+
+    /// All sessions; files that cannot be read are told on the standard error.
+    pub fn sessions(&self) -> Vec<Session> {
+        let found = self.store.sessions();
+        note(&found.notes);
+        found.items
+    }
+}
+
+/// The skill that was given, else the user's own, else an expert's: also where the user's own cannot be read, which is told.
+pub fn player(given: Option<Skill>) -> Skill {
+    let own = || {
+        own_skill().unwrap_or_else(|failure| {
+            note(&[failure.to_string()]);
+            None
+        })
+    };
+    given.or_else(own).unwrap_or(Skill::EXPERT)
+}
+
+/// Tells what could not be read.
+pub fn note(notes: &[String]) {
+    for sentence in notes {
+        tell(format_args!("note: {sentence}"));
+    }
+}

@@ -1,0 +1,191 @@
+//! `carom drill history`: what was practised, and how it went.
+
+use serde::Serialize;
+
+use super::{
+    Desk, line,
+    score::{Score, time, words},
+};
+use crate::{
+    commands::{
+        Failure,
+        output::{columns, json_line, tell},
+    },
+    drills::{Goal, Record, Session, Venue},
+    game::Rule,
+};
+
+/// Show the records of all exercises and games, or the sessions of one.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// An exercise, whose sessions are shown; one that is not in the library any more has its history still.
+    name: Option<String>,
+    /// The games under this rule instead: straight, one-cushion or three-cushion.
+    #[arg(long, conflicts_with = "name")]
+    games: Option<Rule>,
+    /// Print JSON, an object an exercise or session.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What a row is about.
+#[derive(Clone, PartialEq)]
+enum Subject {
+    Exercise(String),
+    Game(Rule),
+}
+
+impl Subject {
+    /// Its record in these sessions.
+    fn record<'a>(&self, sessions: impl IntoIterator<Item = &'a Session>) -> Record {
+        match self {
+            Self::Exercise(name) => Record::of_exercise(sessions, name),
+            Self::Game(rule) => Record::of(sessions, |session, attempt| {
+                session.is_game() && session.exercise_of(attempt).is_some_and(|game| game.rule == *rule)
+            }),
+        }
+    }
+
+    fn of(session: &Session) -> Vec<Self> {
+        if session.is_game() {
+            return session.exercises.iter().map(|game| Self::Game(game.rule)).collect();
+        }
+        session.exercises.iter().map(|exercise| Self::Exercise(exercise.name.clone())).collect()
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Exercise(name) => name.clone(),
+            Self::Game(rule) => format!("game, {rule}"),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Row {
+    name: String,
+    #[serde(flatten)]
+    score: Score,
+}
+
+#[derive(Serialize)]
+struct Sitting<'a> {
+    session: &'a str,
+    started: String,
+    goal: Goal,
+    venue: Venue,
+    #[serde(flatten)]
+    score: Score,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let sessions = desk.sessions();
+    match (&args.name, args.games) {
+        (Some(name), _) => {
+            let subject = Subject::Exercise(name.clone());
+            // A name that nobody knows is a mistake; one that was never tried is none.
+            if subject.record(&sessions).tried == 0 {
+                desk.exercise(name)?;
+            }
+            one(&subject, &sessions, args.json)
+        }
+        (None, Some(rule)) => one(&Subject::Game(rule), &sessions, args.json),
+        (None, None) => all(&sessions, args.json),
+    }
+}
+
+fn share(record: &Record) -> String {
+    format!("{:.0} %", 100.0 * record.rate.rate)
+}
+
+fn average(record: &Record) -> String {
+    record.average.map_or_else(|| "-".to_owned(), |average| format!("{average:.2}"))
+}
+
+fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
+    let mut subjects: Vec<Subject> = Vec::new();
+    for subject in sessions.iter().flat_map(Subject::of) {
+        if !subjects.contains(&subject) {
+            subjects.push(subject);
+        }
+    }
+    let mut rows = vec![["name", "made", "tried", "rate", "average", "high run", "last (UTC)"].map(str::to_owned)];
+    for subject in subjects {
+        let record = subject.record(sessions);
+        let Some(last) = record.last else { continue };
+        if json {
+            json_line(&Row { name: subject.name(), score: record.into() })?;
+        }
+        rows.push([
+            subject.name(),
+            record.made.to_string(),
+            record.tried.to_string(),
+            share(&record),
+            average(&record),
+            record.high_run.to_string(),
+            time(last),
+        ]);
+    }
+    if rows.len() == 1 {
+        tell("nothing was practised yet; carom drill list shows the exercises");
+    } else if !json {
+        columns(&rows, &[1, 2, 3, 4, 5]).iter().try_for_each(line)?;
+    }
+    Ok(())
+}
+
+fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failure> {
+    let tried = sessions.iter().map(|session| (session, subject.record([session])));
+    let tried: Vec<(&Session, Record)> = tried.filter(|(_, record)| record.tried > 0).collect();
+    let mut rows = vec![["started (UTC)", "where", "goal", "made", "tried", "rate", "high run"].map(str::to_owned)];
+    for (session, record) in &tried {
+        if json {
+            json_line(&Sitting {
+                session: &session.id,
+                started: time(session.started),
+                goal: session.goal,
+                venue: session.venue,
+                score: (*record).into(),
+            })?;
+        }
+        rows.push([
+            time(session.started),
+            match session.venue {
+                Venue::Program => "here".to_owned(),
+                Venue::Table => "table".to_owned(),
+            },
+            match session.goal {
+                Goal::Free => "-".to_owned(),
+                Goal::Run(points) => format!("run of {points}"),
+                Goal::Exam => "exam".to_owned(),
+                Goal::Game { innings } => format!("{innings} innings"),
+            },
+            record.made.to_string(),
+            record.tried.to_string(),
+            share(record),
+            record.high_run.to_string(),
+        ]);
+    }
+    if json {
+        return Ok(());
+    }
+    if tried.is_empty() {
+        tell(format_args!("{}: not tried yet", subject.name()));
+        return Ok(());
+    }
+    columns(&rows, &[3, 4, 5, 6]).iter().try_for_each(line)?;
+    line(format_args!("rate   {}", bars(&tried)))?;
+    line(format_args!("in all {}", words(&subject.record(sessions))))
+}
+
+/// Sessions that the chart shows, the last ones.
+const BARS: usize = 60;
+
+/// The rate of each session as a bar, from 0 to 100 %.
+fn bars(sessions: &[(&Session, Record)]) -> String {
+    const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+    let highest = (HEIGHTS.len() - 1) as f64;
+    let bar = |(_, record): &(&Session, Record)| HEIGHTS[(record.rate.rate * highest).round() as usize];
+    sessions[sessions.len().saturating_sub(BARS)..].iter().map(bar).collect()
+}

@@ -1,0 +1,131 @@
+//! `carom drill list` and `carom drill show`: the exercises there are.
+
+use serde::Serialize;
+
+use super::{
+    Desk, line,
+    score::{Score, shot_text, words},
+};
+use crate::{
+    commands::{
+        Failure,
+        output::{columns, json_line},
+    },
+    drills::{Category, Exercise, Filter, Record, encode},
+    table::BALL_NAMES,
+};
+
+/// List the exercises, with the player's record.
+#[derive(Debug, clap::Args)]
+pub struct ListArgs {
+    /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion or own.
+    #[arg(long, value_parser = category_called)]
+    category: Option<Category>,
+    /// Only this grade, 1 (easy) to 5; 0 is what nobody has measured.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(0..=5))]
+    grade: Option<u8>,
+    /// Only those with this tag.
+    #[arg(long)]
+    tag: Option<String>,
+    /// Print JSON, an object an exercise.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Show an exercise: where the balls lie, what is to be learnt, the shot, its share code and the player's record.
+#[derive(Debug, clap::Args)]
+pub struct ShowArgs {
+    /// The exercise.
+    name: String,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// An exercise in JSON.
+#[derive(Serialize)]
+struct Entry<'a> {
+    #[serde(flatten)]
+    exercise: &'a Exercise,
+    /// Where the balls lie in diamonds from the lower left corner.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    diamonds: Option<[[f64; 2]; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    code: Option<String>,
+    record: Score,
+}
+
+fn category_called(name: &str) -> Result<Category, String> {
+    Category::ALL.into_iter().find(|category| category.name() == name).ok_or_else(|| {
+        let names = Category::ALL.map(Category::name).join(", ");
+        format!("there is no category \"{name}\"; use one of {names}")
+    })
+}
+
+pub fn list(args: &ListArgs) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let sessions = desk.sessions();
+    let ListArgs { category, grade, tag, .. } = args;
+    let filter = Filter { category: *category, grade: *grade, tag: tag.clone(), text: None };
+    let mut rows = vec![["name", "category", "grade", "rule", "made", "tried", "high run", "title"].map(str::to_owned)];
+    for exercise in desk.library.find(&filter) {
+        let record = Record::of_exercise(&sessions, &exercise.name);
+        if args.json {
+            json_line(&Entry { exercise, diamonds: None, code: None, record: record.into() })?;
+        }
+        let number = |number: usize| if record.tried > 0 { number.to_string() } else { "-".to_owned() };
+        rows.push([
+            exercise.name.clone(),
+            exercise.category.to_string(),
+            if exercise.grade > 0 { exercise.grade.to_string() } else { "-".to_owned() },
+            exercise.rule.to_string(),
+            number(record.made),
+            number(record.tried),
+            number(record.high_run as usize),
+            exercise.title.clone(),
+        ]);
+    }
+    if rows.len() == 1 {
+        return Err(Failure::failed("there are no such exercises; carom drill list without a filter shows all"));
+    }
+    if !args.json {
+        columns(&rows, &[2, 4, 5, 6]).iter().try_for_each(line)?;
+    }
+    Ok(())
+}
+
+pub fn show(args: &ShowArgs) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let exercise = desk.exercise(&args.name)?;
+    let table = exercise.table().map_err(Failure::failed)?;
+    let code = encode(exercise).map_err(Failure::failed)?;
+    let record = Record::of_exercise(&desk.sessions(), &exercise.name);
+    let corner = 0.5 * glam::DVec2::new(table.length, table.width);
+    let diamonds = exercise.layout.balls.map(|ball| ((ball + corner) / table.diamond()).to_array());
+    if args.json {
+        let entry = Entry { exercise, diamonds: Some(diamonds), code: Some(code), record: record.into() };
+        return Ok(json_line(&entry)?);
+    }
+    let Exercise { name, title, category, grade, rule, point, tags, shot, par, .. } = exercise;
+    line(format_args!("{name}: {title}"))?;
+    let grade = if *grade > 0 { format!("grade {grade}") } else { "not graded".to_owned() };
+    let tags = if tags.is_empty() { String::new() } else { format!("; {}", tags.join(", ")) };
+    line(format_args!("{}, {rule}, {grade}, table {}{tags}", category.title(), table.name))?;
+    if !point.is_empty() {
+        line(point)?;
+    }
+    for ((ball, name), diamonds) in exercise.layout.balls.iter().zip(BALL_NAMES).zip(diamonds) {
+        let [x, y] = [1000.0 * ball.x, 1000.0 * ball.y];
+        let [across, up] = diamonds;
+        line(format_args!("{name:<6} {x:>8.1} {y:>7.1} mm from the centre   {across:.2} {up:.2} diamonds"))?;
+    }
+    if let Some(shot) = shot {
+        line(format_args!("shot   {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
+    }
+    if let Some(par) = par {
+        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(|share| 100.0 * share);
+        line(format_args!("par    beginner {beginner:.0} %, club {club:.0} %, expert {expert:.0} %"))?;
+    }
+    line(format_args!("record {}", words(&record)))?;
+    line(format_args!("code   {code}"))
+}

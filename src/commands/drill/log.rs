@@ -1,0 +1,146 @@
+//! `carom drill log`: makes and misses at a real table.
+
+use std::io::{self, BufRead, IsTerminal};
+
+use serde::Serialize;
+
+use super::{
+    Desk,
+    desk::player,
+    line,
+    score::{Score, plural, words},
+    strokes::prompt,
+};
+use crate::{
+    commands::{
+        Failure,
+        output::{json_line, tell},
+    },
+    drills::{Goal, Session, Venue},
+};
+
+/// Log makes and misses at a real table.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The exercise.
+    name: String,
+    /// What came of each attempt, in order: make or miss. Without any, they are read from the standard input, a word a line,
+    /// and each is safe on the disk when it is answered; "undo" takes the last one back.
+    #[arg(conflicts_with_all = ["made", "of"])]
+    results: Vec<String>,
+    /// Points, where nobody knows in which order: they tell nothing of runs.
+    #[arg(long, requires = "of")]
+    made: Option<u32>,
+    /// Attempts, points included.
+    #[arg(long, requires = "made", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    of: Option<u32>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Logged<'a> {
+    session: &'a str,
+    #[serde(flatten)]
+    score: Score,
+}
+
+enum Word {
+    Make,
+    Miss,
+    Undo,
+}
+
+impl Word {
+    fn read(text: &str) -> Result<Self, Failure> {
+        match text {
+            "make" => Ok(Self::Make),
+            "miss" => Ok(Self::Miss),
+            "undo" => Ok(Self::Undo),
+            _ => Err(Failure::wrong_input(format_args!("\"{text}\" is no result; accepted are make, miss and undo"))),
+        }
+    }
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let exercise = desk.exercise(&args.name)?.clone();
+    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
+    let mut log = Log { desk, session, json: args.json };
+    if let (Some(made), Some(of)) = (args.made, args.of) {
+        if made > of {
+            return Err(Failure::wrong_input(format_args!(
+                "{made} made of {of} is impossible; --made is at most --of"
+            )));
+        }
+        log.session.unordered = true;
+        for number in 0..of {
+            log.take(if number < made { &Word::Make } else { &Word::Miss })?;
+        }
+        return log.keep();
+    }
+    if args.results.is_empty() {
+        return log.from_input();
+    }
+    let words: Vec<Word> = args.results.iter().map(|text| Word::read(text)).collect::<Result<_, _>>()?;
+    words.iter().try_for_each(|word| log.take(word))?;
+    log.keep()
+}
+
+struct Log {
+    desk: Desk,
+    session: Session,
+    json: bool,
+}
+
+impl Log {
+    fn take(&mut self, word: &Word) -> Result<(), Failure> {
+        match word {
+            Word::Make => self.session.log(true).map_err(Failure::failed),
+            Word::Miss => self.session.log(false).map_err(Failure::failed),
+            Word::Undo => match self.session.undo() {
+                Some(_) => Ok(()),
+                None => Err(Failure::wrong_input("there is no attempt to take back")),
+            },
+        }
+    }
+
+    /// Saves the session and tells the score.
+    fn keep(&self) -> Result<(), Failure> {
+        self.desk.store.save(&self.session).map_err(Failure::failed)?;
+        let record = self.session.record();
+        if self.json {
+            return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
+        }
+        line(words(&record))
+    }
+
+    fn from_input(&mut self) -> Result<(), Failure> {
+        let mut refused = 0;
+        let mut lines = io::stdin().lock().split(b'\n');
+        loop {
+            prompt("make, miss or undo: ");
+            let Some(text) = lines.next() else { break };
+            let text = text.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
+            let text = String::from_utf8_lossy(text.trim_ascii()).into_owned();
+            if text.is_empty() {
+                continue;
+            }
+            match Word::read(&text).and_then(|word| self.take(&word)) {
+                Err(failure) if failure.code() == 2 => {
+                    refused += 1;
+                    tell(failure);
+                }
+                done => {
+                    done?;
+                    self.keep()?;
+                }
+            }
+        }
+        if refused > 0 && !io::stdin().is_terminal() {
+            return Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))));
+        }
+        Ok(())
+    }
+}

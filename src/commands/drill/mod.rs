@@ -1,0 +1,65 @@
+//! `carom drill`: exercises, sessions, scores.
+
+mod attempts;
+mod desk;
+mod history;
+mod listing;
+mod log;
+mod own;
+mod score;
+mod skill;
+mod strokes;
+mod transfer;
+
+use clap::Subcommand;
+
+pub use self::{
+    attempts::strokes,
+    desk::Desk,
+    strokes::{Means, line, play},
+};
+use super::Failure;
+
+/// Practise: exercises to play here or to log from a real table, exams, scores, positions of one's own.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    drill: Drill,
+}
+
+#[derive(Debug, Subcommand)]
+enum Drill {
+    List(listing::ListArgs),
+    Show(listing::ShowArgs),
+    Try(attempts::TryArgs),
+    Run(attempts::RunArgs),
+    Exam(attempts::ExamArgs),
+    Log(log::Args),
+    History(history::Args),
+    Skill(skill::Args),
+    Save(own::SaveArgs),
+    Share(own::ShareArgs),
+    Add(own::AddArgs),
+    Remove(own::RemoveArgs),
+    Export(transfer::ExportArgs),
+    Import(transfer::ImportArgs),
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    match &args.drill {
+        Drill::List(args) => listing::list(args),
+        Drill::Show(args) => listing::show(args),
+        Drill::Try(args) => attempts::once_and_again(args),
+        Drill::Run(args) => attempts::run(args),
+        Drill::Exam(args) => attempts::exam(args),
+        Drill::Log(args) => log::run(args),
+        Drill::History(args) => history::run(args),
+        Drill::Skill(args) => skill::run(args),
+        Drill::Save(args) => own::save(args),
+        Drill::Share(args) => own::share(args),
+        Drill::Add(args) => own::add(args),
+        Drill::Remove(args) => own::remove(args),
+        Drill::Export(args) => transfer::export(args),
+        Drill::Import(args) => transfer::import(args),
+    }
+}

@@ -1,0 +1,129 @@
+//! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
+
+use super::{Desk, line, strokes::Stroke};
+use crate::{
+    commands::Failure,
+    drills::{Category, Exercise, check, decode, encode, store::StoreError},
+    game::Rule,
+    table::{Layout, Table},
+};
+
+/// Save a position of one's own.
+#[derive(Debug, clap::Args)]
+pub struct SaveArgs {
+    /// Its name: letters, digits, '-', '_' and '.'.
+    name: String,
+    /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
+    /// ("2d,2d 6d,2d 2d,2.5d").
+    #[arg(long, allow_hyphen_values = true)]
+    layout: String,
+    /// What counts as a point: straight, one-cushion or three-cushion.
+    #[arg(long, default_value_t = Rule::StraightRail)]
+    rule: Rule,
+    /// Its heading; the name where there is none.
+    #[arg(long)]
+    title: Option<String>,
+    /// What is to be learnt from it.
+    #[arg(long, default_value = "")]
+    point: String,
+    /// A word to find it by; may be given several times.
+    #[arg(long = "tag")]
+    tags: Vec<String>,
+    /// A shot that makes it: "a,b,theta,phi,V".
+    #[arg(long, allow_hyphen_values = true)]
+    shot: Option<String>,
+    /// The table: "match" or "thesis".
+    #[arg(long, default_value = "match")]
+    table: String,
+    /// Save it over a position of this name.
+    #[arg(long)]
+    replace: bool,
+}
+
+/// Print an exercise as one line that can be pasted into a chat.
+#[derive(Debug, clap::Args)]
+pub struct ShareArgs {
+    /// The exercise.
+    name: String,
+}
+
+/// Add a position that somebody has shared.
+#[derive(Debug, clap::Args)]
+pub struct AddArgs {
+    /// Its code; line breaks and blanks in it do not matter.
+    #[arg(required = true)]
+    code: Vec<String>,
+    /// Another name for it.
+    #[arg(long)]
+    name: Option<String>,
+    /// Save it over a position of this name.
+    #[arg(long)]
+    replace: bool,
+}
+
+/// Remove a position of one's own. What was practised on it stays in the history.
+#[derive(Debug, clap::Args)]
+pub struct RemoveArgs {
+    /// The position.
+    name: String,
+}
+
+pub fn save(args: &SaveArgs) -> Result<(), Failure> {
+    let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
+    let shot = match args.shot.as_deref().map(str::parse).transpose()? {
+        None => None,
+        Some(Stroke::Own(cue)) => Some(cue),
+        Some(Stroke::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
+    };
+    shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
+    keep(
+        Exercise {
+            name: args.name.clone(),
+            title: args.title.clone().unwrap_or_else(|| args.name.clone()),
+            category: Category::Own,
+            grade: 0,
+            rule: args.rule,
+            layout: Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?,
+            table: table.name,
+            point: args.point.clone(),
+            tags: args.tags.clone(),
+            shot,
+            par: None,
+        },
+        args.replace,
+    )
+}
+
+pub fn share(args: &ShareArgs) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    line(encode(desk.exercise(&args.name)?).map_err(Failure::failed)?)
+}
+
+pub fn add(args: &AddArgs) -> Result<(), Failure> {
+    let mut position = decode(&args.code.concat()).map_err(Failure::wrong_input)?;
+    if let Some(name) = &args.name {
+        position.name.clone_from(name);
+    }
+    keep(position, args.replace)
+}
+
+pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    if desk.library.is_bundled(&args.name) {
+        return Err(Failure::failed(format_args!("\"{}\" is bundled and cannot be removed", args.name)));
+    }
+    desk.store.remove_position(&args.name).map_err(Failure::failed)?;
+    line(format_args!("removed {}", args.name))
+}
+
+fn keep(position: Exercise, replaces: bool) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    desk.store.save_position(&position, replaces).map_err(|error| match error {
+        StoreError::Exercise(error) => Failure::wrong_input(error),
+        StoreError::Taken(name) => Failure::failed(format_args!(
+            "there is a position \"{name}\" already; --replace saves over it, another name beside it"
+        )),
+        error => Failure::failed(error),
+    })?;
+    line(format_args!("saved {}", position.name))
+}

@@ -1,0 +1,83 @@
+//! Scores, shots and moments as they are printed.
+
+use std::time::{Duration, UNIX_EPOCH};
+
+use serde::Serialize;
+
+use crate::{drills::Record, learning::moment, physics::CueInputs, table::Layout};
+
+/// A record in JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct Score {
+    tried: usize,
+    made: usize,
+    /// Absent before the first attempt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rate: Option<f64>,
+    /// The rate's 95 % interval.
+    interval: [f64; 2],
+    innings: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    average: Option<f64>,
+    high_run: u32,
+    helped: usize,
+    /// The last attempt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    last: Option<String>,
+}
+
+impl From<Record> for Score {
+    fn from(record: Record) -> Self {
+        Self {
+            tried: record.tried,
+            made: record.made,
+            rate: (record.tried > 0).then_some(record.rate.rate),
+            interval: [record.rate.low, record.rate.high],
+            innings: record.innings,
+            average: record.average,
+            high_run: record.high_run,
+            helped: record.helped,
+            last: record.last.map(time),
+        }
+    }
+}
+
+/// A record in a sentence.
+pub fn words(record: &Record) -> String {
+    if record.tried == 0 {
+        return "not tried yet".to_owned();
+    }
+    let average = record.average.map_or_else(String::new, |average| {
+        format!(", average {average:.2} in {}, high run {}", plural(record.innings, "inning"), record.high_run)
+    });
+    let helped = if record.helped > 0 { format!(", {} with help", record.helped) } else { String::new() };
+    format!(
+        "{} of {} made, {:.0} % ({:.0} to {:.0} %){average}{helped}",
+        record.made,
+        record.tried,
+        100.0 * record.rate.rate,
+        100.0 * record.rate.low,
+        100.0 * record.rate.high
+    )
+}
+
+/// A number of things.
+pub fn plural(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Unix time as `2026-11-20T14:30:05Z`.
+pub fn time(seconds: u64) -> String {
+    moment(UNIX_EPOCH + Duration::from_secs(seconds))
+}
+
+/// A shot as the command line takes it.
+pub fn shot_text(cue: &CueInputs) -> String {
+    let CueInputs { a, b, theta, phi, speed } = *cue;
+    format!("{a:.4},{b:.4},{:.3},{:.3},{speed:.3}", theta.to_degrees(), phi.to_degrees())
+}
+
+/// A layout as the command line takes it, to 0.1 mm.
+pub fn layout_text(layout: &Layout) -> String {
+    layout.balls.map(|ball| format!("{:.4},{:.4}", ball.x, ball.y)).join(" ")
+}

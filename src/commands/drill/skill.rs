@@ -1,0 +1,62 @@
+//! `carom drill skill`: what the results at a real table say of the player.
+
+use serde::Serialize;
+
+use super::{Desk, line};
+use crate::{
+    coach::Skill,
+    commands::{
+        Failure,
+        output::{json_line, tell},
+    },
+    drills::estimate::{Estimate, estimate},
+};
+
+/// Estimate the player's skill from the results at a real table: so many times an expert's errors, with the 95 % interval.
+/// The player is taken to have played the exercises' own shots.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Keep the estimate: `--skill own` is then this player.
+    #[arg(long)]
+    keep: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    skill: Skill,
+    scale: f64,
+    interval: [f64; 2],
+    attempts: usize,
+    made: usize,
+    shots: usize,
+    left_out: usize,
+    kept: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let desk = Desk::open()?;
+    let Estimate { skill, scale, low, high, attempts, made, shots, left_out } =
+        estimate(&desk.sessions()).map_err(Failure::failed)?;
+    if args.keep {
+        desk.store.keep_skill(skill).map_err(Failure::failed)?;
+    }
+    if args.json {
+        let interval = [low, high];
+        let kept = args.keep;
+        return Ok(json_line(&Answer { skill, scale, interval, attempts, made, shots, left_out, kept })?);
+    }
+    line(format_args!(
+        "{scale:.2} times an expert's errors (95 % interval {low:.2} to {high:.2}; club is 2, beginner 4)"
+    ))?;
+    line(format_args!("from {made} of {attempts} made at {shots} shots; as a skill: {skill}"))?;
+    if left_out > 0 {
+        tell(format_args!("note: {left_out} attempts have no part in it, for their shot is not known"));
+    }
+    if args.keep {
+        line("kept: --skill own is this player")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,95 @@
+//! `carom drill export` and `carom drill import`: all of one's practice as one JSON file, and back.
+
+use std::{
+    io::{self, Read},
+    path::{Path, PathBuf},
+};
+
+use super::{Desk, desk::note, line, score::plural};
+use crate::{
+    commands::{
+        Failure,
+        output::{json_line, tell},
+    },
+    drills::{
+        Store,
+        store::{Imported, Practice},
+    },
+    storage::{Places, write_atomic},
+};
+
+/// Write all sessions, positions and the skill of one's own as one JSON file.
+#[derive(Debug, clap::Args)]
+pub struct ExportArgs {
+    /// The file; without one, the standard output.
+    file: Option<PathBuf>,
+}
+
+/// Take in a file that `carom drill export` wrote, or a library of exercises. Nothing that is here is lost: of a session on
+/// both sides the one with more attempts is kept, and a position whose name is that of another is refused.
+#[derive(Debug, clap::Args)]
+pub struct ImportArgs {
+    /// The file; "-" reads the standard input.
+    file: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn export(args: &ExportArgs) -> Result<(), Failure> {
+    let (practice, notes) = Store::new(&Places::of_this_user()).export();
+    note(&notes);
+    match &args.file {
+        None => json_line(&practice)?,
+        Some(file) => {
+            let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));
+            let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
+            write_atomic(file, &bytes).map_err(refuse)?;
+            let (positions, sessions) = (practice.library.exercises.len(), practice.sessions.len());
+            tell(format_args!(
+                "{} and {} written to {}",
+                plural(positions, "position"),
+                plural(sessions, "session"),
+                file.display()
+            ));
+        }
+    }
+    if notes.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::failed(format_args!(
+        "{} could not be read and had no part in the export",
+        plural(notes.len(), "file")
+    )))
+}
+
+pub fn import(args: &ImportArgs) -> Result<(), Failure> {
+    let file = args.file.display();
+    let mut text = String::new();
+    let read = if args.file == Path::new("-") {
+        io::stdin().read_to_string(&mut text).map(|_| ())
+    } else {
+        std::fs::read_to_string(&args.file).map(|read| text = read)
+    };
+    read.map_err(|error| Failure::failed(format_args!("{file}: {error}")))?;
+    let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
+    let desk = Desk::open()?;
+    let imported = desk.store.import(&practice);
+    let Imported { positions, sessions, longer, known, refused } = &imported;
+    if args.json {
+        json_line(&imported)?;
+    } else {
+        line(format_args!(
+            "{} and {} taken in, {longer} of those here replaced by longer ones, {known} known already",
+            plural(*positions, "position"),
+            plural(*sessions, "session")
+        ))?;
+    }
+    for sentence in refused {
+        tell(format_args!("refused: {sentence}"));
+    }
+    if refused.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::failed(format_args!("{} of what {file} holds could not be taken in", plural(refused.len(), "part"))))
+}

@@ -1,0 +1,66 @@
+//! `carom play`: innings, each stroke from where the one before left the balls.
+
+use super::{
+    Failure,
+    drill::{Desk, Means, play, strokes},
+};
+use crate::{
+    drills::{Category, Exercise, Goal},
+    game::Rule,
+    table::{Layout, Table},
+};
+
+/// What a game is called among exercises.
+const GAME: &str = "game";
+
+/// Play innings from the opening position: a miss ends one, and the next begins where the balls lie. Strokes are read line
+/// by line from the standard input: "a,b,theta,phi,V", or the word coach. At the end average and high run are told.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// What counts as a point: straight, one-cushion or three-cushion.
+    #[arg(long, default_value_t = Rule::StraightRail)]
+    rule: Rule,
+    /// Innings.
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    innings: u32,
+    /// Strokes after which it ends in any case.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    strokes: u32,
+    /// Where the balls lie at first, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower
+    /// left corner ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
+    #[arg(long, allow_hyphen_values = true)]
+    layout: Option<String>,
+    /// The table: "match" or "thesis".
+    #[arg(long, default_value = "match")]
+    table: String,
+    /// Have the coach play.
+    #[arg(long)]
+    coach: bool,
+    #[command(flatten)]
+    means: Means,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
+    let layout = match &args.layout {
+        None => Layout::opening(&table),
+        Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
+    };
+    layout.validate(&table).map_err(Failure::wrong_input)?;
+    let game = Exercise {
+        name: GAME.to_owned(),
+        title: GAME.to_owned(),
+        category: Category::Own,
+        grade: 0,
+        rule: args.rule,
+        table: table.name,
+        layout,
+        point: String::new(),
+        tags: Vec::new(),
+        shot: None,
+        par: None,
+    };
+    let session = args.means.session(Goal::Game { innings: args.innings }, vec![game]);
+    let desk = Desk::open()?;
+    play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)
+}

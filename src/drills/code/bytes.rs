@@ -1,0 +1,74 @@
+//! Numbers and texts one after the other in bytes.
+
+/// The bytes end too early, or a text is none.
+#[derive(Debug)]
+pub struct Cut;
+
+/// Puts them together.
+#[derive(Debug, Default)]
+pub struct Writer {
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    pub fn byte(&mut self, byte: u8) {
+        self.bytes.push(byte);
+    }
+
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.bytes.extend(bytes);
+    }
+
+    /// A number that needs at most 24 bits with its sign.
+    pub fn number(&mut self, number: i32) {
+        self.bytes(&number.to_be_bytes()[1..]);
+    }
+
+    /// A text of at most 255 bytes with its length before it; of a longer one, that is not the length.
+    pub fn text(&mut self, text: &str) {
+        self.byte(text.len() as u8);
+        self.bytes(text.as_bytes());
+    }
+
+    pub fn finish(self) -> Vec<u8> {
+        self.bytes
+    }
+}
+
+/// Takes them apart.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    pub const fn new(bytes: &'a [u8]) -> Self {
+        Self { rest: bytes }
+    }
+
+    pub fn chunk<const N: usize>(&mut self) -> Result<[u8; N], Cut> {
+        let (chunk, rest) = self.rest.split_first_chunk().ok_or(Cut)?;
+        self.rest = rest;
+        Ok(*chunk)
+    }
+
+    pub fn byte(&mut self) -> Result<u8, Cut> {
+        self.chunk().map(|[byte]| byte)
+    }
+
+    pub fn number(&mut self) -> Result<i32, Cut> {
+        // The shift back copies the sign.
+        self.chunk().map(|[high, middle, low]| i32::from_be_bytes([high, middle, low, 0]) >> 8)
+    }
+
+    pub fn text(&mut self) -> Result<String, Cut> {
+        let length = usize::from(self.byte()?);
+        let (text, rest) = self.rest.split_at_checked(length).ok_or(Cut)?;
+        self.rest = rest;
+        String::from_utf8(text.to_vec()).map_err(|_| Cut)
+    }
+
+    pub const fn is_at_end(&self) -> bool {
+        self.rest.is_empty()
+    }
+}

@@ -1,0 +1,216 @@
+//! An exercise as one line of letters and digits that can be pasted into a chat.
+//!
+//! `carom:` is followed by bytes in [`base32`]: the version, the table, the rule, what is to follow, the layout, the shot, the
+//! name, the title, the tags, and a [`crc`] of it all. In every version, the first byte is the version and the last four are
+//! the checksum.
+
+mod base32;
+mod bytes;
+mod crc;
+
+use glam::DVec2;
+
+use self::{
+    bytes::{Cut, Reader, Writer},
+    crc::crc32,
+};
+use super::{Category, Exercise, ExerciseError, exercise::match_table};
+use crate::{game::Rule, physics::CueInputs, table::Layout};
+
+/// What a code begins with.
+const PREFIX: &str = "carom:";
+
+/// The newest version that is understood, and the one that is written.
+const VERSION: u8 = 1;
+
+/// Longest code that still takes the title and the tags along, characters. The longest name, a layout and a shot alone stay
+/// below; a text that is too long for the byte of its length stays out.
+const LONGEST: usize = 300;
+
+/// What stands in the byte after the rule: coordinates in full instead of tenths of a millimetre.
+const EXACT: u8 = 1;
+/// There is a shot.
+const SHOT: u8 = 2;
+
+/// Tenths of a millimetre in a metre.
+const GRID: f64 = 1e4;
+
+/// Units in which a shot is written: a, b in 1e-5 R, theta and phi in 0.001°, V in 0.1 mm/s. Over the length of a `match`
+/// table, 0.001° is 0.05 mm.
+const SHOT_UNITS: [f64; 5] = [1e5, 1e5, 1e3, 1e3, 1e4];
+
+/// Why a share code cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum CodeError {
+    /// It is something else.
+    #[error("\"{0}\" is no share code; one begins with \"{PREFIX}\"")]
+    Prefix(String),
+    /// A letter that no code has.
+    #[error("a share code has no '{0}'; it is made of letters and digits without u")]
+    Letter(char),
+    /// It has been changed on its way.
+    #[error(
+        "the share code is damaged: a letter is wrong, missing or too many; copy it again, from \"{PREFIX}\" to its end"
+    )]
+    Damaged,
+    /// A newer program wrote it.
+    #[error("the share code is of version {0}; versions 1 to {VERSION} are understood, a newer carom has written it")]
+    Version(u8),
+    /// The exercise in it cannot be played.
+    #[error(transparent)]
+    Exercise(#[from] ExerciseError),
+}
+
+impl From<Cut> for CodeError {
+    fn from(_: Cut) -> Self {
+        Self::Damaged
+    }
+}
+
+/// An exercise as a share code.
+///
+/// It carries the table, the rule and the layout exactly; the shot rounded to 1e-5 R, 0.001° and 0.1 mm/s; the name; and the
+/// title and the tags as far as the code stays within 300 characters. It does not carry the point, the grade and par.
+///
+/// # Errors
+/// Where the exercise cannot be played.
+pub fn encode(exercise: &Exercise) -> Result<String, ExerciseError> {
+    exercise.validate()?;
+    let full = code(exercise, &exercise.title, &exercise.tags);
+    if full.len() <= LONGEST {
+        return Ok(full);
+    }
+    let titled = code(exercise, &exercise.title, &[]);
+    Ok(if titled.len() <= LONGEST { titled } else { code(exercise, "", &[]) })
+}
+
+fn code(exercise: &Exercise, title: &str, tags: &[String]) -> String {
+    let coordinates = exercise.layout.balls.map(|ball| ball.to_array());
+    let coordinates = coordinates.as_flattened();
+    let on_grid = coordinates.iter().all(|&x| tenths(x).is_some_and(|n| f64::from(n) / GRID == x));
+    let has = if on_grid { 0 } else { EXACT } | if exercise.shot.is_some() { SHOT } else { 0 };
+
+    let mut writer = Writer::default();
+    writer.byte(VERSION);
+    writer.text(if exercise.table == match_table() { "" } else { &exercise.table });
+    // A rule is known by its cushions.
+    writer.byte(exercise.rule.cushions() as u8);
+    writer.byte(has);
+    for &x in coordinates {
+        match tenths(x) {
+            Some(tenths) if on_grid => writer.bytes(&tenths.to_be_bytes()),
+            _ => writer.bytes(&x.to_be_bytes()),
+        }
+    }
+    if let Some(shot) = &exercise.shot {
+        for number in shot_in_units(shot) {
+            writer.number(number);
+        }
+    }
+    writer.text(&exercise.name);
+    writer.text(if title == exercise.name { "" } else { title });
+    for tag in tags {
+        writer.text(tag);
+    }
+    let mut bytes = writer.finish();
+    bytes.extend(crc32(&bytes).to_be_bytes());
+    format!("{PREFIX}{}", base32::encode(&bytes))
+}
+
+/// Reads a share code; spaces and line breaks in it do not matter, and neither do capitals. The exercise is the user's
+/// own, and one that can be played.
+///
+/// # Errors
+/// [`CodeError`]: it is something else, it was changed on its way, or it is of a newer version.
+pub fn decode(text: &str) -> Result<Exercise, CodeError> {
+    let letters: String = text.chars().filter(|letter| !letter.is_whitespace()).collect();
+    let prefix = letters.get(..PREFIX.len()).filter(|start| start.eq_ignore_ascii_case(PREFIX));
+    let Some(prefix) = prefix else {
+        return Err(CodeError::Prefix(text.trim().chars().take(40).collect()));
+    };
+    let bytes = base32::decode(&letters[prefix.len()..])?;
+    let (content, sum) = bytes.split_last_chunk().ok_or(CodeError::Damaged)?;
+    if crc32(content) != u32::from_be_bytes(*sum) {
+        return Err(CodeError::Damaged);
+    }
+    let mut reader = Reader::new(content);
+    match reader.byte()? {
+        VERSION => {}
+        0 => return Err(CodeError::Damaged),
+        newer => return Err(CodeError::Version(newer)),
+    }
+    let exercise = content_of(&mut reader)?;
+    exercise.validate()?;
+    Ok(exercise)
+}
+
+fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
+    let table = Some(reader.text()?).filter(|table| !table.is_empty()).unwrap_or_else(match_table);
+    let cushions = u32::from(reader.byte()?);
+    let rule = Rule::ALL.into_iter().find(|rule| rule.cushions() == cushions).ok_or(CodeError::Damaged)?;
+    let has = reader.byte()?;
+    let mut coordinate = || -> Result<f64, Cut> {
+        if has & EXACT == 0 {
+            Ok(f64::from(i16::from_be_bytes(reader.chunk()?)) / GRID)
+        } else {
+            Ok(f64::from_be_bytes(reader.chunk()?))
+        }
+    };
+    let mut balls = [DVec2::ZERO; 3];
+    for ball in &mut balls {
+        *ball = DVec2::new(coordinate()?, coordinate()?);
+    }
+    let shot = if has & SHOT == 0 {
+        None
+    } else {
+        let mut numbers = [0.0; 5];
+        for (number, unit) in numbers.iter_mut().zip(SHOT_UNITS) {
+            *number = f64::from(reader.number()?) / unit;
+        }
+        let [a, b, theta, phi, speed] = numbers;
+        Some(CueInputs { a, b, theta: theta.to_radians(), phi: phi.to_radians(), speed })
+    };
+    let name = reader.text()?;
+    let title = Some(reader.text()?).filter(|title| !title.is_empty()).unwrap_or_else(|| name.clone());
+    let mut tags = Vec::new();
+    while !reader.is_at_end() {
+        tags.push(reader.text()?);
+    }
+    Ok(Exercise {
+        name,
+        title,
+        category: Category::Own,
+        grade: 0,
+        rule,
+        table,
+        layout: Layout::new(balls),
+        point: String::new(),
+        tags,
+        shot,
+        par: None,
+    })
+}
+
+/// A coordinate in tenths of a millimetre; `None` where it is further out than they reach.
+fn tenths(x: f64) -> Option<i16> {
+    let tenths = (x * GRID).round();
+    (tenths.abs() <= f64::from(i16::MAX)).then_some(tenths as i16)
+}
+
+/// A shot in [`SHOT_UNITS`]. The tip and the elevation are rounded towards nought, so that no limit is overstepped.
+fn shot_in_units(shot: &CueInputs) -> [i32; 5] {
+    // What is a whole number but for rounding stays it.
+    let inward = |x: f64| ((x.abs() + 1e-6).floor() * x.signum()) as i32;
+    let turn = (shot.phi.to_degrees() + 180.0).rem_euclid(360.0) - 180.0;
+    let [a, b, theta, phi, speed] = SHOT_UNITS;
+    [
+        inward(shot.a * a),
+        inward(shot.b * b),
+        inward(shot.theta.to_degrees() * theta),
+        (turn * phi).round() as i32,
+        (shot.speed * speed).round().max(1.0) as i32,
+    ]
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,146 @@
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::*;
+use crate::table::Table;
+
+/// Layouts on the grid of a millimetre, anywhere, and with touching balls.
+fn layout(seed: u64, sort: u8) -> Layout {
+    let table = Table::default();
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut layout = Layout::random(&table, &mut rng);
+    match sort {
+        0 => layout.balls = layout.balls.map(|ball| (ball * 1e3).trunc() / 1e3),
+        1 => {}
+        _ => {
+            let towards = (layout.balls[1] - layout.balls[0]).normalize();
+            layout.balls[0] = layout.balls[1] - 2.0 * table.radius * towards;
+        }
+    }
+    layout
+}
+
+prop_compose! {
+    fn exercises()(
+        seed: u64,
+        sort in 0..3_u8,
+        rule in prop::sample::select(Rule::ALL.to_vec()),
+        name in "[a-z0-9._-]{0,60}",
+        title in "\\PC{0,80}",
+        tags in prop::collection::vec("\\PC{1,20}", 0..5),
+        shot in prop::option::of((-0.35..0.35, -0.35..0.35, 0.0..1.5_f64, -10.0..10.0, 0.01..9.0)),
+    ) -> Exercise {
+        Exercise {
+            // A name does not begin with a dot.
+            name: format!("x{name}"),
+            title,
+            category: Category::Own,
+            grade: 0,
+            rule,
+            table: match_table(),
+            layout: layout(seed, sort),
+            point: String::new(),
+            tags,
+            shot: shot.map(|(a, b, theta, phi, speed)| CueInputs { a, b, theta, phi, speed }),
+            par: None,
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn an_exercise_survives_to_the_stated_precision(exercise in exercises()) {
+        prop_assume!(exercise.validate().is_ok());
+        let code = encode(&exercise).unwrap();
+        let read = decode(&code).unwrap();
+        prop_assert_eq!(read.layout, exercise.layout);
+        prop_assert_eq!((&read.name, read.rule, &read.table), (&exercise.name, exercise.rule, &exercise.table));
+        prop_assert_eq!(read.shot.is_some(), exercise.shot.is_some());
+        if let (Some(read), Some(shot)) = (read.shot, exercise.shot) {
+            prop_assert!((read.a - shot.a).abs() <= 1e-5 && (read.b - shot.b).abs() <= 1e-5);
+            prop_assert!(read.tip_offset_squared() <= shot.tip_offset_squared() + 1e-12);
+            prop_assert!((read.theta - shot.theta).to_degrees().abs() <= 1e-3);
+            let turn = (read.phi - shot.phi).to_degrees();
+            prop_assert!((turn - (turn / 360.0).round() * 360.0).abs() <= 0.51e-3);
+            prop_assert!((read.speed - shot.speed).abs() <= 0.51e-4);
+        }
+        prop_assert!(code.len() <= LONGEST);
+        if exercise.title.len() < 40 && exercise.tags.is_empty() && !exercise.title.is_empty() {
+            prop_assert_eq!(&read.title, &exercise.title);
+        }
+        // What was read is written as it was.
+        prop_assert_eq!(decode(&encode(&read).unwrap()).unwrap(), read);
+    }
+
+    #[test]
+    fn any_wrong_missing_or_additional_letter_is_noticed(exercise in exercises(), letter in "[0-9a-z:=+/é]") {
+        prop_assume!(exercise.validate().is_ok());
+        let code = encode(&exercise).unwrap();
+        for place in 0..=code.len() {
+            let (before, after) = code.split_at(place);
+            prop_assert!(decode(&format!("{before}{letter}{after}")).is_err(), "added at {}", place);
+            let Some(there) = after.chars().next() else { continue };
+            prop_assert!(decode(&format!("{before}{}", &after[1..])).is_err(), "missing at {}", place);
+            prop_assert!(decode(before).is_err(), "cut at {}", place);
+            let same = |letter: char| match letter { 'o' => '0', 'i' | 'l' => '1', other => other };
+            if letter.chars().next().map(same) != Some(same(there)) {
+                prop_assert!(decode(&format!("{before}{letter}{}", &after[1..])).is_err(), "changed at {}", place);
+            }
+        }
+    }
+
+    #[test]
+    fn a_chat_may_wrap_and_capitalise(exercise in exercises(), width in 1..30_usize) {
+        prop_assume!(exercise.validate().is_ok());
+        let code = encode(&exercise).unwrap();
+        let letters: Vec<char> = code.chars().collect();
+        let wrapped: Vec<String> = letters.chunks(width).map(|line| line.iter().collect()).collect();
+        let wrapped = format!("\n \t{}\r\n", wrapped.join("\r\n  "));
+        prop_assert_eq!(decode(&wrapped).unwrap(), decode(&code).unwrap());
+        prop_assert_eq!(decode(&code.to_uppercase()).unwrap(), decode(&code).unwrap());
+    }
+}
+
+fn plain(layout: Layout) -> Exercise {
+    Exercise {
+        name: "mine".to_owned(),
+        title: "mine".to_owned(),
+        category: Category::Own,
+        grade: 0,
+        rule: Rule::ThreeCushion,
+        table: match_table(),
+        layout,
+        point: String::new(),
+        tags: Vec::new(),
+        shot: None,
+        par: None,
+    }
+}
+
+#[test]
+fn a_layout_alone_is_short() {
+    assert!(encode(&plain(layout(1, 0))).unwrap().len() <= 50);
+    assert!(encode(&plain(layout(1, 1))).unwrap().len() <= 110);
+}
+
+#[test]
+fn what_is_no_code_or_newer_is_refused_with_a_sentence() {
+    let said = |text: &str| decode(text).unwrap_err().to_string();
+    assert!(said("https://example.org").contains("\"https://example.org\"") && said("").contains("carom:"));
+    assert!(said("carom:").contains("damaged") && said("carom:u").contains("'u'"));
+    let mut newer = vec![9, 1, 2, 3];
+    newer.extend(crc32(&newer).to_be_bytes());
+    assert!(said(&format!("carom:{}", base32::encode(&newer))).contains("version 9"));
+}
+
+#[test]
+fn an_exercise_that_cannot_be_played_is_neither_written_nor_read() {
+    let table = Table::default();
+    let mut overlapping = plain(layout(1, 0));
+    overlapping.layout.balls[1] = overlapping.layout.balls[0];
+    assert!(matches!(encode(&overlapping), Err(ExerciseError::Layout(_))));
+    assert!(matches!(decode(&code(&overlapping, "", &[])), Err(CodeError::Exercise(ExerciseError::Layout(_)))));
+    let unnamed = Exercise { name: "a/b".to_owned(), ..plain(Layout::opening(&table)) };
+    assert!(matches!(encode(&unnamed), Err(ExerciseError::Name(name)) if name == "a/b"));
+}

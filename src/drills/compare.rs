@@ -1,0 +1,89 @@
+//! What a player meant beside what the coach would have played.
+
+use std::{f64::consts::PI, time::Duration};
+
+use crate::{
+    coach::{Coach, Request, Skill, make_probability},
+    game::Rule,
+    learning::evaluation::SuccessRate,
+    physics::CueInputs,
+    table::{Layout, LayoutError, Table},
+};
+
+/// Simulated attempts at a stroke: the standard error of its make probability is at most 1.6 %.
+const ATTEMPTS: usize = 1000;
+
+/// Seed of their errors: the same for every stroke, so that two strokes are compared by what they are and not by luck.
+const SEED: u64 = 0x636f_6d70_6172_6521;
+
+/// How often a player makes the point with `cue`.
+pub fn chance(skill: Skill, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
+    make_probability(skill, rule, table, layout, cue, ATTEMPTS, SEED)
+}
+
+/// A coach's stroke and how often the player makes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advice {
+    /// The stroke.
+    pub cue: CueInputs,
+    /// On the errors that [`chance`] takes.
+    pub chance: SuccessRate,
+}
+
+/// What the coach would play for a player of `skill`, after looking for `budget`; `None` where it finds no point.
+///
+/// # Errors
+/// Where the layout is impossible.
+pub fn advise(
+    coach: &Coach,
+    skill: Skill,
+    rule: Rule,
+    layout: &Layout,
+    budget: Duration,
+    seed: u64,
+) -> Result<Option<Advice>, LayoutError> {
+    let answer = coach.recommend(layout, &Request { rule, skill, budget, seed, ..Request::default() })?;
+    let advice = |cue| Advice { cue, chance: chance(skill, rule, coach.table(), layout, &cue) };
+    Ok(answer.solved.then(|| advice(answer.cue)))
+}
+
+/// What `meant` has more than `advised` in every input; the direction is turned by the smaller angle, from -π to π.
+pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
+    let turn = (meant.phi - advised.phi).rem_euclid(2.0 * PI);
+    CueInputs {
+        a: meant.a - advised.a,
+        b: meant.b - advised.b,
+        theta: meant.theta - advised.theta,
+        phi: if turn > PI { turn - 2.0 * PI } else { turn },
+        speed: meant.speed - advised.speed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_difference_in_direction_goes_the_short_way_round() {
+        let cue = |degrees: f64| CueInputs { a: 0.1, b: 0.0, theta: 0.0, phi: degrees.to_radians(), speed: 2.0 };
+        for (meant, advised, turn) in
+            [(179.0, -179.0, -2.0), (-179.0, 179.0, 2.0), (350.0, -20.0, 10.0), (5.0, 5.0, 0.0)]
+        {
+            let difference = difference(&cue(meant), &cue(advised));
+            assert!((difference.phi.to_degrees() - turn).abs() < 1e-9, "{meant} against {advised}: {difference:?}");
+            assert_eq!((difference.a, difference.speed), (0.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn the_coach_makes_more_than_a_stroke_into_the_void() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+        let coach = Coach::new(table.clone()).unwrap();
+        let request = (Skill::CLUB, Rule::StraightRail);
+        let advice = advise(&coach, request.0, request.1, &layout, Duration::from_millis(300), 0).unwrap().unwrap();
+        let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: PI, speed: 0.3 };
+        assert_eq!(chance(request.0, request.1, &table, &layout, &away).rate, 0.0);
+        assert!(advice.chance.rate > 0.8, "{advice:?}");
+    }
+}

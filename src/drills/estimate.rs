@@ -1,0 +1,295 @@
+//! A player's skill from results at a real table.
+//!
+//! The player is taken to err like an expert, only so many times as much in all five inputs, and to play the shot that the
+//! coach advised or the exercise teaches. How often the shot of exercise e is made at scale s, p_e(s), is simulated; the
+//! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
+//! are its interval (likelihood ratio, Wilks 1938).
+
+use super::{Session, Venue};
+use crate::{
+    coach::{
+        Skill,
+        errors::{Errors, spread},
+    },
+    game::{Rule, scores},
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// Fewest attempts that an estimate is made from.
+pub const FEWEST: usize = 20;
+
+/// The smallest and the largest scale that are looked at, as powers of two.
+const POWERS: (f64, f64) = (-2.0, 4.0);
+
+/// Scales for each power of two.
+const STEPS: usize = 4;
+
+/// Scales that are looked at.
+const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
+
+/// Simulated strokes for each scale and shot. They are the same errors for all, evenly spread: the curve p_e(s) is smooth,
+/// and off by about 1 %.
+const STROKES: usize = 1000;
+
+/// The logarithm of the likelihood may be so much below its maximum within the 95 % interval: half of the 95 % point of the
+/// chi-squared distribution with one degree of freedom.
+const DEPTH: f64 = 1.920_729;
+
+/// What the results say of a player.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// An expert's errors so many times.
+    pub skill: Skill,
+    /// How many times.
+    pub scale: f64,
+    /// Lower end of its 95 % interval; at 1/4 it may lie lower.
+    pub low: f64,
+    /// Upper end; at 16 it may lie higher.
+    pub high: f64,
+    /// Attempts that it rests on.
+    pub attempts: usize,
+    /// Points among them.
+    pub made: usize,
+    /// Shots that were attempted.
+    pub shots: usize,
+    /// Attempts at a real table that say nothing, for nobody knows which shot was meant.
+    pub left_out: usize,
+}
+
+/// Why there is no estimate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoEstimate {
+    /// Too few attempts.
+    #[error(
+        "there are {attempts} attempts at a real table whose shot is known; an estimate needs {FEWEST} (carom drill log \
+         takes them)"
+    )]
+    TooFew {
+        /// Attempts there are.
+        attempts: usize,
+    },
+    /// Players of any skill would have had such results.
+    #[error("{attempts} attempts tell nothing yet: their shots are too easy or too hard to tell players apart by")]
+    Uninformative {
+        /// Attempts there are.
+        attempts: usize,
+    },
+}
+
+/// A shot, and how often it was attempted and made.
+struct Shot {
+    rule: Rule,
+    table: Table,
+    layout: Layout,
+    cue: CueInputs,
+    tried: usize,
+    made: usize,
+}
+
+/// Estimates a player's skill from the attempts at a real table. It takes some 0.03 s a shot.
+///
+/// # Errors
+/// Where the attempts are too few or tell nothing.
+pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
+    let (shots, left_out) = shots(sessions);
+    let attempts = shots.iter().map(|shot| shot.tried).sum();
+    if attempts < FEWEST {
+        return Err(NoEstimate::TooFew { attempts });
+    }
+    let errors = spread(STROKES, 0);
+    let curves: Vec<_> = shots.iter().map(|shot| shot.curve(&errors)).collect();
+    let counts: Vec<_> = shots.iter().map(|shot| (shot.made, shot.tried)).collect();
+    let [low, scale, high] = fit(&curves, &counts).ok_or(NoEstimate::Uninformative { attempts })?;
+    Ok(Estimate {
+        // Nobody knows more digits of it.
+        skill: Skill::EXPERT.scaled((100.0 * scale).round() / 100.0),
+        scale,
+        low,
+        high,
+        attempts,
+        made: shots.iter().map(|shot| shot.made).sum(),
+        shots: shots.len(),
+        left_out,
+    })
+}
+
+/// The shots that were attempted at a real table, and the number of attempts at which it is not known which.
+fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
+    let (mut shots, mut left_out) = (Vec::<Shot>::new(), 0);
+    for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
+        for attempt in &session.attempts {
+            let exercise = session.exercise_of(attempt).and_then(|exercise| Some((exercise, exercise.table().ok()?)));
+            let Some((exercise, table)) = exercise else {
+                left_out += 1;
+                continue;
+            };
+            // The exercise's own shot is for its own layout, and for the first stroke of a game.
+            let own = exercise.shot.filter(|_| attempt.layout.is_none() && !session.is_game());
+            let layout = attempt.layout.unwrap_or(exercise.layout);
+            let Some(cue) = attempt.advised.or(own).filter(|_| layout.validate(&table).is_ok()) else {
+                left_out += 1;
+                continue;
+            };
+            let rule = exercise.rule;
+            let same = |shot: &&mut Shot| {
+                (shot.cue, shot.layout, shot.rule) == (cue, layout, rule) && shot.table.name == table.name
+            };
+            let (tried, made) = (1, usize::from(attempt.made));
+            match shots.iter_mut().find(same) {
+                Some(shot) => {
+                    shot.tried += tried;
+                    shot.made += made;
+                }
+                None => shots.push(Shot { rule, table, layout, cue, tried, made }),
+            }
+        }
+    }
+    (shots, left_out)
+}
+
+/// The scale number `index`.
+fn power(index: f64) -> f64 {
+    POWERS.0 + index / STEPS as f64
+}
+
+impl Shot {
+    /// p_e(s) at every scale: never 0 or 1, which a finite number of strokes cannot tell.
+    fn curve(&self, errors: &[Errors]) -> [f64; SCALES] {
+        std::array::from_fn(|index| {
+            let skill = Skill::EXPERT.scaled(power(index as f64).exp2());
+            let makes = |errors: &&Errors| {
+                let stroke = skill.stroke(self.table.radius, &self.cue, errors);
+                stroke.tip_offset_squared() <= self.table.miscue_limit
+                    && scores(self.rule, &self.table, &self.layout, &stroke)
+            };
+            (errors.iter().filter(makes).count() as f64 + 0.5) / (errors.len() as f64 + 1.0)
+        })
+    }
+}
+
+/// The scale under which the counts (made, tried) are most likely, between the ends of its interval; `None` where all scales
+/// lie within it.
+fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> {
+    let likelihood: [f64; SCALES] = std::array::from_fn(|index| {
+        let term = |(curve, (made, tried)): (&[f64; SCALES], &(usize, usize))| {
+            *made as f64 * curve[index].ln() + (tried - made) as f64 * (1.0 - curve[index]).ln()
+        };
+        curves.iter().zip(counts).map(term).sum()
+    });
+    let best = (0..SCALES).max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
+    let (mut top, mut peak) = (best as f64, likelihood[best]);
+    if (1..SCALES - 1).contains(&best) {
+        // The parabola through the highest value and its neighbours.
+        let (left, right) = (likelihood[best - 1] - peak, likelihood[best + 1] - peak);
+        if left + right < 0.0 {
+            let shift = 0.5 * (left - right) / (left + right);
+            top += shift;
+            peak -= 0.25 * (left - right) * shift;
+        }
+    }
+    let floor = peak - DEPTH;
+    let inside = |index: &usize| likelihood[*index] >= floor;
+    // Where the line between two neighbours, one below the floor and one above, crosses it.
+    let crossing = |below: usize, above: usize| {
+        let share = (floor - likelihood[below]) / (likelihood[above] - likelihood[below]);
+        below as f64 + share * (above as f64 - below as f64)
+    };
+    let (first, last) = ((0..SCALES).find(inside).unwrap_or(best), (0..SCALES).rfind(inside).unwrap_or(best));
+    if (first, last) == (0, SCALES - 1) {
+        return None;
+    }
+    let low = if first == 0 { 0.0 } else { crossing(first - 1, first) };
+    let high = if last == SCALES - 1 { last as f64 } else { crossing(last + 1, last) };
+    Some([low.min(top), top, high.max(top)].map(|index| power(index).exp2()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        coach::{Coach, Request, errors::independent},
+        drills::{Attempt, Exercise, Goal, Played, session::tests::exercise},
+        learning::evaluation::held_out_layouts,
+    };
+    use std::time::Duration;
+
+    /// Eight exercises with a shot that a search finds, the same on every machine.
+    fn exercises() -> Vec<Exercise> {
+        let table = Table::default();
+        let coach = Coach::without_policy(table.clone());
+        let rules = [Rule::StraightRail, Rule::ThreeCushion].into_iter().cycle();
+        let pair = |(number, (layout, rule)): (usize, (Layout, Rule))| {
+            let request = Request {
+                rule,
+                skill: Skill::EXPERT,
+                simulations: 20_000,
+                budget: Duration::from_secs(60),
+                ..Request::default()
+            };
+            let shot = Some(coach.recommend(&layout, &request).unwrap().cue);
+            Exercise { rule, layout, shot, ..exercise(&format!("number-{number}")) }
+        };
+        held_out_layouts(&table, 8, 4).into_iter().zip(rules).enumerate().map(pair).collect()
+    }
+
+    /// What a player of `scale` logs: 50 attempts at each exercise.
+    fn logged(exercises: &[Exercise], scale: f64, seed: u64) -> Vec<Session> {
+        let table = Table::default();
+        let errors = independent(50 * exercises.len(), seed);
+        let session = |(exercise, errors): (&Exercise, &[Errors])| {
+            let one = vec![exercise.clone()];
+            let mut session = Session::new(Goal::Free, Venue::Table, one, Skill::EXPERT, 0);
+            for errors in errors {
+                let stroke = Skill::EXPERT.scaled(scale).stroke(table.radius, &exercise.shot.unwrap(), errors);
+                let made = Played::of(exercise.rule, &table, &exercise.layout, stroke).made;
+                session.attempts.push(Attempt::new(&exercise.name, made));
+            }
+            session
+        };
+        exercises.iter().zip(errors.chunks(50)).map(session).collect()
+    }
+
+    #[test]
+    fn players_of_a_known_skill_are_found_again_within_the_interval() {
+        let exercises = exercises();
+        let found = estimate(&logged(&exercises, 2.0, 1)).unwrap();
+        assert!(found.low <= 2.0 && 2.0 <= found.high && found.high / found.low < 2.0, "{found:?}");
+        assert_eq!((found.attempts, found.shots, found.left_out), (400, 8, 0));
+        // All twenty from the same curves: those are what takes time.
+        let curves: Vec<_> =
+            shots(&logged(&exercises, 1.0, 0)).0.iter().map(|shot| shot.curve(&spread(STROKES, 0))).collect();
+        for scale in [1.0, 2.0, 5.0] {
+            let within = |seed: &u64| {
+                let counts: Vec<_> = shots(&logged(&exercises, scale, 100 + seed))
+                    .0
+                    .iter()
+                    .map(|shot| (shot.made, shot.tried))
+                    .collect();
+                let [low, _, high] = fit(&curves, &counts).unwrap();
+                (low..=high).contains(&scale)
+            };
+            let covered = (0..20).filter(within).count();
+            // Of 20 intervals of 95 %, fewer than 16 hold the truth once in 400 times.
+            assert!(covered >= 16, "{covered} of 20 at scale {scale}");
+        }
+    }
+
+    #[test]
+    fn too_little_is_said_to_be_too_little() {
+        let mut one = exercise("one");
+        let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 2.0, speed: 0.1 };
+        let session = |one: &Exercise, attempts: usize| {
+            let mut session = Session::new(Goal::Free, Venue::Table, vec![one.clone()], Skill::EXPERT, 0);
+            session.attempts = vec![Attempt::new("one", false); attempts];
+            [session]
+        };
+        assert_eq!(estimate(&session(&one, 100)), Err(NoEstimate::TooFew { attempts: 0 }), "no shot is known");
+        one.shot = Some(away);
+        assert_eq!(estimate(&session(&one, 19)), Err(NoEstimate::TooFew { attempts: 19 }));
+        assert_eq!(estimate(&session(&one, 20)), Err(NoEstimate::Uninformative { attempts: 20 }));
+        let mut played = session(&one, 50);
+        played[0].venue = Venue::Program;
+        assert_eq!(estimate(&played), Err(NoEstimate::TooFew { attempts: 0 }), "the program's errors are known");
+    }
+}

@@ -1,0 +1,160 @@
+//! An exam: twenty exercises, one attempt each, and what the score is worth.
+
+use rand::{SeedableRng, seq::SliceRandom};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Category, Exercise, Par, Session};
+
+/// Exercises of an exam.
+pub const LENGTH: usize = 20;
+
+/// Levels, and the grades of the exercises in each.
+const GRADES: [std::ops::RangeInclusive<u8>; 3] = [1..=3, 2..=4, 3..=5];
+
+/// The highest level.
+pub const HIGHEST_LEVEL: u8 = GRADES.len() as u8;
+
+/// Why there is no exam.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum ExamError {
+    /// A level that is none.
+    #[error("there is no exam of level {0}; accepted is 1 to {HIGHEST_LEVEL}")]
+    Level(u8),
+    /// Too few exercises.
+    #[error("an exam of level {level} needs {LENGTH} exercises of grade {} to {}; there are {found}", grades.start(), grades.end())]
+    TooFew {
+        /// The level.
+        level: u8,
+        /// What belongs to it.
+        grades: std::ops::RangeInclusive<u8>,
+        /// Exercises there are.
+        found: usize,
+    },
+}
+
+/// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread over the categories and
+/// grades as evenly as the library allows; the player's own positions, for which nobody has measured a par, have no
+/// part. The same seed draws the same.
+///
+/// # Errors
+/// [`ExamError`].
+pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>, ExamError> {
+    let grades = GRADES.get(usize::from(level).wrapping_sub(1)).ok_or(ExamError::Level(level))?;
+    let fits = |exercise: &&Exercise| {
+        exercise.category != Category::Own && exercise.par.is_some() && grades.contains(&exercise.grade)
+    };
+    let mut left: Vec<&Exercise> = library.iter().filter(fits).collect();
+    if left.len() < LENGTH {
+        return Err(ExamError::TooFew { level, grades: grades.clone(), found: left.len() });
+    }
+    left.shuffle(&mut Xoshiro256PlusPlus::seed_from_u64(seed));
+    let mut drawn: Vec<&Exercise> = Vec::with_capacity(LENGTH);
+    while drawn.len() < LENGTH {
+        // The category that has the fewest so far, and in it the grade; the first in the shuffled order of several.
+        let taken = |same: &dyn Fn(&&&Exercise) -> bool| drawn.iter().filter(same).count();
+        let crowd = |exercise: &&Exercise| {
+            (taken(&|other| other.category == exercise.category), taken(&|other| other.grade == exercise.grade))
+        };
+        let next = (0..left.len()).min_by_key(|index| crowd(&left[*index])).unwrap_or(0);
+        drawn.push(left.remove(next));
+    }
+    drawn.sort_by_key(|exercise| exercise.grade);
+    Ok(drawn.into_iter().cloned().collect())
+}
+
+/// What the score of an exam is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// Exercises tried so far.
+    pub tried: usize,
+    /// Points.
+    pub made: usize,
+    /// Points that each of the named players makes on average in the same attempts, with the exercises' own shots.
+    pub expected: Par,
+    /// Whose average is nearest: "beginner", "club" or "expert".
+    pub nearest: &'static str,
+}
+
+/// The mark of the attempts that there are; `None` before the first.
+pub fn mark(session: &Session) -> Option<Mark> {
+    let attempts = &session.attempts;
+    let pars = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par);
+    let expected = pars.fold(Par { beginner: 0.0, club: 0.0, expert: 0.0 }, |sum, par| Par {
+        beginner: sum.beginner + par.beginner,
+        club: sum.club + par.club,
+        expert: sum.expert + par.expert,
+    });
+    let made = attempts.iter().filter(|attempt| attempt.made).count();
+    let distance = |average: f64| (made as f64 - average).abs();
+    let players = [("beginner", expected.beginner), ("club", expected.club), ("expert", expected.expert)];
+    let (nearest, _) = players.into_iter().min_by(|x, y| distance(x.1).total_cmp(&distance(y.1)))?;
+    (!attempts.is_empty()).then_some(Mark { tried: attempts.len(), made, expected, nearest })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        coach::Skill,
+        drills::{Goal, Venue, session::tests::exercise},
+    };
+
+    /// Ten exercises of each category, two of each grade.
+    fn library() -> Vec<Exercise> {
+        let each = |category: Category| {
+            (0..10_u8).map(move |number| Exercise {
+                category,
+                grade: 1 + number % 5,
+                par: Some(Par { beginner: 0.2, club: 0.5, expert: 0.9 }),
+                ..exercise(&format!("{category}-{number}"))
+            })
+        };
+        Category::ALL.into_iter().flat_map(each).collect()
+    }
+
+    #[test]
+    fn an_exam_is_spread_over_categories_and_grades_and_its_seed_draws_it_again() {
+        let library = library();
+        for level in 1..=3 {
+            let exam = draw(&library, level, 5).unwrap();
+            assert_eq!(exam.len(), LENGTH);
+            assert_eq!(exam, draw(&library, level, 5).unwrap());
+            assert_ne!(exam, draw(&library, level, 6).unwrap());
+            assert!(exam.iter().all(|exercise| exercise.category != Category::Own));
+            for category in &Category::ALL[..7] {
+                let count = exam.iter().filter(|exercise| exercise.category == *category).count();
+                assert!((2..=3).contains(&count), "{count} of {category}");
+            }
+            for grade in GRADES[usize::from(level) - 1].clone() {
+                let count = exam.iter().filter(|exercise| exercise.grade == grade).count();
+                assert!((5..=8).contains(&count), "{count} of grade {grade}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_named() {
+        assert!(draw(&library(), 0, 1).unwrap_err().to_string().contains("level 0"));
+        assert_eq!(draw(&library(), 4, 1), Err(ExamError::Level(4)));
+        let said = draw(&library()[..10], 2, 1).unwrap_err().to_string();
+        assert!(said.contains("grade 2 to 4") && said.contains("there are 6"), "{said}");
+    }
+
+    #[test]
+    fn the_mark_is_the_player_whose_average_is_nearest() {
+        let exam = draw(&library(), 2, 1).unwrap();
+        // Averages over 20 exercises are 4, 10 and 18.
+        for (made, nearest) in
+            [(0, "beginner"), (6, "beginner"), (8, "club"), (13, "club"), (15, "expert"), (20, "expert")]
+        {
+            let mut session = Session::new(Goal::Exam, Venue::Table, exam.clone(), Skill::CLUB, 1);
+            assert_eq!(mark(&session), None);
+            for number in 0..LENGTH {
+                session.log(number < made).unwrap();
+            }
+            let mark = mark(&session).unwrap();
+            assert!((mark.expected.expert - 18.0).abs() < 1e-9);
+            assert_eq!((mark.made, mark.nearest), (made, nearest));
+        }
+    }
+}

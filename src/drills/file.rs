@@ -1,0 +1,200 @@
+//! Exercises as a JSON file: what the bundled library is read from, and what is exported and imported.
+
+use std::io::{self, Write};
+
+use serde::{Deserialize, Serialize};
+use serde_json::ser::Formatter;
+
+use super::Exercise;
+
+/// Exercises in a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LibraryFile {
+    /// What sort of file it is: [`LibraryFile::FORMAT`].
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// The exercises. A file that holds other things may have none.
+    #[serde(default)]
+    pub exercises: Vec<Exercise>,
+}
+
+/// Why a file of exercises cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum LibraryFileError {
+    /// It is no JSON, or not of this form.
+    #[error("this is no file of exercises: {0}")]
+    Syntax(#[from] serde_json::Error),
+    /// It is something else.
+    #[error("the file says that its format is \"{0}\"; accepted is \"{format}\"", format = LibraryFile::FORMAT)]
+    Format(String),
+    /// Another program wrote it, most likely a newer one.
+    #[error(
+        "the file is of version {0}; versions 1 to {newest} are understood, a newer carom may have written it",
+        newest = LibraryFile::VERSION
+    )]
+    Version(u32),
+}
+
+impl LibraryFile {
+    /// What stands in `format`.
+    pub const FORMAT: &str = "carom-library";
+
+    /// The newest version that is understood, and the one that is written.
+    pub const VERSION: u32 = 1;
+
+    /// A file of this version.
+    pub fn new(exercises: Vec<Exercise>) -> Self {
+        Self { format: Self::FORMAT.to_owned(), version: Self::VERSION, exercises }
+    }
+
+    /// Reads a file's text. Fields that are not known are skipped; the exercises are not checked: see
+    /// [`Exercise::validate`].
+    ///
+    /// # Errors
+    /// Where it is something else, or of a version that is not understood, whatever else it holds.
+    pub fn parse(text: &str) -> Result<Self, LibraryFileError> {
+        #[derive(Deserialize)]
+        struct Header {
+            format: String,
+            version: u32,
+        }
+        let header: Header = serde_json::from_str(text)?;
+        if header.format != Self::FORMAT {
+            return Err(LibraryFileError::Format(header.format));
+        }
+        if !(1..=Self::VERSION).contains(&header.version) {
+            return Err(LibraryFileError::Version(header.version));
+        }
+        Ok(serde_json::from_str(text)?)
+    }
+
+    /// The file's text: a line for each of an exercise's fields.
+    ///
+    /// # Errors
+    /// Where a value has no JSON form; none of this type's has.
+    pub fn to_text(&self) -> Result<String, serde_json::Error> {
+        let mut bytes = Vec::new();
+        self.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::default()))?;
+        bytes.push(b'\n');
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
+/// Objects and arrays as deep as this have a line for each of their values: the file, its exercises and their fields.
+const DEEPEST_LINES: usize = 3;
+
+/// JSON in lines that people read; what is deeper than an exercise's field stands in one line.
+#[derive(Default)]
+struct Lines {
+    depth: usize,
+}
+
+impl Lines {
+    fn separate<W: ?Sized + Write>(&self, writer: &mut W, first: bool) -> io::Result<()> {
+        if !first {
+            writer.write_all(b",")?;
+        }
+        if self.depth <= DEEPEST_LINES {
+            write!(writer, "\n{:1$}", "", 2 * self.depth)
+        } else if first {
+            Ok(())
+        } else {
+            writer.write_all(b" ")
+        }
+    }
+
+    fn begin<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        self.depth += 1;
+        writer.write_all(bracket)
+    }
+
+    fn end<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
+        self.depth -= 1;
+        if self.depth < DEEPEST_LINES {
+            write!(writer, "\n{:1$}", "", 2 * self.depth)?;
+        }
+        writer.write_all(bracket)
+    }
+}
+
+impl Formatter for Lines {
+    fn begin_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.begin(writer, b"[")
+    }
+
+    fn end_array<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.end(writer, b"]")
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.separate(writer, first)
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.begin(writer, b"{")
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.end(writer, b"}")
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.separate(writer, first)
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+
+    /// Twelve decimals: degrees that were read are written as they were, though radians lie between.
+    fn write_f64<W: ?Sized + Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
+        // The sum takes the sign from a nought.
+        let rounded = (value * 1e12).round() / 1e12 + 0.0;
+        write!(writer, "{}", if rounded.is_finite() { rounded } else { value })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = r#"{
+  "format": "carom-library",
+  "version": 1,
+  "exercises": [
+    {
+      "name": "half-ball",
+      "title": "Half a ball",
+      "category": "first-caroms",
+      "grade": 1,
+      "rule": "straight",
+      "table": "match",
+      "layout": [[-0.71, 0.1], [0, 0], [0.4, -0.123]],
+      "point": "Aim at the edge.",
+      "tags": ["soft", "plain"],
+      "shot": {"a": 0, "b": 0.25, "theta_deg": 3.3, "phi_deg": -12.34, "speed": 2.15},
+      "par": {"beginner": 0.5, "club": 0.75, "expert": 0.9}
+    }
+  ]
+}
+"#;
+
+    #[test]
+    fn a_file_is_written_as_it_was_read() {
+        let file = LibraryFile::parse(TEXT).unwrap();
+        assert_eq!(file.to_text().unwrap(), TEXT);
+        let none = LibraryFile::new(Vec::new());
+        assert_eq!(LibraryFile::parse(&none.to_text().unwrap()).unwrap(), none);
+    }
+
+    #[test]
+    fn other_formats_and_versions_are_refused_by_name_whatever_they_hold() {
+        let said = |text: &str| LibraryFile::parse(text).unwrap_err().to_string();
+        let newer = said(r#"{"format": "carom-library", "version": 7, "exercises": {"other": "form"}}"#);
+        assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
+        assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
+        assert!(said("half a fi").contains("line 1"));
+        assert!(said(&TEXT.replace("first-caroms", "bowling")).contains("bowling"));
+    }
+}

@@ -1,0 +1,153 @@
+//! The exercises there are: the bundled ones and the user's own.
+
+use super::{Category, Exercise, LibraryFile, LibraryFileError};
+
+/// The bundled files, one a category.
+const BUNDLED: [&str; 7] = [
+    include_str!("../../saves/first-caroms.json"),
+    include_str!("../../saves/draw.json"),
+    include_str!("../../saves/follow.json"),
+    include_str!("../../saves/side.json"),
+    include_str!("../../saves/one-cushion.json"),
+    include_str!("../../saves/gather.json"),
+    include_str!("../../saves/three-cushion.json"),
+];
+
+/// Why an exercise is not in the library, or cannot be.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum LibraryError {
+    /// There is none of this name.
+    #[error("there is no exercise \"{0}\"; carom drill list shows all names")]
+    Unknown(String),
+    /// There is another of this name.
+    #[error("there is an exercise \"{0}\" already; give this one another name")]
+    Taken(String),
+}
+
+/// Exercises with names of their own, the bundled ones first, by category.
+#[derive(Clone, Debug, Default)]
+pub struct Library {
+    exercises: Vec<Exercise>,
+    bundled: usize,
+}
+
+impl Library {
+    /// The bundled exercises.
+    ///
+    /// # Errors
+    /// Where a bundled file is damaged.
+    pub fn bundled() -> Result<Self, LibraryFileError> {
+        let mut exercises = Vec::new();
+        for text in BUNDLED {
+            exercises.extend(LibraryFile::parse(text)?.exercises);
+        }
+        let bundled = exercises.len();
+        Ok(Self { exercises, bundled })
+    }
+
+    /// The bundled exercises and these, and what is wrong with those that could not be taken in.
+    ///
+    /// # Errors
+    /// Where a bundled file is damaged.
+    pub fn with_own(own: Vec<Exercise>) -> Result<(Self, Vec<LibraryError>), LibraryFileError> {
+        let mut library = Self::bundled()?;
+        let refused = own.into_iter().filter_map(|exercise| library.add(exercise).err()).collect();
+        Ok((library, refused))
+    }
+
+    /// Takes in one more exercise.
+    ///
+    /// # Errors
+    /// [`LibraryError::Taken`] where there is one of its name.
+    pub fn add(&mut self, exercise: Exercise) -> Result<(), LibraryError> {
+        if self.get(&exercise.name).is_ok() {
+            return Err(LibraryError::Taken(exercise.name));
+        }
+        self.exercises.push(exercise);
+        Ok(())
+    }
+
+    /// The exercise of this name.
+    ///
+    /// # Errors
+    /// [`LibraryError::Unknown`].
+    pub fn get(&self, name: &str) -> Result<&Exercise, LibraryError> {
+        let named = self.exercises.iter().find(|exercise| exercise.name == name);
+        named.ok_or_else(|| LibraryError::Unknown(name.to_owned()))
+    }
+
+    /// All of them.
+    pub fn exercises(&self) -> &[Exercise] {
+        &self.exercises
+    }
+
+    /// Whether the exercise of this name comes with the program.
+    pub fn is_bundled(&self, name: &str) -> bool {
+        self.exercises[..self.bundled].iter().any(|exercise| exercise.name == name)
+    }
+
+    /// Those that the filter lets through, in the order of the library.
+    pub fn find(&self, filter: &Filter) -> impl Iterator<Item = &Exercise> {
+        self.exercises.iter().filter(|exercise| filter.accepts(exercise))
+    }
+}
+
+/// Which exercises are looked for; what is `None` does not matter.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Filter {
+    /// What they are about.
+    pub category: Option<Category>,
+    /// How hard they are.
+    pub grade: Option<u8>,
+    /// A tag that they have.
+    pub tag: Option<String>,
+    /// A text that occurs in their name, title, point or tags, in capitals or not.
+    pub text: Option<String>,
+}
+
+impl Filter {
+    /// Whether an exercise is looked for.
+    pub fn accepts(&self, exercise: &Exercise) -> bool {
+        let has = |words: &str, text: &str| words.to_lowercase().contains(&text.to_lowercase());
+        self.category.is_none_or(|category| exercise.category == category)
+            && self.grade.is_none_or(|grade| exercise.grade == grade)
+            && self.tag.as_ref().is_none_or(|tag| exercise.tags.contains(tag))
+            && self.text.as_ref().is_none_or(|text| {
+                let Exercise { name, title, point, tags, .. } = exercise;
+                [name, title, point].into_iter().chain(tags).any(|words| has(words, text))
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_own_exercise_may_not_take_a_name_that_is_there() {
+        let bundled = Library::bundled().unwrap();
+        let taken = bundled.exercises()[3].clone();
+        let own = Exercise { name: "mine".to_owned(), category: Category::Own, ..taken.clone() };
+        let (library, refused) = Library::with_own(vec![own.clone(), taken.clone(), own.clone()]).unwrap();
+        assert_eq!(refused, [taken.name.clone(), own.name.clone()].map(LibraryError::Taken));
+        assert_eq!(library.exercises().len(), bundled.exercises().len() + 1);
+        assert_eq!(library.get("mine"), Ok(&own));
+        assert!(library.is_bundled(&taken.name) && !library.is_bundled("mine"));
+        assert_eq!(library.get("yours"), Err(LibraryError::Unknown("yours".to_owned())));
+    }
+
+    #[test]
+    fn a_filter_lets_through_what_meets_all_of_it() {
+        let library = Library::bundled().unwrap();
+        let all = library.find(&Filter::default()).count();
+        assert_eq!(all, library.exercises().len());
+        let draw = Filter { category: Some(Category::Draw), ..Filter::default() };
+        let drawn: Vec<&Exercise> = library.find(&draw).collect();
+        assert!(!drawn.is_empty() && drawn.iter().all(|exercise| exercise.category == Category::Draw));
+        let wanted = drawn[0];
+        let exact = Filter { text: Some(wanted.title.to_uppercase()), grade: Some(wanted.grade), ..draw.clone() };
+        assert!(library.find(&exact).any(|exercise| exercise == wanted));
+        assert_eq!(library.find(&Filter { grade: Some(wanted.grade + 1), ..exact }).count(), 0);
+        assert_eq!(library.find(&Filter { tag: Some("no such tag".to_owned()), ..draw }).count(), 0);
+    }
+}

@@ -1,0 +1,160 @@
+//! Attempts: a stroke is played with the player's errors, or one at a real table is taken note of.
+
+use std::ops::ControlFlow;
+
+use super::{Attempt, ExerciseError, Session, session::now, shifted};
+use crate::{
+    coach::{Skill, errors},
+    game::{Rule, Tally},
+    physics::{CueError, CueInputs, strike},
+    simulation::{Event, Observer, simulate},
+    table::{Layout, Table},
+};
+
+/// Steepest cue of a stroke that errors are added to, rad: just below upright.
+const STEEPEST: f64 = 89.9_f64.to_radians();
+
+/// Why no attempt can be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PlayError {
+    /// The goal is reached.
+    #[error("the session is over")]
+    Over,
+    /// The exercise cannot be played.
+    #[error(transparent)]
+    Exercise(#[from] ExerciseError),
+    /// The stroke cannot be played.
+    #[error(transparent)]
+    Cue(#[from] CueError),
+}
+
+/// What came of a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Played {
+    /// The stroke with the player's errors.
+    pub stroke: CueInputs,
+    /// Whether the tip slipped off the ball: then no ball moves, and there is no point.
+    pub miscue: bool,
+    /// What the cue ball did.
+    pub tally: Tally,
+    /// Whether it made the point.
+    pub made: bool,
+    /// Where the balls came to rest, m.
+    pub end: Layout,
+}
+
+impl Played {
+    /// Plays a stroke as it is.
+    pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
+        let mut watcher = Watcher::default();
+        let miscue = stroke.tip_offset_squared() > table.miscue_limit;
+        let end =
+            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
+        Self { stroke, miscue, tally: watcher.0, made: watcher.0.is_point(rule), end }
+    }
+}
+
+/// Watches the cue ball until all balls are at rest.
+#[derive(Default)]
+struct Watcher(Tally);
+
+impl Observer for Watcher {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.0.note(&event);
+        ControlFlow::Continue(())
+    }
+}
+
+/// A stroke that a player may mean on `table`: its inputs are in their ranges and the tip within the miscue limit.
+///
+/// # Errors
+/// The first problem found.
+pub fn check(table: &Table, cue: &CueInputs) -> Result<(), CueError> {
+    cue.validate()?;
+    cue.validate_tip(table.miscue_limit)
+}
+
+impl Session {
+    /// Where the balls lie for the next attempt and on which table; `None` when it is over.
+    ///
+    /// # Errors
+    /// Where the exercise is impossible.
+    pub fn position(&self) -> Result<Option<(Table, Layout)>, ExerciseError> {
+        let Some(exercise) = self.exercise() else { return Ok(None) };
+        let table = exercise.table()?;
+        let layout = match self.attempts.last() {
+            Some(last) if self.is_game() => {
+                let layout = last.layout.unwrap_or(exercise.layout);
+                // The simulator repeats itself to the last bit.
+                last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end)
+            }
+            _ if self.shifted => shifted(&exercise.layout, &table, self.seed, self.attempts.len() as u32),
+            _ => exercise.layout,
+        };
+        Ok(Some((table, layout)))
+    }
+
+    /// Plays the next attempt: what the player means, with the player's errors. The same session plays the same.
+    ///
+    /// # Errors
+    /// Where the session is over or the stroke is impossible; nothing is then noted.
+    pub fn play(&mut self, meant: CueInputs, helped: bool) -> Result<Played, PlayError> {
+        let (table, layout) = self.position()?.ok_or(PlayError::Over)?;
+        check(&table, &meant)?;
+        let exercise = self.exercise().ok_or(PlayError::Over)?;
+        let number = self.attempts.len();
+        let errors = errors::independent(number + 1, self.seed)[number];
+        let stroke = with_errors(self.skill, &table, &meant, &errors);
+        let played = Played::of(exercise.rule, &table, &layout, stroke);
+        let attempt = Attempt {
+            layout: (layout != exercise.layout).then_some(layout),
+            meant: Some(meant),
+            played: Some(stroke),
+            helped,
+            ..Attempt::new(&exercise.name, played.made)
+        };
+        self.attempts.push(attempt);
+        Ok(played)
+    }
+
+    /// Takes note of an attempt at a real table.
+    ///
+    /// # Errors
+    /// Where the session is over or the exercise is impossible.
+    pub fn log(&mut self, made: bool) -> Result<(), PlayError> {
+        let (_, layout) = self.position()?.ok_or(PlayError::Over)?;
+        let exercise = self.exercise().ok_or(PlayError::Over)?;
+        let layout = (layout != exercise.layout).then_some(layout);
+        self.attempts.push(Attempt { layout, ..Attempt::new(&exercise.name, made) });
+        Ok(())
+    }
+
+    /// Takes the last attempt back.
+    pub fn undo(&mut self) -> Option<Attempt> {
+        self.attempts.pop()
+    }
+}
+
+impl Attempt {
+    /// One that was made just now, of which nothing else is known.
+    pub fn new(exercise: &str, made: bool) -> Self {
+        Self {
+            exercise: exercise.to_owned(),
+            at: now(),
+            made,
+            helped: false,
+            layout: None,
+            meant: None,
+            played: None,
+            chance: None,
+            advised: None,
+            advised_chance: None,
+        }
+    }
+}
+
+/// What comes of a stroke with these standard normal errors.
+fn with_errors(skill: Skill, table: &Table, meant: &CueInputs, errors: &errors::Errors) -> CueInputs {
+    let stroke = skill.stroke(table.radius, meant, errors);
+    CueInputs { theta: stroke.theta.min(STEEPEST.max(meant.theta)), ..stroke }
+}

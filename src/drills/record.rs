@@ -1,0 +1,108 @@
+//! The score of a list of attempts: how many, how often, how many in a row.
+
+use super::session::{Attempt, Session};
+use crate::learning::evaluation::SuccessRate;
+
+/// The score of a list of attempts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Record {
+    /// Attempts.
+    pub tried: usize,
+    /// Points.
+    pub made: usize,
+    /// Attempts with a hint or by the coach; they count among the others.
+    pub helped: usize,
+    /// Share of points with its 95 % interval.
+    pub rate: SuccessRate,
+    /// Innings: each miss ends one, and the last of a session counts where it was still open, as in a match.
+    pub innings: usize,
+    /// Points an inning; `None` without an inning.
+    pub average: Option<f64>,
+    /// Most points in a row. No run goes from one session into the next.
+    pub high_run: u32,
+    /// When the last attempt was, Unix time in seconds.
+    pub last: Option<u64>,
+}
+
+impl Record {
+    /// Of the attempts in `sessions` that `counts` accepts. Those whose order nobody knows have no part in innings, average
+    /// and runs.
+    pub fn of<'a>(
+        sessions: impl IntoIterator<Item = &'a Session>,
+        counts: impl Fn(&Session, &Attempt) -> bool,
+    ) -> Self {
+        let (mut tried, mut made, mut helped, mut last) = (0, 0, 0, None);
+        let (mut innings, mut points, mut high_run) = (0, 0_usize, 0);
+        for session in sessions {
+            let mut run = 0;
+            for attempt in session.attempts.iter().filter(|attempt| counts(session, attempt)) {
+                tried += 1;
+                made += usize::from(attempt.made);
+                helped += usize::from(attempt.helped);
+                last = last.max(Some(attempt.at));
+                if session.unordered {
+                    continue;
+                }
+                if attempt.made {
+                    run += 1;
+                    points += 1;
+                    high_run = high_run.max(run);
+                } else {
+                    run = 0;
+                    innings += 1;
+                }
+            }
+            innings += usize::from(run > 0);
+        }
+        Self {
+            tried,
+            made,
+            helped,
+            rate: SuccessRate::new(made, tried),
+            innings,
+            average: (innings > 0).then(|| points as f64 / innings as f64),
+            high_run,
+            last,
+        }
+    }
+
+    /// Of all repetitions of the exercise called `name`; games are none.
+    pub fn of_exercise<'a>(sessions: impl IntoIterator<Item = &'a Session>, name: &str) -> Self {
+        Self::of(sessions, |session, attempt| !session.is_game() && attempt.exercise == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drills::{Goal, session::tests::session};
+
+    #[test]
+    fn points_innings_average_and_high_run_are_those_counted_by_hand() {
+        // Innings of 2, 0 and 3 points, the last one open; then 4, ended by a miss.
+        let sessions = [session(Goal::Free, "xx--xxx"), session(Goal::Free, "xxxx-")];
+        let record = Record::of(&sessions, |_, _| true);
+        assert_eq!((record.tried, record.made, record.innings, record.high_run), (12, 9, 4, 4));
+        assert_eq!(record.average, Some(9.0 / 4.0));
+        assert_eq!(record.rate, SuccessRate::new(9, 12));
+        assert_eq!(record.last, Some(sessions[1].attempts[4].at));
+        let none = Record::of(&[], |_, _| true);
+        assert_eq!((none.tried, none.average, none.last), (0, None, None));
+    }
+
+    #[test]
+    fn results_without_order_count_in_the_rate_alone() {
+        let mut sessions = [session(Goal::Free, "xxxxx---"), session(Goal::Free, "x-")];
+        sessions[0].unordered = true;
+        let record = Record::of(&sessions, |_, _| true);
+        assert_eq!((record.tried, record.made), (10, 6));
+        assert_eq!((record.innings, record.average, record.high_run), (1, Some(1.0), 1));
+    }
+
+    #[test]
+    fn a_game_from_an_exercise_is_no_repetition_of_it() {
+        let sessions = [session(Goal::Game { innings: 1 }, "xx-"), session(Goal::Free, "x")];
+        assert_eq!(Record::of_exercise(&sessions, "first").tried, 1);
+        assert_eq!(Record::of_exercise(&sessions, "second").tried, 0);
+    }
+}

@@ -1,0 +1,231 @@
+//! A session of practice: what was to be done, every attempt at it, and what comes next.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::{Deserialize, Serialize};
+
+use super::{Exercise, Record};
+use crate::{coach::Skill, learning::moment, physics::CueInputs, table::Layout};
+
+/// When a session is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Goal {
+    /// When the player has had enough.
+    Free,
+    /// When the exercise was made so many times in a row.
+    Run(u32),
+    /// After one attempt at each exercise.
+    Exam,
+    /// After so many innings, 0 for no end; each stroke is played from where the one before left the balls.
+    Game {
+        /// Innings, each of which ends with a miss.
+        innings: u32,
+    },
+}
+
+/// Where the strokes are played.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Venue {
+    /// Here, by simulation with the player's errors.
+    Program,
+    /// At a real table: the player tells what was made.
+    Table,
+}
+
+/// One attempt. What is not known of it, as most is of one at a real table, is left out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attempt {
+    /// Name of the exercise.
+    pub exercise: String,
+    /// When, Unix time in seconds.
+    pub at: u64,
+    /// Whether it made the point.
+    pub made: bool,
+    /// Whether the player had looked at a shot that makes it, or had the coach play. It counts all the same, and is told.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub helped: bool,
+    /// Where the balls lay, m, if not where the exercise has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layout: Option<Layout>,
+    /// What the player wanted to play.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meant: Option<CueInputs>,
+    /// What came of it with the player's errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub played: Option<CueInputs>,
+    /// How often the player makes what was meant, a share from 0 to 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chance: Option<f64>,
+    /// What the coach would have played.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub advised: Option<CueInputs>,
+    /// How often the player makes that, a share from 0 to 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub advised_chance: Option<f64>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
+const fn is_false(value: &bool) -> bool {
+    !*value
+}
+
+/// A session of practice. It holds its exercises as they were: whatever becomes of them, it can be read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Session {
+    /// Its name among all sessions, and that of its file.
+    pub id: String,
+    /// When it began, Unix time in seconds.
+    pub started: u64,
+    /// When it is over.
+    pub goal: Goal,
+    /// Where the strokes are played.
+    pub venue: Venue,
+    /// Whose strokes they are.
+    pub skill: Skill,
+    /// Whether the balls are shifted a little at every repetition but the first.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub shifted: bool,
+    /// Whether nobody knows in which order makes and misses came: then they tell nothing of runs and innings.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub unordered: bool,
+    /// Seed of the errors and of the shifts.
+    pub seed: u64,
+    /// One exercise, or those of an exam. That of a game says its rule, its table and where the balls lie at first.
+    pub exercises: Vec<Exercise>,
+    /// In the order in which they were made.
+    pub attempts: Vec<Attempt>,
+}
+
+impl Session {
+    /// A session that begins now. There must be an exercise.
+    pub fn new(goal: Goal, venue: Venue, exercises: Vec<Exercise>, skill: Skill, seed: u64) -> Self {
+        let started = now();
+        let day = moment(UNIX_EPOCH + std::time::Duration::from_secs(started));
+        let day = day.replace(['-', ':', 'Z'], "").replace('T', "-");
+        // Two programs that begin in the same second must not meet.
+        let id = format!("{day}-{:08x}", rand::random::<u32>());
+        Self {
+            id,
+            started,
+            goal,
+            venue,
+            skill,
+            shifted: false,
+            unordered: false,
+            seed,
+            exercises,
+            attempts: Vec::new(),
+        }
+    }
+
+    /// Whether nothing is left to do.
+    pub fn is_over(&self) -> bool {
+        match self.goal {
+            Goal::Free => false,
+            Goal::Run(points) => self.record().high_run >= points,
+            Goal::Exam => self.attempts.len() >= self.exercises.len(),
+            Goal::Game { innings } => innings > 0 && self.misses() >= innings as usize,
+        }
+    }
+
+    /// What is to be played next; `None` when it is over.
+    pub fn exercise(&self) -> Option<&Exercise> {
+        let number = if self.goal == Goal::Exam { self.attempts.len() } else { 0 };
+        self.exercises.get(number).filter(|_| !self.is_over())
+    }
+
+    /// Whether it is a game: then its attempts are no repetitions of an exercise.
+    pub const fn is_game(&self) -> bool {
+        matches!(self.goal, Goal::Game { .. })
+    }
+
+    /// The exercise of an attempt, as it was in this session.
+    pub fn exercise_of(&self, attempt: &Attempt) -> Option<&Exercise> {
+        self.exercises.iter().find(|exercise| exercise.name == attempt.exercise)
+    }
+
+    /// Its score.
+    pub fn record(&self) -> Record {
+        Record::of([self], |_, _| true)
+    }
+
+    /// Points in a row up to now.
+    pub fn run(&self) -> u32 {
+        self.attempts.iter().rev().take_while(|attempt| attempt.made).count() as u32
+    }
+
+    fn misses(&self) -> usize {
+        self.attempts.iter().filter(|attempt| !attempt.made).count()
+    }
+}
+
+/// Now, Unix time in seconds; 0 where the clock stands before 1970.
+pub(super) fn now() -> u64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::{drills::Category, game::Rule, table::Table};
+
+    /// An exercise from the opening position.
+    pub fn exercise(name: &str) -> Exercise {
+        Exercise {
+            name: name.to_owned(),
+            title: name.to_owned(),
+            category: Category::FirstCaroms,
+            grade: 1,
+            rule: Rule::StraightRail,
+            table: "match".to_owned(),
+            layout: Layout::opening(&Table::default()),
+            point: String::new(),
+            tags: Vec::new(),
+            shot: None,
+            par: None,
+        }
+    }
+
+    /// A session at a table, one attempt a letter: `x` made, any other missed.
+    pub fn session(goal: Goal, results: &str) -> Session {
+        let mut session = Session::new(goal, Venue::Table, vec![exercise("first")], Skill::CLUB, 1);
+        for result in results.chars() {
+            session.log(result == 'x').unwrap();
+        }
+        session
+    }
+
+    #[test]
+    fn a_run_is_over_when_it_was_made_in_a_row_and_a_game_after_its_innings() {
+        assert!(!session(Goal::Run(3), "xx-xx").is_over());
+        let done = session(Goal::Run(3), "xx-xxx");
+        assert!(done.is_over() && done.exercise().is_none() && done.run() == 3);
+        let game = Goal::Game { innings: 2 };
+        assert!(!session(game, "xxx-x").is_over() && session(game, "xxx-x-").is_over());
+        assert!(!session(Goal::Game { innings: 0 }, "-----").is_over());
+    }
+
+    #[test]
+    fn an_exam_goes_through_its_exercises_once() {
+        let exercises = ["one", "two"].map(exercise).to_vec();
+        let mut session = Session::new(Goal::Exam, Venue::Table, exercises, Skill::CLUB, 1);
+        for name in ["one", "two"] {
+            assert_eq!(session.exercise().unwrap().name, name);
+            session.log(false).unwrap();
+        }
+        assert!(session.is_over() && session.log(true).is_err());
+        assert_eq!(session.exercise_of(&session.attempts[1]).unwrap().name, "two");
+        session.undo();
+        assert_eq!(session.exercise().unwrap().name, "two");
+    }
+
+    #[test]
+    fn a_session_is_read_back_as_it_was_written() {
+        let mut session = session(Goal::Game { innings: 3 }, "x-");
+        session.attempts[0].meant = Some(CueInputs { a: 0.1, b: 0.25, theta: 0.0, phi: 0.0, speed: 2.5 });
+        let text = serde_json::to_string(&session).unwrap();
+        assert_eq!(serde_json::from_str::<Session>(&text).unwrap(), session);
+    }
+}

@@ -1,0 +1,96 @@
+//! Why something cannot be kept or read.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    super::{CodeError, ExerciseError, LibraryFileError},
+    MarkError,
+};
+
+/// Why something cannot be kept or read. Whatever is on the disk is what it was.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The file system refuses.
+    #[error("{}: {reason}", path.display())]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// It is no file of ours that is understood.
+    #[error("{}: {error}", path.display())]
+    Mark {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        error: MarkError,
+    },
+    /// It is no file of exercises that is understood.
+    #[error("{}: {error}", path.display())]
+    Library {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        error: LibraryFileError,
+    },
+    /// A position's file has none or several.
+    #[error("{}: there are {found} exercises in it; a position's file has one, carom drill import takes more", path.display())]
+    Many {
+        /// The file.
+        path: PathBuf,
+        /// Exercises in it.
+        found: usize,
+    },
+    /// What it holds cannot be played.
+    #[error("{}: {error}", path.display())]
+    Impossible {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        error: ExerciseError,
+    },
+    /// It is called otherwise than what it holds.
+    #[error("{}: it holds \"{name}\"; rename the file or remove it", path.display())]
+    Copy {
+        /// The file.
+        path: PathBuf,
+        /// What is in it.
+        name: String,
+    },
+    /// A session has an attempt at something else.
+    #[error("the session \"{session}\" has an attempt at \"{exercise}\", which is none of its exercises")]
+    Stray {
+        /// The session.
+        session: String,
+        /// What the attempt is at.
+        exercise: String,
+    },
+    /// An exercise cannot be played.
+    #[error(transparent)]
+    Exercise(#[from] ExerciseError),
+    /// A share code cannot be read.
+    #[error(transparent)]
+    Code(#[from] CodeError),
+    /// The bundled library is damaged.
+    #[error("the bundled library is damaged: {0}")]
+    Bundle(#[from] LibraryFileError),
+    /// A bundled exercise has this name.
+    #[error("there is a bundled exercise \"{0}\"; give this one another name")]
+    Bundled(String),
+    /// There is one of this name.
+    #[error("there is a position \"{0}\" already; give this one another name, or have it replaced")]
+    Taken(String),
+    /// There is none.
+    #[error("there is no position \"{0}\" of your own")]
+    Unknown(String),
+}
+
+impl StoreError {
+    pub(super) fn file(path: &Path, reason: io::Error) -> Self {
+        Self::File { path: path.to_owned(), reason }
+    }
+}

@@ -1,0 +1,61 @@
+//! Files that say what they are and of which version: one of a newer version is told from one that is damaged.
+
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+/// Newest version that is understood of all files that are marked here, and the one that is written.
+pub const NEWEST: u32 = 1;
+
+/// Why a file's text cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum MarkError {
+    /// It is no JSON, or not of this form.
+    #[error("it is damaged: {0}")]
+    Syntax(#[from] serde_json::Error),
+    /// It is something else.
+    #[error("its format is \"{found}\"; accepted is \"{accepted}\"")]
+    Format {
+        /// What the file says.
+        found: String,
+        /// What was looked for.
+        accepted: &'static str,
+    },
+    /// Another program wrote it, most likely a newer one.
+    #[error("it is of version {0}; versions 1 to {NEWEST} are understood, a newer carom may have written it")]
+    Version(u32),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Marked<F, T> {
+    format: F,
+    version: u32,
+    #[serde(flatten)]
+    content: T,
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// Where a value has no JSON form.
+pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>, serde_json::Error> {
+    let mut bytes = serde_json::to_vec(&Marked { format, version: NEWEST, content })?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+/// What a file's text holds.
+///
+/// # Errors
+/// [`MarkError`].
+pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T, MarkError> {
+    #[derive(Deserialize)]
+    struct Anything {}
+    let header: Marked<String, Anything> = serde_json::from_slice(text)?;
+    if header.format != format {
+        return Err(MarkError::Format { found: header.format, accepted: format });
+    }
+    if !(1..=NEWEST).contains(&header.version) {
+        return Err(MarkError::Version(header.version));
+    }
+    let marked: Marked<String, T> = serde_json::from_slice(text)?;
+    Ok(marked.content)
+}

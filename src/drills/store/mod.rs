@@ -1,0 +1,219 @@
+//! Where practice is kept: one file a session and one file a position of the player's own, so that programs that run at the
+//! same time never write into the same file. What cannot be read is told in a sentence and left as it is.
+
+mod error;
+mod marked;
+mod player;
+#[cfg(test)]
+mod tests;
+mod transfer;
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+pub use self::{
+    error::StoreError,
+    marked::MarkError,
+    player::OwnSkill,
+    transfer::{Imported, Practice},
+};
+use super::{Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session};
+use crate::{
+    learning::policy::kept::is_name,
+    storage::{Places, create_atomic, remove_abandoned_files, write_atomic},
+};
+
+/// What a session's file says that it is.
+const SESSION: &str = "carom-session";
+
+/// What the files are called after their names.
+const EXTENSION: &str = "json";
+
+/// What was found in a folder.
+#[derive(Debug)]
+pub struct Found<T> {
+    /// What could be read, by name.
+    pub items: Vec<T>,
+    /// A sentence for every file that could not.
+    pub notes: Vec<String>,
+}
+
+/// Sessions, positions and skill of a player, on the disk.
+#[derive(Clone, Debug)]
+pub struct Store {
+    sessions: PathBuf,
+    positions: PathBuf,
+    player: PathBuf,
+}
+
+impl Store {
+    /// The store in these places. Nothing is made before something is saved.
+    pub fn new(places: &Places) -> Self {
+        let Places { sessions, positions, player, .. } = places.clone();
+        Self { sessions, positions, player }
+    }
+
+    /// All sessions, the oldest first.
+    pub fn sessions(&self) -> Found<Session> {
+        let mut found = read_all(&self.sessions, |path| read_session(path));
+        found.items.sort_by(|x, y| (x.started, &x.id).cmp(&(y.started, &y.id)));
+        found
+    }
+
+    /// Writes a session's file, or writes it anew. When this returns, the session is safe on the disk.
+    ///
+    /// # Errors
+    /// Where that fails, or a file of this name holds something else or is of a newer version; the file is then what it was.
+    pub fn save(&self, session: &Session) -> Result<(), StoreError> {
+        let path = file(&self.sessions, &session.id)?;
+        let bytes = marked::write(SESSION, session).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
+        let written = if path.exists() {
+            // It was written by this session, or nothing is written.
+            read_session(&path)?;
+            write_atomic(&path, &bytes)
+        } else {
+            let created = create_atomic(&path, &bytes);
+            // Somebody else's leavings are no reason to fail.
+            let _ = remove_abandoned_files(&self.sessions);
+            created
+        };
+        written.map_err(|error| StoreError::file(&path, error))
+    }
+
+    /// The player's own positions, by name.
+    pub fn positions(&self) -> Found<Exercise> {
+        let mut found = read_all(&self.positions, |path| read_position(path));
+        found.items.sort_by(|x, y| x.name.cmp(&y.name));
+        found
+    }
+
+    /// The bundled exercises and the player's own, and a sentence for each of these that cannot be used.
+    ///
+    /// # Errors
+    /// Where a bundled file is damaged.
+    pub fn library(&self) -> Result<(Library, Vec<String>), StoreError> {
+        let own = self.positions();
+        let (library, refused) = Library::with_own(own.items)?;
+        let refused = refused.into_iter().map(|error| format!("{}: {error}", self.positions.display()));
+        Ok((library, own.notes.into_iter().chain(refused).collect()))
+    }
+
+    /// Keeps a position of the player's own, over another of its name only if `replaces` says so. Its category becomes
+    /// [`Category::Own`].
+    ///
+    /// # Errors
+    /// Where it cannot be played, its name is taken, or the file cannot be written; what was kept is then what it was.
+    pub fn save_position(&self, position: &Exercise, replaces: bool) -> Result<(), StoreError> {
+        position.validate()?;
+        if Library::bundled()?.get(&position.name).is_ok() {
+            return Err(StoreError::Bundled(position.name.clone()));
+        }
+        let path = file(&self.positions, &position.name)?;
+        let text = position_text(position).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
+        let written = if replaces && path.exists() {
+            read_position(&path)?;
+            write_atomic(&path, text.as_bytes())
+        } else {
+            create_atomic(&path, text.as_bytes())
+        };
+        written.map_err(|error| match error.kind() {
+            io::ErrorKind::AlreadyExists => StoreError::Taken(position.name.clone()),
+            _ => StoreError::file(&path, error),
+        })
+    }
+
+    /// Removes a position of the player's own; what was practised on it stays in the sessions.
+    ///
+    /// # Errors
+    /// Where there is none of this name, a newer program wrote it, or its file cannot be removed.
+    pub fn remove_position(&self, name: &str) -> Result<(), StoreError> {
+        let path = file(&self.positions, name)?;
+        // What a newer program wrote is not ours to remove.
+        if let Err(error @ StoreError::Library { error: LibraryFileError::Version(_), .. }) = read_position(&path) {
+            return Err(error);
+        }
+        fs::remove_file(&path).map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => StoreError::Unknown(name.to_owned()),
+            _ => StoreError::file(&path, error),
+        })
+    }
+}
+
+/// The text of a position's file: a library of one.
+fn position_text(position: &Exercise) -> Result<String, serde_json::Error> {
+    LibraryFile::new(vec![Exercise { category: Category::Own, ..position.clone() }]).to_text()
+}
+
+/// The file called `name`.
+fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
+    if is_name(name) {
+        Ok(folder.join(format!("{name}.{EXTENSION}")))
+    } else {
+        Err(ExerciseError::Name(name.to_owned()).into())
+    }
+}
+
+fn read_session(path: &Path) -> Result<Session, StoreError> {
+    let text = fs::read(path).map_err(|error| StoreError::file(path, error))?;
+    let session: Session =
+        marked::read(SESSION, &text).map_err(|error| StoreError::Mark { path: path.into(), error })?;
+    is_called(path, &session.id)?;
+    Ok(session)
+}
+
+fn read_position(path: &Path) -> Result<Exercise, StoreError> {
+    let text = fs::read_to_string(path).map_err(|error| StoreError::file(path, error))?;
+    let library = LibraryFile::parse(&text).map_err(|error| StoreError::Library { path: path.into(), error })?;
+    let [exercise] = <[Exercise; 1]>::try_from(library.exercises)
+        .map_err(|found| StoreError::Many { path: path.into(), found: found.len() })?;
+    is_called(path, &exercise.name)?;
+    exercise.validate().map_err(|error| StoreError::Impossible { path: path.into(), error })?;
+    // The player's own, whatever somebody wrote into the file.
+    Ok(Exercise { category: Category::Own, ..exercise })
+}
+
+/// Names are unique because those of files are: a copy under another name is none.
+fn is_called(path: &Path, name: &str) -> Result<(), StoreError> {
+    if path.file_stem().is_some_and(|stem| stem == name) {
+        Ok(())
+    } else {
+        Err(StoreError::Copy { path: path.into(), name: name.to_owned() })
+    }
+}
+
+/// Reads every file in a folder; one that is not there is empty.
+fn read_all<T>(folder: &Path, read: impl Fn(&Path) -> Result<T, StoreError>) -> Found<T> {
+    let mut found = Found { items: Vec::new(), notes: Vec::new() };
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) => {
+            if error.kind() != io::ErrorKind::NotFound {
+                found.notes.push(StoreError::file(folder, error).to_string());
+            }
+            return found;
+        }
+    };
+    for entry in entries {
+        let path = match entry {
+            Ok(entry) => entry.path(),
+            Err(error) => {
+                found.notes.push(StoreError::file(folder, error).to_string());
+                continue;
+            }
+        };
+        // Those that are being written have another extension.
+        if path.extension().is_none_or(|extension| extension != EXTENSION) {
+            continue;
+        }
+        match read(&path) {
+            Ok(item) => found.items.push(item),
+            // Removed since the folder was read.
+            Err(StoreError::File { reason, .. }) if reason.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => found.notes.push(format!("{error}; it is left as it is")),
+        }
+    }
+    found.notes.sort();
+    found
+}

@@ -1,0 +1,137 @@
+//! What is kept comes back, and what cannot be read stays.
+
+use super::*;
+use crate::{
+    coach::Skill,
+    drills::{
+        Goal,
+        session::tests::{exercise, session},
+    },
+};
+
+fn store(folder: &tempfile::TempDir) -> Store {
+    let at = |name: &str| folder.path().join(name);
+    Store { sessions: at("sessions"), positions: at("positions"), player: at("player.json") }
+}
+
+fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
+    fs::create_dir_all(folder).unwrap();
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn a_session_grows_in_its_own_file_and_shrinks_when_an_attempt_is_taken_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder);
+    assert!(store.sessions().items.is_empty() && store.sessions().notes.is_empty(), "nobody has practised yet");
+    let mut session = session(Goal::Free, "x");
+    for _ in 0..3 {
+        store.save(&session).unwrap();
+        session.log(false).unwrap();
+    }
+    session.undo();
+    session.undo();
+    store.save(&session).unwrap();
+    assert_eq!(store.sessions().items, [session]);
+    assert_eq!(fs::read_dir(&store.sessions).unwrap().count(), 1);
+}
+
+#[test]
+fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder);
+    let session = session(Goal::Free, "x-");
+    store.save(&session).unwrap();
+    let path = file(&store.sessions, &session.id).unwrap();
+    let text = fs::read_to_string(&path).unwrap().replace("\"version\":1", "\"version\":2");
+    fs::write(&path, &text).unwrap();
+    write(&store.sessions, "half.json", &text[..text.len() / 2]);
+    write(&store.sessions, "notes.txt", "not ours");
+    let found = store.sessions();
+    assert_eq!((found.items.len(), found.notes.len()), (0, 2), "{:?}", found.notes);
+    assert!(found.notes.iter().any(|note| note.contains("version 2") && note.contains("newer")), "{:?}", found.notes);
+    assert!(found.notes.iter().any(|note| note.contains("half.json") && note.contains("damaged")), "{:?}", found.notes);
+    assert!(store.save(&session).is_err());
+    assert_eq!(fs::read_to_string(&path).unwrap(), text);
+
+    let newer = write(&store.positions, "mine.json", r#"{"format":"carom-library","version":2,"exercises":3}"#);
+    for refused in [store.save_position(&exercise("mine"), true), store.remove_position("mine")] {
+        assert!(refused.unwrap_err().to_string().contains("version 2"));
+    }
+    assert!(fs::read_to_string(newer).unwrap().contains("\"version\":2"));
+    write(folder.path(), "player.json", r#"{"format":"carom-player","version":9}"#);
+    assert!(store.keep_skill(Skill::CLUB).unwrap_err().to_string().contains("version 9"));
+}
+
+#[test]
+fn a_position_is_kept_under_a_free_name_and_replaced_only_on_demand() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder);
+    store.save_position(&exercise("mine"), false).unwrap();
+    let other = Exercise { title: "Another".to_owned(), ..exercise("mine") };
+    assert!(matches!(store.save_position(&other, false), Err(StoreError::Taken(_))));
+    assert_eq!(store.positions().items[0].title, "mine");
+    store.save_position(&other, true).unwrap();
+    assert_eq!(store.positions().items, [Exercise { category: Category::Own, ..other }]);
+    assert!(store.save_position(&exercise("../mine"), true).is_err());
+    store.remove_position("mine").unwrap();
+    assert!(matches!(store.remove_position("mine"), Err(StoreError::Unknown(_))));
+}
+
+#[test]
+fn a_copy_of_a_file_under_another_name_counts_nothing_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder);
+    let session = session(Goal::Free, "xx");
+    store.save(&session).unwrap();
+    fs::copy(file(&store.sessions, &session.id).unwrap(), store.sessions.join("copy.json")).unwrap();
+    let found = store.sessions();
+    assert!(found.items == [session] && found.notes[0].contains("copy.json"), "{:?}", found.notes);
+}
+
+#[test]
+fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
+    let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let [here, there] = [&here, &there].map(store);
+    let mut session = session(Goal::Free, "x");
+    here.save(&session).unwrap();
+    there.save(&session).unwrap();
+    session.log(true).unwrap();
+    here.save(&session).unwrap();
+    here.save_position(&exercise("mine"), false).unwrap();
+    here.save_position(&exercise("ours"), false).unwrap();
+    there.save_position(&Exercise { title: "Mine".to_owned(), ..exercise("mine") }, false).unwrap();
+    here.keep_skill(Skill::CLUB).unwrap();
+
+    let (practice, notes) = here.export();
+    assert!(notes.is_empty());
+    let text = serde_json::to_string(&practice).unwrap();
+    let practice = Practice::parse(&text).unwrap();
+    let imported = there.import(&practice);
+    let refused = vec![StoreError::Taken("mine".to_owned()).to_string()];
+    assert_eq!(imported, Imported { positions: 1, longer: 1, refused, ..Imported::default() });
+    assert_eq!(there.sessions().items, [session]);
+    assert_eq!(there.own_skill().unwrap().unwrap().skill, Skill::CLUB);
+    let again = there.import(&practice);
+    assert_eq!((again.known, again.positions, again.longer, again.refused.len()), (2, 0, 0, 1));
+    // And back: the shorter one here would lose nothing.
+    assert_eq!(here.import(&there.export().0).longer, 0);
+}
+
+#[test]
+fn a_session_from_outside_gets_no_file_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = store(&folder);
+    let stray = Session { id: "../player".to_owned(), ..session(Goal::Free, "x") };
+    let mut practice = store.export().0;
+    practice.sessions = vec![stray, Session { exercises: vec![exercise("second")], ..session(Goal::Free, "x") }];
+    let imported = store.import(&practice);
+    assert_eq!(imported.refused.len(), 2, "{imported:?}");
+    assert!(imported.refused[0].contains("../player") && imported.refused[1].contains("\"first\""), "{imported:?}");
+    assert!(!folder.path().join("player.json").exists());
+    assert!(
+        Practice::parse(&serde_json::to_string(&practice).unwrap().replace("\"version\":1", "\"version\":3")).is_err()
+    );
+}

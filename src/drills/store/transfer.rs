@@ -1,0 +1,139 @@
+//! All of a player's practice as one JSON file, and back.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::{OwnSkill, Store, StoreError, file, position_text, read_position, read_session};
+use crate::drills::{Exercise, LibraryFile, LibraryFileError, Session};
+
+/// All of a player's practice. Its file is one of exercises that holds more, so that one takes the other's place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Practice {
+    /// The player's own positions, with the marks of the file.
+    #[serde(flatten)]
+    pub library: LibraryFile,
+    /// All sessions.
+    #[serde(default)]
+    pub sessions: Vec<Session>,
+    /// The player's own skill.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub player: Option<OwnSkill>,
+}
+
+/// What became of a file that was imported.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Imported {
+    /// Positions that are new.
+    pub positions: usize,
+    /// Sessions that are new.
+    pub sessions: usize,
+    /// Sessions that were there with fewer attempts.
+    pub longer: usize,
+    /// What was there already.
+    pub known: usize,
+    /// A sentence for everything that was refused.
+    pub refused: Vec<String>,
+}
+
+impl Practice {
+    /// Reads a file's text: that of [`Store::export`], or a file of exercises.
+    ///
+    /// # Errors
+    /// Where it is something else or of a version that is not understood.
+    pub fn parse(text: &str) -> Result<Self, LibraryFileError> {
+        LibraryFile::parse(text)?;
+        Ok(serde_json::from_str(text)?)
+    }
+}
+
+impl Store {
+    /// All that is kept, and a sentence for every file that cannot be read and is missing.
+    pub fn export(&self) -> (Practice, Vec<String>) {
+        let (positions, sessions) = (self.positions(), self.sessions());
+        let mut notes = [positions.notes, sessions.notes].concat();
+        let player = self.own_skill().unwrap_or_else(|error| {
+            notes.push(error.to_string());
+            None
+        });
+        (Practice { library: LibraryFile::new(positions.items), sessions: sessions.items, player }, notes)
+    }
+
+    /// Takes in what is not here yet. Of a session that is on both sides the one with more attempts is kept; a position whose
+    /// name is that of another is refused; a skill is taken where there is none. Nothing is removed, and what is refused or
+    /// cannot be written does not keep the rest out.
+    pub fn import(&self, practice: &Practice) -> Imported {
+        let mut imported = Imported::default();
+        for position in &practice.library.exercises {
+            let taken = self.import_position(position);
+            imported.note(taken, |imported| imported.positions += 1);
+        }
+        for session in &practice.sessions {
+            let taken = self.import_session(session);
+            let longer = matches!(taken, Ok(Taken::Longer));
+            imported.note(taken, |imported| {
+                *(if longer { &mut imported.longer } else { &mut imported.sessions }) += 1;
+            });
+        }
+        if let Some(own) = &practice.player {
+            let kept = self.own_skill().and_then(|here| if here.is_none() { self.write_own(own) } else { Ok(()) });
+            imported.refused.extend(kept.err().map(|error| error.to_string()));
+        }
+        imported
+    }
+
+    fn import_position(&self, position: &Exercise) -> Result<Taken, StoreError> {
+        match self.save_position(position, false) {
+            Err(StoreError::Taken(name)) => {
+                let here = read_position(&file(&self.positions, &name)?)?;
+                // As text: a number that was written and read has been rounded.
+                let same =
+                    matches!((position_text(&here), position_text(position)), (Ok(here), Ok(there)) if here == there);
+                if same { Ok(Taken::Known) } else { Err(StoreError::Taken(name)) }
+            }
+            // A library that comes with the program brings nothing new.
+            Err(StoreError::Bundled(name)) if Self::is_bundled_as(&name, position) => Ok(Taken::Known),
+            saved => saved.map(|()| Taken::New),
+        }
+    }
+
+    fn is_bundled_as(name: &str, position: &Exercise) -> bool {
+        crate::drills::Library::bundled().is_ok_and(|library| library.get(name) == Ok(position))
+    }
+
+    fn import_session(&self, session: &Session) -> Result<Taken, StoreError> {
+        let path = file(&self.sessions, &session.id)?;
+        let names: BTreeSet<&str> = session.exercises.iter().map(|exercise| exercise.name.as_str()).collect();
+        for exercise in &session.exercises {
+            exercise.validate()?;
+        }
+        if let Some(stray) = session.attempts.iter().find(|attempt| !names.contains(attempt.exercise.as_str())) {
+            return Err(StoreError::Stray { session: session.id.clone(), exercise: stray.exercise.clone() });
+        }
+        let here = if path.exists() { Some(read_session(&path)?) } else { None };
+        let taken = match here {
+            None => Taken::New,
+            Some(here) if here.attempts.len() < session.attempts.len() => Taken::Longer,
+            Some(_) => return Ok(Taken::Known),
+        };
+        self.save(session)?;
+        Ok(taken)
+    }
+}
+
+/// What became of one thing.
+enum Taken {
+    New,
+    Longer,
+    Known,
+}
+
+impl Imported {
+    fn note(&mut self, taken: Result<Taken, StoreError>, count: impl FnOnce(&mut Self)) {
+        match taken {
+            Ok(Taken::Known) => self.known += 1,
+            Ok(_) => count(self),
+            Err(error) => self.refused.push(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What each key does to the library and the records, and what is done with answers.
+
+use super::{Balls, DrillScreen, Errand, Page, Question, Turn, question};
+use crate::{
+    drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
+    terminal::{app::Effect, keymap::DrillAction as Action, status::Message, words::skill_word},
+};
+
+impl DrillScreen {
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.back(),
+            Action::Line(lines) if self.page() == Page::Record => self.scroll_records(lines),
+            Action::Line(lines) => self.catalogue.move_mark(lines),
+            Action::Category(step) => self.catalogue.choose_category(step),
+            Action::Grade(grade) => self.catalogue.choose_grade(grade),
+            Action::All => self.catalogue.show_all(),
+            Action::Search => self.question = Some(Question::Search(String::new())),
+            Action::Open => return self.open_marked(),
+            Action::Exam(level) => return self.begin_exam(level),
+            Action::Record => return self.open_records(),
+            Action::Scope => self.records.toggle_scope(),
+            Action::KeepSkill => {
+                return self.records.skill().map(|skill| Effect::Drill(vec![Errand::KeepSkill(skill)]));
+            }
+            Action::Share => return self.share(),
+            Action::Add => self.question = Some(Question::Code(String::new())),
+            Action::Remove => {
+                self.question = self.catalogue.marked().map(|exercise| Question::Remove(exercise.name.clone()));
+            }
+            Action::Player if self.turn.is_none() => {
+                self.player.choose_next();
+                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
+            }
+            Action::ToCoach => self.to_coach(),
+            Action::Yes => return self.yes(),
+            Action::No => self.no(),
+            Action::Erase => {
+                if let Some(typed) = self.question.as_mut().and_then(Question::typed_mut) {
+                    typed.pop();
+                }
+                self.search();
+            }
+            other => return self.update_turn(other),
+        }
+        None
+    }
+
+    fn back(&mut self) {
+        let exam = self.turn.as_ref().filter(|turn| turn.is_exam() && self.page() == Page::Exercise);
+        if let Some(session) = exam.map(|turn| &turn.session).filter(|session| !session.is_over()) {
+            self.question = Some(Question::Leave(session.attempts.len(), session.exercises.len()));
+            return;
+        }
+        self.pages.pop();
+        if self.page() == Page::Library {
+            self.leave_page();
+        }
+    }
+
+    /// Back to the library, or to the coach where that is left too.
+    fn leave_page(&mut self) {
+        let is_left = self.is_left();
+        self.leave_turn();
+        if !is_left {
+            self.pages = vec![Page::Library];
+        }
+    }
+
+    fn open_marked(&mut self) -> Option<Effect> {
+        let exercise = self.catalogue.marked()?.clone();
+        self.begin(self.wishes.goal, vec![exercise])
+    }
+
+    /// Begins a session of these exercises and opens the page of the first.
+    pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Option<Effect> {
+        let seed = self.seed();
+        let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
+        session.shifted = self.wishes.shifted && goal != Goal::Exam;
+        match Turn::new(session) {
+            Ok(Some(turn)) => {
+                self.pages = vec![Page::Library, Page::Exercise];
+                let turn = self.turn.insert(turn);
+                return Some(Effect::Drill(turn.ask()));
+            }
+            Ok(None) => {}
+            Err(error) => self.message = Some(Message::warning(error.to_string())),
+        }
+        None
+    }
+
+    fn begin_exam(&mut self, level: u8) -> Option<Effect> {
+        let seed = self.seed();
+        match exam::draw(self.catalogue.library().exercises(), level, seed) {
+            Ok(exercises) => self.begin(Goal::Exam, exercises),
+            Err(error) => {
+                self.message = Some(Message::warning(error.to_string()));
+                None
+            }
+        }
+    }
+
+    fn open_records(&mut self) -> Option<Effect> {
+        self.pages.push(Page::Record);
+        let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
+        self.records.open(name);
+        Some(Effect::Drill(vec![Errand::Estimate(self.book.shared())]))
+    }
+
+    fn scroll_records(&mut self, lines: isize) {
+        let all = self.book.sessions_of(self.records.scope()).len();
+        self.records.scroll(lines, all);
+    }
+
+    fn share(&mut self) -> Option<Effect> {
+        match encode(self.catalogue.marked()?) {
+            Ok(code) => {
+                self.message = Some(Message::plain(format!("{code} is copied where the terminal allows it")));
+                Some(Effect::Copy(code))
+            }
+            Err(error) => {
+                self.message = Some(Message::warning(error.to_string()));
+                None
+            }
+        }
+    }
+
+    fn to_coach(&mut self) {
+        let turn = self.turn.as_ref().map(|turn| Balls {
+            table: turn.table.clone(),
+            layout: turn.layout,
+            rule: turn.exercise.rule,
+        });
+        let marked = || {
+            let exercise = self.catalogue.marked()?;
+            let found = exercise.table().map(|table| Balls { table, layout: exercise.layout, rule: exercise.rule });
+            Some(found.map_err(|error| error.to_string()))
+        };
+        match turn.map(Ok).or_else(marked) {
+            Some(Ok(found)) => self.for_coach = Some(found),
+            Some(Err(sentence)) => self.message = Some(Message::warning(sentence)),
+            None => {}
+        }
+    }
+
+    fn no(&mut self) {
+        if let Some(Question::Search(_)) = self.question.take() {
+            self.catalogue.find_text("");
+        }
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        let save =
+            |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![Errand::SavePosition(exercise, replace)]));
+        let question = self.question.take()?;
+        let answer = match &question {
+            Question::Search(_) => return None,
+            Question::Code(typed) => self.decoded(typed),
+            Question::Name(typed, position) => self.named(typed, position),
+            Question::Replace(exercise) => return save(exercise.clone(), true),
+            Question::Remove(name) => return Some(Effect::Drill(vec![Errand::RemovePosition(name.clone())])),
+            Question::Leave(..) => {
+                self.leave_page();
+                return None;
+            }
+        };
+        match answer {
+            Ok(exercise) => save(exercise, false),
+            Err(sentence) => {
+                // What was typed stays, to be mended.
+                self.question = Some(question);
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    fn decoded(&self, typed: &str) -> Result<Box<Exercise>, String> {
+        let exercise = decode(typed).map_err(|error| error.to_string())?;
+        self.free(Exercise { category: Category::Own, ..exercise })
+    }
+
+    fn named(&self, typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
+        let (title, name, tags) = question::named(typed)?;
+        self.free(Exercise { name, title, tags, ..position.clone() })
+    }
+
+    /// A position whose name the program itself has not taken.
+    fn free(&self, exercise: Exercise) -> Result<Box<Exercise>, String> {
+        if self.catalogue.library().is_bundled(&exercise.name) {
+            return Err(format!("{} is the name of a bundled exercise; take another", exercise.name));
+        }
+        Ok(Box::new(exercise))
+    }
+}

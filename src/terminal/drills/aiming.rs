@@ -1,0 +1,118 @@
+//! The stroke that the player sets with keys.
+
+use crate::{
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// Smallest steps, to which what is set is rounded: 0.01°, 0.1 mm, 0.05 m/s.
+const DEGREES: f64 = 0.01;
+const MILLIMETRES: f64 = 0.1;
+const SPEED: f64 = 0.05;
+/// Slowest and fastest stroke that can be set, m/s; the fastest is that of the thesis (its 4.1.3).
+const SPEEDS: (f64, f64) = (0.1, 6.0);
+/// Steepest cue that can be set, degrees.
+const STEEPEST: f64 = 80.0;
+/// Speed of the stroke that one begins with, m/s: it takes the cue ball about once around the table.
+const FIRST_SPEED: f64 = 2.5;
+
+/// Nearest multiple of `step`.
+fn rounded(value: f64, step: f64) -> f64 {
+    // Dividing by a whole number gives the number that people would write; multiplying by the step would not.
+    let steps = (1.0 / step).round();
+    (value * steps).round() / steps
+}
+
+/// A stroke at the first object ball: full, level, in the middle.
+pub fn first_stroke(layout: &Layout) -> CueInputs {
+    let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: FIRST_SPEED };
+    at_ball(&level, layout, 1)
+}
+
+/// The same stroke, aimed full at `ball`.
+pub fn at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
+    let degrees = (layout.balls[ball] - layout.balls[0]).to_angle().to_degrees();
+    CueInputs { phi: rounded(degrees, DEGREES).to_radians(), ..*cue }
+}
+
+/// The object ball that the next press of the key aims at: the other one where the stroke is aimed full at one.
+pub fn next_ball(cue: &CueInputs, layout: &Layout) -> usize {
+    let is_at = |ball| (at_ball(cue, layout, ball).phi - cue.phi).abs() < 1e-9;
+    if is_at(1) { 2 } else { 1 }
+}
+
+/// Aimed so many degrees further to the left.
+pub fn turned(cue: &CueInputs, degrees: f64) -> CueInputs {
+    let turned = rounded(cue.phi.to_degrees() + degrees, DEGREES);
+    // From -180 (not included) to 180 degrees.
+    let turned = 180.0 - (180.0 - turned).rem_euclid(360.0);
+    CueInputs { phi: rounded(turned, DEGREES).to_radians(), ..*cue }
+}
+
+/// The cue raised by so many degrees.
+pub fn raised(cue: &CueInputs, degrees: f64) -> CueInputs {
+    let theta = rounded(cue.theta.to_degrees() + degrees, DEGREES).clamp(0.0, STEEPEST);
+    CueInputs { theta: theta.to_radians(), ..*cue }
+}
+
+/// Struck so much faster, m/s.
+pub fn faster(cue: &CueInputs, by: f64) -> CueInputs {
+    CueInputs { speed: rounded(cue.speed + by, SPEED).clamp(SPEEDS.0, SPEEDS.1), ..*cue }
+}
+
+/// The tip moved, mm to the player's left and up; `None` where it would slip off the ball.
+pub fn tip_moved(table: &Table, cue: &CueInputs, left: f64, up: f64) -> Option<CueInputs> {
+    let millimetre = 0.001 / table.radius;
+    let moved = |radii: f64, by: f64| rounded(radii / millimetre + by, MILLIMETRES) * millimetre;
+    let cue = CueInputs { a: moved(cue.a, left), b: moved(cue.b, up), ..*cue };
+    cue.validate_tip(table.miscue_limit).is_ok().then_some(cue)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stroke() -> (Table, Layout, CueInputs) {
+        let table = Table::default();
+        let layout = Layout::parse("-0.7,0 0.3,0.4 0.9,-0.5", &table).unwrap();
+        let cue = first_stroke(&layout);
+        (table, layout, cue)
+    }
+
+    #[test]
+    fn the_first_stroke_is_aimed_full_and_the_key_goes_from_ball_to_ball() {
+        let (_, layout, cue) = stroke();
+        assert!((cue.phi.to_degrees() - 21.80).abs() < 1e-9, "{}", cue.phi.to_degrees());
+        let other = at_ball(&cue, &layout, next_ball(&cue, &layout));
+        assert!((other.phi.to_degrees() - -17.35).abs() < 1e-9);
+        assert_eq!((next_ball(&other, &layout), next_ball(&turned(&other, 1.0), &layout)), (1, 1));
+    }
+
+    #[test]
+    fn steps_there_and_back_come_to_the_same_place_and_turns_go_round() {
+        let (table, _, cue) = stroke();
+        let mut moved = cue;
+        for _ in 0..7000 {
+            moved = turned(&moved, 0.2);
+        }
+        assert!((moved.phi.to_degrees() - (21.8 - 40.0)).abs() < 1e-9, "{}", moved.phi.to_degrees());
+        for (left, up) in [(0.5, -0.5), (3.0, 0.5), (-3.5, 0.0)] {
+            moved = tip_moved(&table, &moved, left, up).unwrap();
+        }
+        assert!(moved.a.abs() < 1e-12 && moved.b.abs() < 1e-12);
+        assert_eq!(faster(&faster(&moved, 0.1), -0.1).speed, 2.5);
+    }
+
+    #[test]
+    fn what_no_player_can_do_is_not_set() {
+        let (table, _, mut cue) = stroke();
+        assert_eq!(tip_moved(&table, &cue, 40.0, 0.0), None);
+        while let Some(moved) = tip_moved(&table, &cue, 0.5, 0.0) {
+            cue = moved;
+        }
+        assert!(cue.a * cue.a <= table.miscue_limit && cue.a * cue.a > 0.9 * table.miscue_limit);
+        assert_eq!((faster(&cue, -9.0).speed, faster(&cue, 9.0).speed), SPEEDS);
+        assert_eq!(raised(&cue, -1.0).theta, 0.0);
+        assert!(faster(&raised(&cue, 900.0), -9.0).validate().is_ok());
+    }
+}

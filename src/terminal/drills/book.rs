@@ -1,0 +1,85 @@
+//! What has been played: the sessions, and the score of every exercise in them.
+
+use std::{
+    collections::{BTreeSet, HashMap},
+    sync::Arc,
+};
+
+use crate::drills::{Record, Session};
+
+/// The sessions that are known.
+#[derive(Debug, Default)]
+pub struct Book {
+    /// In the order in which they began.
+    sessions: Vec<Session>,
+    scores: HashMap<String, Record>,
+    /// What could not be read, a sentence each.
+    pub troubles: Vec<String>,
+    /// Whether the disk has been read.
+    pub is_known: bool,
+}
+
+impl Book {
+    /// What was read from the disk.
+    pub fn new(mut sessions: Vec<Session>, troubles: Vec<String>) -> Self {
+        sessions.retain(|session| !session.attempts.is_empty());
+        sessions.sort_by(|one, other| (one.started, &one.id).cmp(&(other.started, &other.id)));
+        let mut book = Self { sessions, scores: HashMap::new(), troubles, is_known: true };
+        let names: BTreeSet<String> = book.sessions.iter().flat_map(names).collect();
+        book.score(names);
+        book
+    }
+
+    /// All sessions, the oldest first.
+    pub fn sessions(&self) -> &[Session] {
+        &self.sessions
+    }
+
+    /// The same for somebody who works on them elsewhere.
+    pub fn shared(&self) -> Arc<[Session]> {
+        self.sessions.clone().into()
+    }
+
+    /// Those in which the exercise called `name` was repeated, or all.
+    pub fn sessions_of(&self, name: Option<&str>) -> Vec<&Session> {
+        let is_of = |session: &&Session| name.is_none_or(|name| !session.is_game() && has(session, name));
+        self.sessions.iter().filter(is_of).collect()
+    }
+
+    /// The score of the exercise called `name`.
+    pub fn score_of(&self, name: &str) -> Option<&Record> {
+        self.scores.get(name)
+    }
+
+    /// Takes a session in, in place of what was known of it. One without attempts is none.
+    pub fn put(&mut self, session: &Session) {
+        let known = self.sessions.iter().position(|known| known.id == session.id);
+        match known {
+            Some(known) if session.attempts.is_empty() => drop(self.sessions.remove(known)),
+            Some(known) => self.sessions[known] = session.clone(),
+            None if session.attempts.is_empty() => return,
+            None => self.sessions.push(session.clone()),
+        }
+        self.score(names(session));
+    }
+
+    fn score(&mut self, names: impl IntoIterator<Item = String>) {
+        for name in names {
+            let record = Record::of_exercise(&self.sessions, &name);
+            self.scores.insert(name, record);
+        }
+    }
+}
+
+/// The score of one session's attempts, of the exercise called `name` or of all.
+pub fn record_of(session: &Session, name: Option<&str>) -> Record {
+    Record::of([session], |_, attempt| name.is_none_or(|name| attempt.exercise == name))
+}
+
+fn has(session: &Session, name: &str) -> bool {
+    session.attempts.iter().any(|attempt| attempt.exercise == name)
+}
+
+fn names(session: &Session) -> Vec<String> {
+    session.exercises.iter().map(|exercise| exercise.name.clone()).collect()
+}

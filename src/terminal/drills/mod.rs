@@ -1,0 +1,291 @@
+//! The state of the drill screens: the library, the exercise that is practised, the result of an exam, and the records.
+//!
+//! Files are read and written, and strokes played and judged, elsewhere ([`Errand`]); what comes of it is a
+//! [`DrillReport`]. [`actions`] is what each key does.
+
+mod actions;
+mod aiming;
+mod book;
+mod catalogue;
+mod errand;
+mod question;
+mod records;
+mod reports;
+mod sight;
+mod turn;
+mod turn_actions;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    app::Effect,
+    keymap::{DrillPlace, DrillWhen},
+    playback::Playback,
+    status::Message,
+};
+use crate::{
+    coach::Skill,
+    drills::{Exercise, Goal, Library},
+    game::Rule,
+    physics::CueInputs,
+    storage::Places,
+    table::{Layout, Table},
+};
+
+pub use book::{Book, record_of};
+pub use catalogue::Catalogue;
+pub use errand::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
+pub use question::Question;
+pub use records::{Estimate, Records};
+pub use sight::{Meets, Sight};
+pub use turn::{Stage, Turn, Watched};
+
+/// A page of the drill screens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Page {
+    /// The list of exercises.
+    Library,
+    /// An exercise.
+    Exercise,
+    /// The result of an exam.
+    Result,
+    /// A record.
+    Record,
+}
+
+/// Who plays.
+#[derive(Clone, Copy, Debug)]
+pub struct Player {
+    /// The standard errors that are played.
+    pub skill: Skill,
+    /// Those that the user has kept as the own ones.
+    pub own: Option<Skill>,
+}
+
+impl Player {
+    /// The next of those there are.
+    fn choose_next(&mut self) {
+        let named = Skill::NAMED.iter().rev().map(|(_, skill)| *skill);
+        let all: Vec<Skill> = named.chain(self.own).collect();
+        let now = all.iter().position(|skill| *skill == self.skill);
+        self.skill = all[now.map_or(0, |now| (now + 1) % all.len())];
+    }
+}
+
+/// What is wanted of a repetition, kept from exercise to exercise.
+#[derive(Clone, Copy, Debug)]
+struct Wishes {
+    goal: Goal,
+    shifted: bool,
+}
+
+/// Balls that come from the coach's table or go there.
+#[derive(Clone, Debug)]
+pub struct Balls {
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// What counts as a point.
+    pub rule: Rule,
+}
+
+/// The state of the drill screens.
+#[derive(Debug)]
+pub struct DrillScreen {
+    /// Where sessions and positions are.
+    pub places: Places,
+    /// The list of exercises.
+    pub catalogue: Catalogue,
+    /// What has been played.
+    pub book: Book,
+    /// The exercise that is practised.
+    pub turn: Option<Turn>,
+    /// The page of records.
+    pub records: Records,
+    /// Who plays.
+    pub player: Player,
+    /// What is asked.
+    pub question: Option<Question>,
+    /// What the status line says.
+    pub message: Option<Message>,
+    wishes: Wishes,
+    for_coach: Option<Balls>,
+    /// The pages one has come through; the last one is open.
+    pages: Vec<Page>,
+    rng: Xoshiro256PlusPlus,
+}
+
+impl DrillScreen {
+    /// The screens before they are opened; `seed` decides about errors, shifts and exams.
+    pub fn new(places: Places, seed: u64) -> Self {
+        // A test reads the bundled files; without them there are the user's own.
+        let library = Library::with_own(Vec::new()).map_or_else(|_| Library::default(), |(library, _)| library);
+        Self {
+            places,
+            catalogue: Catalogue::new(library),
+            book: Book::default(),
+            turn: None,
+            records: Records::default(),
+            player: Player { skill: Skill::default(), own: None },
+            question: None,
+            message: None,
+            wishes: Wishes { goal: Goal::Free, shifted: false },
+            for_coach: None,
+            pages: Vec::new(),
+            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
+        }
+    }
+
+    /// Opens the page that was open last, or the library, for a player of `skill`; what is on the disk is read again.
+    pub fn open(&mut self, skill: Skill) -> Effect {
+        self.message = None;
+        self.player.skill = skill;
+        if self.pages.is_empty() {
+            self.pages.push(Page::Library);
+        }
+        Effect::Drill(vec![Errand::Load(self.places.clone())])
+    }
+
+    /// Opens the library and asks under which name the position on the coach's table is to be saved.
+    pub fn open_to_save(&mut self, balls: Balls, skill: Skill, shot: Option<CueInputs>) -> Effect {
+        let Balls { table, layout, rule } = balls;
+        self.leave_turn();
+        self.pages = vec![Page::Library];
+        let position = Exercise {
+            name: String::new(),
+            title: String::new(),
+            category: crate::drills::Category::Own,
+            grade: 0,
+            rule,
+            table: table.name.clone(),
+            layout,
+            point: String::new(),
+            tags: Vec::new(),
+            shot,
+            par: None,
+        };
+        let effect = self.open(skill);
+        match position.table() {
+            Ok(known) if known == table => self.question = Some(Question::Name(String::new(), Box::new(position))),
+            _ => {
+                let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
+                self.message = Some(Message::warning(words));
+            }
+        }
+        effect
+    }
+
+    /// Whether one has gone back from the first page.
+    pub const fn is_left(&self) -> bool {
+        self.pages.is_empty()
+    }
+
+    /// Balls that are to go to the coach's table; asked once.
+    pub const fn take_for_coach(&mut self) -> Option<Balls> {
+        self.for_coach.take()
+    }
+
+    /// The page that is open.
+    pub fn page(&self) -> Page {
+        self.pages.last().copied().unwrap_or(Page::Library)
+    }
+
+    /// Whose keys are in force: the page's, or those of what is asked there.
+    pub fn place(&self) -> DrillPlace {
+        match &self.question {
+            Some(Question::Search(_)) => DrillPlace::Search,
+            Some(Question::Code(_) | Question::Name(..)) => DrillPlace::Text,
+            Some(_) => DrillPlace::Question,
+            None => self.page_place(),
+        }
+    }
+
+    /// The page's own keys, whatever is asked.
+    pub fn page_place(&self) -> DrillPlace {
+        match self.page() {
+            Page::Library => DrillPlace::Library,
+            Page::Exercise => DrillPlace::Exercise,
+            Page::Result => DrillPlace::Result,
+            Page::Record => DrillPlace::Record,
+        }
+    }
+
+    /// Takes a letter where letters are typed; `false` where it is none or none is typed.
+    pub fn typed(&mut self, key: &KeyEvent) -> bool {
+        let KeyCode::Char(letter) = key.code else { return false };
+        (key.modifiers - KeyModifiers::SHIFT).is_empty() && self.type_in(letter.encode_utf8(&mut [0; 4]))
+    }
+
+    /// Takes text that was pasted where text is typed.
+    pub fn pasted(&mut self, text: &str) {
+        self.type_in(text);
+    }
+
+    fn type_in(&mut self, text: &str) -> bool {
+        let taken = self.question.as_mut().is_some_and(|question| question.type_in(text));
+        if taken {
+            self.message = None;
+            self.search();
+        }
+        taken
+    }
+
+    /// Lists what has the words that are being typed.
+    fn search(&mut self) {
+        if let Some(Question::Search(typed)) = &self.question {
+            self.catalogue.find_text(typed.trim());
+        }
+    }
+
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn refusal(&self, when: DrillWhen) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        match when {
+            DrillWhen::Here => None,
+            DrillWhen::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; Esc lists all"),
+            DrillWhen::MarkedOwn => refuse(!self.catalogue.is_own(), "bundled exercises stay; only your own go"),
+            DrillWhen::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
+            DrillWhen::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
+            DrillWhen::Estimated => refuse(self.records.skill().is_none(), "there is no estimate of your skill yet"),
+            _ => match &self.turn {
+                Some(turn) => turn.refusal(when),
+                None => Some("no exercise is open"),
+            },
+        }
+    }
+
+    /// A session's seed.
+    fn seed(&mut self) -> u64 {
+        self.rng.random()
+    }
+
+    /// Closes the exercise; what was played is on the disk.
+    fn leave_turn(&mut self) {
+        if let Some(turn) = &mut self.turn {
+            turn.stop_asking();
+        }
+        self.turn = None;
+        self.pages.retain(|page| *page == Page::Library);
+    }
+
+    /// The clock of the shot that is watched.
+    pub fn playback(&self) -> Option<&Playback> {
+        Some(&self.turn.as_ref()?.watched()?.playback)
+    }
+
+    /// Lets `seconds` pass for the shot.
+    pub fn tick(&mut self, seconds: f64) {
+        if let Some(turn) = &mut self.turn {
+            turn.tick(seconds);
+        }
+    }
+
+    /// Seconds until the next picture; `None` while nothing moves by itself.
+    pub fn frame_interval(&self) -> Option<f64> {
+        let turn = self.turn.as_ref().filter(|_| self.page() == Page::Exercise)?;
+        turn.is_moving().then_some(1.0 / 30.0)
+    }
+}

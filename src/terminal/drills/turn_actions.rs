@@ -1,0 +1,203 @@
+//! What each key does to the page of an exercise, and when it may be used.
+
+use super::{DrillScreen, Page, Stage, Turn, aiming};
+use crate::{
+    coach::Skill,
+    drills::{Goal, Session, Venue},
+    physics::CueInputs,
+    terminal::{
+        app::Effect,
+        keymap::{DrillAction as Action, DrillWhen as When},
+        status::Message,
+        words::skill_word,
+    },
+};
+
+/// Points of the first run that is asked for, and innings of the first game.
+const FIRST_RUN: u32 = 5;
+const FIRST_GAME: u32 = 10;
+/// Longest run and game that can be asked for.
+const LONGEST: u32 = 100;
+
+impl Turn {
+    /// Why a binding of the page may not be used now; `None` where it may.
+    pub(super) fn refusal(&self, when: When) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        match (&self.stage, when) {
+            (Stage::Waiting, When::Aiming | When::Watching | When::Ended | When::Free | When::Counted) => {
+                Some("the stroke is being played")
+            }
+            (_, When::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
+            (_, When::Watching | When::Ended) => refuse(self.watched().is_none(), "no shot is being watched"),
+            (_, When::Free | When::Counted) if self.is_exam() => Some("an exam is under way; Esc leaves it"),
+            (_, When::Counted) => {
+                refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
+            }
+            (_, When::Advised) => refuse(self.is_exam(), "an exam gives no hints")
+                .or(refuse(self.taught.is_none(), "the coach is still thinking"))
+                .or(refuse(self.lesson().is_none(), "the coach has found no shot that makes the point")),
+            (_, When::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
+            _ => None,
+        }
+    }
+
+    /// The same practice from its beginning: with other wishes it is another session.
+    fn again(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
+        let exercises = self.session.exercises.clone();
+        let mut session = Session::new(goal, venue, exercises, skill, seed);
+        session.shifted = shifted;
+        session
+    }
+}
+
+impl DrillScreen {
+    /// What the keys do to the exercise that is practised.
+    pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
+        let turn = self.turn.as_mut()?;
+        let cue = turn.stroke;
+        match action {
+            Action::Turn(degrees) => turn.stroke = aiming::turned(&cue, degrees),
+            Action::AimAtBall => {
+                turn.stroke = aiming::at_ball(&cue, &turn.layout, aiming::next_ball(&cue, &turn.layout));
+            }
+            Action::Tip(left, up) => match aiming::tip_moved(&turn.table, &cue, left, up) {
+                Some(moved) => turn.stroke = moved,
+                None => self.message = Some(Message::warning("further out the tip would slip off the ball")),
+            },
+            Action::Centre => turn.stroke = CueInputs { a: 0.0, b: 0.0, ..cue },
+            Action::Raise(degrees) => turn.stroke = aiming::raised(&cue, degrees),
+            Action::Faster(by) => turn.stroke = aiming::faster(&cue, by),
+            Action::Play => return self.play(),
+            Action::Next => return self.next(),
+            Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
+            Action::Hint => {
+                turn.shows_hint = !turn.shows_hint;
+                turn.is_helped |= turn.shows_hint && turn.is_aiming();
+            }
+            Action::Shift => {
+                self.wishes.shifted = !turn.session.shifted;
+                let news = if self.wishes.shifted {
+                    "from the second repetition on, each ball is shifted by half a ball"
+                } else {
+                    "the balls lie where the exercise has them"
+                };
+                self.message = Some(Message::plain(news));
+                return self.restart(None);
+            }
+            Action::Goal => {
+                self.wishes.goal = match turn.session.goal {
+                    Goal::Free => Goal::Run(FIRST_RUN),
+                    Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
+                    Goal::Game { .. } | Goal::Exam => Goal::Free,
+                };
+                return self.restart(None);
+            }
+            Action::Count(step) => {
+                let step = i32::try_from(step).unwrap_or(0);
+                let counted = |count: u32| count.saturating_add_signed(step).clamp(1, LONGEST);
+                self.wishes.goal = match turn.session.goal {
+                    Goal::Run(points) => Goal::Run(counted(points)),
+                    Goal::Game { innings } => Goal::Game { innings: counted(innings) },
+                    other => other,
+                };
+                return self.restart(None);
+            }
+            Action::Player => {
+                self.player.choose_next();
+                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
+                return self.restart(None);
+            }
+            Action::Log(made) => return self.log(made),
+            Action::Undo => return self.undo(),
+            _ => {}
+        }
+        None
+    }
+
+    /// Begins the same practice anew with the wishes as they are now.
+    fn restart(&mut self, venue: Option<Venue>) -> Option<Effect> {
+        let (seed, wishes, skill) = (self.seed(), self.wishes, self.player.skill);
+        let turn = self.turn.as_mut()?;
+        let venue = venue.unwrap_or(turn.newest().venue);
+        let session = turn.again(wishes.goal, wishes.shifted, venue, skill, seed);
+        Some(Effect::Drill(turn.begin(session)))
+    }
+
+    fn play(&mut self) -> Option<Effect> {
+        let mut errands = Vec::new();
+        if self.turn.as_ref()?.newest().venue == Venue::Table
+            && let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Program))
+        {
+            // What is played here counts apart from what is noted.
+            errands = asked;
+        }
+        errands.push(self.turn.as_mut()?.play());
+        Some(Effect::Drill(errands))
+    }
+
+    fn next(&mut self) -> Option<Effect> {
+        let turn = self.turn.as_mut()?;
+        let Stage::Watching(watched) = &mut turn.stage else { return None };
+        if !watched.is_settled {
+            // The first press goes to the end, where the result is told.
+            watched.playback.jump(watched.duration());
+            watched.settle();
+            return None;
+        }
+        let next = watched.outcome.next.clone();
+        match next {
+            Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
+            None if turn.is_exam() => {
+                self.pages = vec![Page::Library, Page::Result];
+                None
+            }
+            None => self.restart(None),
+        }
+    }
+
+    fn watch(&mut self, action: Action) {
+        let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
+        let Some(shot) = watched.outcome.shot.clone() else { return };
+        let (events, duration) = (shot.recording.events(), shot.recording.duration());
+        match action {
+            Action::PlayPause => watched.playback.toggle(duration),
+            Action::Event(step) if step > 0 => watched.playback.step_forward(events, duration),
+            Action::Event(_) => watched.playback.step_back(events),
+            Action::Pace(step) if step > 0 => watched.playback.faster(),
+            _ => watched.playback.slower(),
+        }
+        watched.settle();
+    }
+
+    /// Notes an attempt at a real table.
+    fn log(&mut self, made: bool) -> Option<Effect> {
+        let newest = self.turn.as_ref()?.newest();
+        let mut errands = Vec::new();
+        if newest.venue != Venue::Table || newest.is_over() {
+            let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Table)) else { return None };
+            errands.extend(asked);
+        }
+        let turn = self.turn.as_mut()?;
+        let mut session = turn.newest().clone();
+        match session.log(made) {
+            Ok(()) => {
+                if let Some(note) = session.attempts.last_mut() {
+                    note.helped = turn.is_helped;
+                    // What was to be played tells how good whoever made it is.
+                    note.advised = turn.lesson().map(|taught| taught.advice.cue);
+                    note.advised_chance = turn.lesson().map(|taught| taught.advice.chance.rate);
+                }
+                errands.insert(0, turn.save(session));
+            }
+            Err(error) => self.message = Some(Message::warning(error.to_string())),
+        }
+        Some(Effect::Drill(errands))
+    }
+
+    fn undo(&mut self) -> Option<Effect> {
+        let turn = self.turn.as_mut()?;
+        let mut session = turn.newest().clone();
+        session.undo();
+        Some(Effect::Drill(vec![turn.save(session)]))
+    }
+}

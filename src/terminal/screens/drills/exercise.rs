@@ -1,0 +1,94 @@
+//! The page of an exercise: the table with the line of aim or the shot, the stroke, and what counts.
+
+use glam::DVec2;
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use super::{draw_header, panels, panes::Panes, score};
+use crate::terminal::{
+    app::App,
+    drills::{Sight, Turn},
+    look::Look,
+    status::Message,
+    theme::Theme,
+    widgets::{Spot, TableView, draw_table, draw_tip},
+};
+
+/// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
+const DOT: f64 = 0.04;
+/// The cue behind the ball, m: from where to where, and the distance of its dots.
+const CUE: (f64, f64) = (0.09, 0.5);
+const CUE_DOT: f64 = 0.008;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffer) -> Message {
+    let (theme, look) = (app.theme(), app.look());
+    draw_header(app, &turn.exercise.title, &about(turn, look), header, buffer);
+    let panes = Panes::new(&turn.table, area);
+    let spots = turn.sight().map_or_else(Vec::new, |sight| spots(turn, &sight, theme, look));
+    let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
+    let view = TableView {
+        table: &turn.table,
+        layout: &turn.layout,
+        shot: turn.shot(),
+        time,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &spots,
+        theme,
+        look,
+    };
+    draw_table(&view, panes.table, buffer);
+    panels::draw_stroke(app, turn, panes.stroke, buffer);
+    let meant = turn.watched().map_or(&turn.stroke, |watched| &watched.meant);
+    draw_tip(Some(meant), &turn.table, panes.tip, theme, look, buffer);
+    panels::draw_aim(app, turn, panes.aim, buffer);
+    score::draw(app, turn, panes.score, buffer);
+    standing(turn)
+}
+
+/// What counts, how hard it is, and how it is repeated.
+fn about(turn: &Turn, look: Look) -> String {
+    let exercise = &turn.exercise;
+    let mut parts = vec![exercise.rule.to_string()];
+    if exercise.grade > 0 {
+        parts.push(format!("grade {}", exercise.grade));
+    }
+    if turn.session.shifted {
+        parts.push("shifted".to_owned());
+    }
+    parts.join(look.pick(" · ", " - "))
+}
+
+/// The line of aim with the ball at its end, and the cue.
+fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
+    let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke.phi));
+    let dot = look.pick('·', '.');
+    let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };
+    let steps =
+        |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
+    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, look.pick('─', '-')));
+    let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
+    let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();
+    // The ball at the end of the line is drawn over it.
+    let line = steps(DOT, sight.way - 1.5 * turn.table.radius, DOT);
+    let line = line.map(|way| spot(start + way * ahead, theme.paths[0], dot));
+    let ghost = Spot { place: sight.end, is_ball: true, color: theme.paths[0], letter: 'w' };
+    cue.filter(on_table).chain(line).chain([ghost]).collect()
+}
+
+fn standing(turn: &Turn) -> Message {
+    if turn.is_waiting() {
+        return Message::plain("the stroke is being played");
+    }
+    if let Some(verdict) = turn.verdict() {
+        return verdict;
+    }
+    Message::plain(match (turn.watched().is_some(), &turn.taught) {
+        (true, _) => "the shot is on its way; Enter goes to its end",
+        (false, None) => "set the stroke and play it; the coach is still thinking",
+        (false, Some(None)) => "set the stroke and play it; the coach has found no shot here",
+        (false, Some(Some(_))) if turn.shows_hint => "this is the shot that is taught; the attempt counts as helped",
+        (false, Some(Some(_))) => "set the stroke and play it",
+    })
+}

@@ -1,0 +1,190 @@
+//! The list of exercises, and the marked one on a small table with what is to be learnt.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use super::{draw_header, percent, write_paragraphs};
+use crate::{
+    drills::{Category, Exercise},
+    terminal::{
+        app::App,
+        geometry::Mapping,
+        status::Message,
+        widgets::{TableView, cut, draw_table, draw_title, wrap, write_right},
+    },
+};
+
+/// Columns of the marked exercise, of a hundred, and at least.
+const PREVIEW: (u16, u16) = (44, 35);
+/// Columns at which grade, points and best run end, from the list's right edge.
+const GRADE_END: u16 = 15;
+const MADE_END: u16 = 7;
+const RUN_END: u16 = 1;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message {
+    let drills = app.drills();
+    let sessions = drills.book.sessions().len();
+    let more = match sessions {
+        0 => String::new(),
+        1 => "1 session so far".to_owned(),
+        _ => format!("{sessions} sessions so far"),
+    };
+    draw_header(app, "practice", &more, header, buffer);
+    let preview = (area.width * PREVIEW.0 / 100).max(PREVIEW.1);
+    let list = Rect { width: area.width - preview - 1, ..area };
+    draw_list(app, list, buffer);
+    let preview = Rect { x: list.right() + 1, width: preview, ..area };
+    match drills.catalogue.marked() {
+        Some(exercise) => draw_exercise(app, exercise, preview, buffer),
+        None => draw_nothing(app, preview, buffer),
+    }
+    standing(app)
+}
+
+fn standing(app: &App) -> Message {
+    let book = &app.drills().book;
+    if !book.is_known {
+        return Message::plain("reading what was played so far");
+    }
+    if !book.troubles.is_empty() {
+        return Message::warning(book.troubles.join("; "));
+    }
+    Message::plain("choose an exercise; Enter opens it")
+}
+
+/// A row of the list.
+enum Row<'a> {
+    Heading(Category),
+    /// With its place among those that are listed.
+    Exercise(usize, &'a Exercise),
+}
+
+fn draw_list(app: &App, area: Rect, buffer: &mut Buffer) {
+    let (theme, look, catalogue) = (app.theme(), app.look(), &app.drills().catalogue);
+    let found = catalogue.found();
+    let title = Line::from(Span::styled(filter_words(app, found.len()), theme.text()));
+    let inner = draw_title(&title, area, theme, look, buffer);
+    for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
+        let end = (area.right() + 1).saturating_sub(end);
+        if area.x + 2 + title.width() as u16 + 12 < end {
+            write_right(buffer, area.x, end, area.y, label, theme.faint());
+        }
+    }
+    let mut rows = Vec::new();
+    for (n, exercise) in found.iter().enumerate() {
+        if n == 0 || found[n - 1].category != exercise.category {
+            rows.push(Row::Heading(exercise.category));
+        }
+        rows.push(Row::Exercise(n, exercise));
+    }
+    let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == catalogue.mark())).unwrap_or(0);
+    let most = usize::from(inner.height);
+    let first = marked.saturating_sub(most / 2).min(rows.len().saturating_sub(most));
+    for (row, y) in rows[first..].iter().zip(inner.y..inner.bottom()) {
+        let area = Rect { y, height: 1, ..inner };
+        match row {
+            Row::Heading(category) => {
+                buffer.set_stringn(area.x + 1, y, category.title(), usize::from(area.width), theme.good());
+            }
+            Row::Exercise(n, exercise) => draw_row(app, exercise, *n == catalogue.mark(), area, buffer),
+        }
+    }
+}
+
+/// How many exercises are listed, and which.
+fn filter_words(app: &App, found: usize) -> String {
+    let catalogue = &app.drills().catalogue;
+    let filter = &catalogue.filter;
+    let parts = [
+        filter.category.map(|category| category.title().to_owned()),
+        filter.grade.map(|grade| format!("grade {grade}")),
+        filter.text.as_ref().map(|text| format!("\"{text}\"")),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    match parts.is_empty() {
+        true => format!("All {found}"),
+        false => format!("{found}: {}", parts.join(", ")),
+    }
+}
+
+fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let style = if is_marked { theme.accent() } else { theme.text() };
+    if is_marked {
+        buffer.set_string(area.x, area.y, look.pick("▸", ">"), theme.accent());
+    }
+    let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
+    let title = cut(wrap(&exercise.title, room), 1, room, look).swap_remove(0);
+    buffer.set_stringn(area.x + 2, area.y, title, room, style);
+    let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
+    write_right(buffer, area.x, area.right() - GRADE_END, area.y, &grade, theme.faint());
+    if let Some(score) = app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
+        let made = format!("{}/{}", score.made, score.tried);
+        write_right(buffer, area.x, area.right() - MADE_END + 1, area.y, &made, style);
+        write_right(buffer, area.x, area.right() - RUN_END, area.y, &score.high_run.to_string(), style);
+    }
+}
+
+fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let title = Line::from(Span::styled(exercise.title.clone(), theme.text()));
+    let inner = draw_title(&title, area, theme, look, buffer);
+    let Ok(table) = exercise.table() else { return };
+    // Half of the rows are the text's.
+    let room = Rect { height: inner.height * 11 / 20, ..inner };
+    let view = TableView {
+        table: &table,
+        layout: &exercise.layout,
+        shot: None,
+        time: 0.0,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &[],
+        theme,
+        look,
+    };
+    draw_table(&view, room, buffer);
+    let top = Mapping::fit(&table, room).outer().bottom() + 1;
+    let text = Rect { x: inner.x + 1, y: top, width: inner.width - 2, height: inner.bottom().saturating_sub(top) };
+    let mut paragraphs = Vec::new();
+    if !exercise.point.is_empty() {
+        paragraphs.push((exercise.point.clone(), theme.text()));
+        paragraphs.push((String::new(), theme.text()));
+    }
+    let grade = if exercise.grade == 0 { String::new() } else { format!(", grade {}", exercise.grade) };
+    paragraphs.push((format!("rule: {}{grade}", exercise.rule), theme.text()));
+    if let Some(par) = exercise.par {
+        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(percent);
+        paragraphs.push((format!("par: beginner {beginner}, club {club}, expert {expert}"), theme.text()));
+    }
+    paragraphs.push(match app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
+        Some(score) => {
+            let best = format!("best run {}", score.high_run);
+            (format!("you: {} of {}, {}, {best}", score.made, score.tried, percent(score.rate.rate)), theme.good())
+        }
+        None => ("you: not tried yet".to_owned(), theme.faint()),
+    });
+    if !exercise.tags.is_empty() {
+        let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{tag}")).collect();
+        paragraphs.push((tags.join(" "), theme.faint()));
+    }
+    write_paragraphs(&paragraphs, text, look, buffer);
+}
+
+fn draw_nothing(app: &App, area: Rect, buffer: &mut Buffer) {
+    let (theme, look, filter) = (app.theme(), app.look(), &app.drills().catalogue.filter);
+    let inner = draw_title(&Line::default(), area, theme, look, buffer);
+    let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
+        "You have saved no position yet. On the coach's table, S saves the balls as they lie; here, a adds a position from \
+         a code that somebody has sent you."
+    } else {
+        "No exercise is like that. Esc lists all."
+    };
+    let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
+    write_paragraphs(&[(words.to_owned(), theme.faint())], text, look, buffer);
+}

@@ -1,0 +1,88 @@
+//! The drill screens: the library, the exercise that is practised, the result of an exam, and the records.
+
+mod exercise;
+mod library;
+mod panels;
+mod panes;
+mod record;
+mod result;
+mod score;
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::{Modifier, Style},
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    app::App,
+    drills::Page,
+    look::Look,
+    status::Message,
+    widgets::{cut, draw_hints, draw_question, draw_status, wrap, write_right},
+    words::{self, skill_word},
+};
+
+/// Draws the page that is open.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    let drills = app.drills();
+    let row = |y: u16| Rect::new(area.x, y, area.width, 1);
+    let page = Rect::new(area.x, area.y + 1, area.width, area.height.saturating_sub(3));
+    let standing = match (drills.page(), &drills.turn) {
+        (Page::Exercise, Some(turn)) => exercise::draw(app, turn, row(area.y), page, buffer),
+        (Page::Result, Some(turn)) => result::draw(app, turn, row(area.y), page, buffer),
+        (Page::Record, _) => record::draw(app, row(area.y), page, buffer),
+        _ => library::draw(app, row(area.y), page, buffer),
+    };
+    let (theme, look, status) = (app.theme(), app.look(), row(page.bottom()));
+    let message = app.message().cloned();
+    match &drills.question {
+        Some(question) => {
+            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+            draw_question(&Message::plain(before + &question.text()), status, theme, look, buffer);
+        }
+        None => draw_status(&message.unwrap_or(standing), status, theme, look, buffer),
+    }
+    draw_hints(app, row(page.bottom() + 1), buffer);
+}
+
+/// The first row of a page: what it is, more about that, and who plays.
+fn draw_header(app: &App, title: &str, more: &str, area: Rect, buffer: &mut Buffer) {
+    let theme = app.theme();
+    let player = format!("player: {} ", skill_word(app.drills().player.skill));
+    let room = usize::from(area.width).saturating_sub(player.chars().count() + 2);
+    let mut line = Line::from(vec![
+        Span::styled(" carom ", theme.accent().add_modifier(Modifier::REVERSED)),
+        Span::styled(format!(" {title}"), theme.text()),
+    ]);
+    let more = Span::styled(format!("  {more}"), theme.faint());
+    if line.width() + more.width() <= room {
+        line.push_span(more);
+    }
+    buffer.set_line(area.x, area.y, &line, room as u16);
+    write_right(buffer, area.x, area.right(), area.y, &player, theme.text());
+}
+
+/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
+/// so by its end. Gives the first row that is left.
+fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, look: Look, buffer: &mut Buffer) -> u16 {
+    let width = usize::from(area.width);
+    let mut row = area.y;
+    for (text, style) in paragraphs {
+        let room = usize::from(area.bottom() - row);
+        if room == 0 {
+            break;
+        }
+        for line in cut(wrap(text, width), room, width, look) {
+            buffer.set_stringn(area.x, row, line, width, *style);
+            row += 1;
+        }
+    }
+    row
+}
+
+/// A share as people say it, like `55 %`.
+fn percent(share: f64) -> String {
+    format!("{} %", words::percent(share))
+}

@@ -1,0 +1,122 @@
+//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the one that is taught.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use super::{percent, write_paragraphs};
+use crate::{
+    drills::changes,
+    physics::CueInputs,
+    terminal::{
+        app::App,
+        drills::{Meets, Sight, Turn, Watched},
+        look::Look,
+        widgets::draw_title,
+        words::{BALL_NAMES, fixed, rail_name},
+    },
+};
+
+/// Fullness from which on a hit is called 100 % full.
+const FULL: f64 = 0.995;
+
+/// Draws the numbers of the stroke that is set, or was meant.
+pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let cue = turn.watched().map_or(&turn.stroke, |watched| &watched.meant);
+    let inner = draw_title(&Line::from(Span::styled("Your stroke", theme.text())), area, theme, look, buffer);
+    let degree = look.pick("°", " deg");
+    let millimetres = |radii: f64, [more, less]: [&str; 2]| {
+        let offset = 1000.0 * turn.table.radius * radii;
+        match fixed(offset.abs(), 1).as_str() {
+            "0.0" => "middle".to_owned(),
+            size => format!("{size} mm {}", if offset > 0.0 { more } else { less }),
+        }
+    };
+    let rows = [
+        ("aim", fixed(cue.phi.to_degrees(), 2) + degree),
+        ("side", millimetres(cue.a, ["left", "right"])),
+        ("height", millimetres(cue.b, ["up", "down"])),
+        ("speed", format!("{} m/s", fixed(cue.speed, 2))),
+        (
+            "cue",
+            match fixed(cue.theta.to_degrees(), 1).as_str() {
+                "0.0" => "level".to_owned(),
+                angle => format!("{angle}{degree} up"),
+            },
+        ),
+    ];
+    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let line =
+            Line::from(vec![Span::styled(format!("{name:<7}"), theme.faint()), Span::styled(value, theme.text())]);
+        buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+    }
+}
+
+/// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
+pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let settled = turn.watched().filter(|watched| watched.is_settled);
+    let title = if settled.is_some() { "Compared" } else { "Aim" };
+    let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    let mut paragraphs = Vec::new();
+    if let Some(watched) = settled {
+        paragraphs.extend(compared(turn, watched, look).into_iter().map(|words| (words, theme.text())));
+    } else {
+        if let Some(sight) = turn.sight() {
+            paragraphs.push((sight_words(&sight), theme.accent()));
+        }
+        if !turn.exercise.point.is_empty() {
+            paragraphs.push((turn.exercise.point.clone(), theme.text()));
+        }
+    }
+    write_paragraphs(&paragraphs, text, look, buffer);
+}
+
+/// What the line of aim meets.
+fn sight_words(sight: &Sight) -> String {
+    let way = fixed(100.0 * sight.way, 0);
+    match sight.meets {
+        Meets::Ball(hit) => {
+            let side = match hit.left {
+                // Head-on has no side.
+                _ if hit.fullness > FULL => "",
+                true => ", left side",
+                false => ", right side",
+            };
+            format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
+        }
+        Meets::Cushion(rail, diamond) => {
+            format!("{} at {} diamonds, {way} cm", rail_name(rail), fixed(diamond, 1))
+        }
+    }
+}
+
+/// Both chances, what would make the stroke the one that is taught, and what the player's hand has added to it.
+fn compared(turn: &Turn, watched: &Watched, look: Look) -> Vec<String> {
+    let told = |from: &CueInputs, to: &CueInputs, none: &str| {
+        let words = changes(&turn.table, from, to).join(", ");
+        match words.is_empty() {
+            true => none.to_owned(),
+            false if look.unicode => words,
+            false => words.replace('°', " deg"),
+        }
+    };
+    let own = watched.chance.map_or_else(|| look.pick("…", "...").to_owned(), percent);
+    let mut lines = match turn.lesson() {
+        Some(taught) => {
+            let whose = if taught.is_own { "taught" } else { "coach" };
+            let advice = &taught.advice;
+            let changes = told(&watched.meant, &advice.cue, "no change worth telling");
+            vec![format!("makes: yours {own}, {whose} {}", percent(advice.chance.rate)), format!("{whose}: {changes}")]
+        }
+        None if turn.taught.is_none() => vec![format!("makes: yours {own}, the coach is still thinking")],
+        None => vec![format!("makes: yours {own}; the coach has found no shot")],
+    };
+    let added = told(&watched.meant, &watched.outcome.played.stroke, "nothing worth telling");
+    lines.push(format!("your hand added: {added}"));
+    lines
+}

@@ -1,0 +1,108 @@
+//! Which part of the page of an exercise is for what: the arrangement that leaves the table the most room wins.
+
+use ratatui::layout::Rect;
+
+use crate::{table::Table, terminal::geometry::Mapping};
+
+/// Rows of the panels below the table where all of them stand there: a title and seven lines.
+const BELOW: u16 = 8;
+/// The same where there is a column beside it: a title and four lines.
+const BELOW_BESIDE: u16 = 5;
+/// Columns beside the table: at least, and at most.
+const BESIDE: (u16, u16) = (20, 36);
+/// Columns of the stroke and the tip where all panels stand side by side.
+const STROKE_WIDTH: u16 = 24;
+const TIP_WIDTH: u16 = 16;
+/// Share of the aim's words in the room that they have beside the score.
+const AIM: (u16, u16) = (3, 5);
+/// Columns from which on all panels find room side by side.
+const ALL_BELOW_WIDTH: u16 = 112;
+
+/// The areas of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Panes {
+    /// Rails and cloth are drawn as large as fits in here.
+    pub table: Rect,
+    /// The numbers of the stroke.
+    pub stroke: Rect,
+    /// The cue ball's face.
+    pub tip: Rect,
+    /// Where the aim leads, or what came of the stroke.
+    pub aim: Rect,
+    /// The score.
+    pub score: Rect,
+}
+
+impl Panes {
+    /// Divides `area` for `table`.
+    pub fn new(table: &Table, area: Rect) -> Self {
+        let (below, beside) = (Self::all_below(table, area), Self::some_beside(table, area));
+        let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
+        if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
+    }
+
+    fn all_below(table: &Table, area: Rect) -> Self {
+        let room = Rect { height: area.height.saturating_sub(BELOW), ..area };
+        let top = Mapping::fit(table, room).outer().bottom().min(area.bottom());
+        let panel = |x: u16, width: u16| {
+            let left = (area.x + x).min(area.right());
+            Rect::new(left, top, width.min(area.right() - left), area.bottom() - top)
+        };
+        let aim = STROKE_WIDTH + TIP_WIDTH + 2;
+        let words = area.width.saturating_sub(aim + 1) * AIM.0 / AIM.1;
+        let score = aim + words + 1;
+        Self {
+            table: room,
+            stroke: panel(0, STROKE_WIDTH),
+            tip: panel(STROKE_WIDTH + 1, TIP_WIDTH),
+            aim: panel(aim, words),
+            score: panel(score, area.width.saturating_sub(score)),
+        }
+    }
+
+    fn some_beside(table: &Table, area: Rect) -> Self {
+        let height = area.height.saturating_sub(BELOW_BESIDE);
+        let room = Rect { width: area.width.saturating_sub(BESIDE.0), height, ..area };
+        let outer = Mapping::fit(table, room).outer();
+        // What the table does not need goes to the column beside it, up to a width that is still good to read.
+        let width = area.width.saturating_sub(outer.width).clamp(BESIDE.0, BESIDE.1) - 1;
+        let left = area.right().saturating_sub(width);
+        let room = Rect { width: left - 1 - area.x, ..room };
+        let bottom = Mapping::fit(table, room).outer().bottom().min(area.bottom());
+        let tip_rows = BELOW.min((bottom - area.y) / 2);
+        let column = |y: u16, height: u16| Rect::new(left, y, width, height);
+        let aim = area.width * AIM.0 / AIM.1;
+        let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, area.bottom() - bottom);
+        Self {
+            table: room,
+            stroke: column(area.y, bottom - area.y - tip_rows),
+            tip: column(bottom - tip_rows, tip_rows),
+            aim: below(0, aim),
+            score: below(aim + 1, area.width - aim - 1),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_areas_overlap_at_any_size() {
+        let table = Table::default();
+        for width in 80..=240 {
+            for height in 21..=77 {
+                let panes = Panes::new(&table, Rect::new(0, 1, width, height));
+                let bed = Mapping::fit(&table, panes.table).outer();
+                let all = [bed, panes.stroke, panes.tip, panes.aim, panes.score];
+                for (n, one) in all.iter().enumerate() {
+                    assert!(one.right() <= width && one.bottom() <= height + 1, "{width}×{height} {n}: {one}");
+                    assert!(one.width >= 16 && one.height >= 5, "{width}×{height} {n}: {one}");
+                    for other in &all[n + 1..] {
+                        assert!(one.intersection(*other).is_empty(), "{width}×{height}: {one} and {other}");
+                    }
+                }
+            }
+        }
+    }
+}

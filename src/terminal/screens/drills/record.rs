@@ -1,0 +1,170 @@
+//! The page of records: the score of an exercise or of all, over time, by sessions, and the skill that it shows.
+
+use std::time::{Duration, UNIX_EPOCH};
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use super::{draw_header, percent, write_paragraphs};
+use crate::{
+    drills::{Goal, Record, Session, Venue},
+    learning::{
+        moment,
+        run::history::{Odd, Point, Span as Values},
+    },
+    terminal::{
+        app::App,
+        chart::{Chart, Curve, Whose, draw_chart},
+        drills::{Estimate, record_of},
+        status::Message,
+        widgets::{draw_title, write_right},
+        words::chance_words,
+    },
+};
+
+/// Columns of the numbers beside the chart.
+const NUMBERS: u16 = 38;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message {
+    let (theme, look, drills) = (app.theme(), app.look(), app.drills());
+    let scope = drills.records.scope();
+    let title = scope.map_or("all exercises", |name| {
+        drills.catalogue.library().get(name).map_or(name, |exercise| exercise.title.as_str())
+    });
+    draw_header(app, "record", title, header, buffer);
+    let sessions = drills.book.sessions_of(scope);
+    let top = Rect { height: (area.height / 2).max(11), ..area };
+    let numbers = Rect { width: NUMBERS, ..top };
+    draw_numbers(app, &sessions, scope, numbers, buffer);
+    let chart = Rect { x: numbers.right() + 1, width: top.width - NUMBERS - 1, ..top };
+    let points = points(&sessions, scope);
+    let curves = [Curve { points: &points, odd: Odd::default(), whose: Whose::Own }];
+    let tried = points.last().map_or(0, |point| point.shots.1);
+    let title = "made of 100, session by session";
+    let chart_of = Chart {
+        title,
+        curves: &curves,
+        shots: (0.0, tried.max(10) as f64),
+        log: false,
+        smoothing: 0.0,
+        selected: false,
+        with_shots: true,
+        note: points.is_empty().then_some("nothing is played yet"),
+    };
+    draw_chart(&chart_of, chart, theme, look, buffer);
+    let list = Rect { y: top.bottom(), height: area.bottom() - top.bottom(), ..area };
+    draw_sessions(app, &sessions, scope, list, buffer);
+    if sessions.is_empty() {
+        return Message::plain(
+            "nothing is played yet: play a stroke, or note what you make at a real table with m and n",
+        );
+    }
+    Message::plain(match &drills.records.estimate {
+        Estimate::Known(..) => "w takes the estimated skill as yours: then strokes are played and judged with it",
+        Estimate::Working => "the skill is being estimated",
+        _ => "",
+    })
+}
+
+fn draw_numbers(app: &App, sessions: &[&Session], scope: Option<&str>, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let title = if scope.is_some() { "This exercise" } else { "All" };
+    let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
+    let record = Record::of(sessions.iter().copied(), |session, attempt| match scope {
+        Some(name) => attempt.exercise == name,
+        None => !session.attempts.is_empty(),
+    });
+    let mut rows = vec![("attempts", record.tried.to_string())];
+    if record.tried > 0 {
+        rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
+        rows.push(("average", record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning"))));
+        rows.push(("high run", record.high_run.to_string()));
+    }
+    if record.helped > 0 {
+        rows.push(("hints", format!("{} of the attempts", record.helped)));
+    }
+    let mut y = inner.y;
+    for (name, value) in rows {
+        let line =
+            Line::from(vec![Span::styled(format!("{name:<10}"), theme.faint()), Span::styled(value, theme.text())]);
+        buffer.set_line(inner.x + 1, y, &line, inner.width.saturating_sub(1));
+        y += 1;
+    }
+    let skill = match &app.drills().records.estimate {
+        Estimate::Unknown => return,
+        Estimate::Working => ("your skill: being estimated".to_owned(), theme.faint()),
+        Estimate::Known(_, sentence) => (sentence.clone(), theme.good()),
+        Estimate::Missing(sentence) => (sentence.clone(), theme.faint()),
+    };
+    let rest = Rect { x: inner.x + 1, y: y + 1, width: inner.width - 1, height: inner.bottom().saturating_sub(y + 1) };
+    write_paragraphs(&[skill], rest, look, buffer);
+}
+
+/// The share of points in each session, over the attempts made.
+fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
+    let mut before = 0;
+    let shares = sessions.iter().filter_map(|session| {
+        let record = record_of(session, scope);
+        let (first, last) = (before + 1, before + record.tried as u64);
+        before = last;
+        let share = 100.0 * record.rate.rate;
+        let finite = Values { min: share, mean: share, max: share, not_positive: u64::from(share <= 0.0) };
+        (record.tried > 0).then_some(Point { shots: (first, last), finite: Some(finite), odd: Odd::default() })
+    });
+    shares.collect()
+}
+
+/// Columns at which the numbers of a session end.
+const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
+const WHAT: u16 = 48;
+
+fn draw_sessions(app: &App, sessions: &[&Session], scope: Option<&str>, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let inner = draw_title(&Line::from(Span::styled("Sessions", theme.text())), area, theme, look, buffer);
+    for (end, label) in ENDS {
+        write_right(buffer, area.x, area.x + end + 1, area.y, &format!(" {label} "), theme.faint());
+    }
+    let top = app.drills().records.top(sessions.len());
+    for (session, y) in sessions.iter().rev().skip(top).zip(inner.y..inner.bottom()) {
+        let record = record_of(session, scope);
+        let put = |buffer: &mut Buffer, end: u16, text: &str, style: Style| {
+            write_right(buffer, inner.x, inner.x + end, y, text, style);
+        };
+        buffer.set_string(inner.x + 1, y, started(session), theme.faint());
+        put(buffer, ENDS[0].0, &format!("{}/{}", record.made, record.tried), theme.text());
+        put(buffer, ENDS[1].0, &percent(record.rate.rate), theme.text());
+        put(buffer, ENDS[2].0, &record.high_run.to_string(), theme.text());
+        let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
+        put(buffer, ENDS[3].0, &average, theme.text());
+        let room = usize::from(inner.width.saturating_sub(WHAT));
+        buffer.set_stringn(inner.x + WHAT, y, what(session, scope), room, theme.faint());
+    }
+}
+
+/// When a session began, to the minute, UTC; nothing where its file says what no clock can.
+fn started(session: &Session) -> String {
+    let time = UNIX_EPOCH.checked_add(Duration::from_secs(session.started));
+    time.map_or(String::new(), |time| moment(time).replace('T', " ").chars().take(16).collect())
+}
+
+/// What was practised, and where.
+fn what(session: &Session, scope: Option<&str>) -> String {
+    let title = session.exercises.first().map_or("", |exercise| exercise.title.as_str());
+    let goal = match session.goal {
+        Goal::Free => "free".to_owned(),
+        Goal::Run(points) => format!("run of {points}"),
+        Goal::Exam => "exam".to_owned(),
+        Goal::Game { .. } => "game".to_owned(),
+    };
+    let place = if session.venue == Venue::Table { ", real table" } else { "" };
+    if scope.is_some() || session.goal == Goal::Exam {
+        format!("{goal}{place}")
+    } else {
+        format!("{goal}{place}: {title}")
+    }
+}

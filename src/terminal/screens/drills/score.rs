@@ -1,0 +1,103 @@
+//! The panel of what counts: the goal, the points, the runs.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use super::{percent, write_paragraphs};
+use crate::{
+    drills::{Attempt, Goal, Record, Session, Venue, exam},
+    terminal::{app::App, drills::Turn, look::Look, theme::Theme, widgets::draw_title, words::chance_words},
+};
+
+/// Draws the panel.
+pub fn draw(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let session = turn.told();
+    let venue = if session.venue == Venue::Table { " at a real table" } else { "" };
+    let title =
+        Line::from(vec![Span::styled(goal_words(session.goal), theme.text()), Span::styled(venue, theme.faint())]);
+    let inner = draw_title(&title, area, theme, look, buffer);
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    let top = draw_marks(&session, text, theme, look, buffer);
+    let text = Rect { y: top, height: text.bottom() - top, ..text };
+    let mut paragraphs: Vec<(String, Style)> = lines(&session).into_iter().map(|words| (words, theme.text())).collect();
+    let ever = app.drills().book.score_of(&turn.exercise.name);
+    if let Some(ever) = ever.filter(|ever| ever.tried > session.attempts.len() && session.goal != Goal::Exam) {
+        // What is open is not told here either.
+        let hidden = turn.session.attempts.len() - session.attempts.len();
+        if hidden == 0 {
+            let words = format!("in all: {} of {}, best run {}", ever.made, ever.tried, ever.high_run);
+            paragraphs.push((words, theme.faint()));
+        }
+    }
+    write_paragraphs(&paragraphs, text, look, buffer);
+}
+
+fn goal_words(goal: Goal) -> String {
+    match goal {
+        Goal::Free => "Free repetition".to_owned(),
+        Goal::Run(points) => format!("Run of {points}"),
+        Goal::Exam => "Exam".to_owned(),
+        Goal::Game { innings: 0 } => "Game".to_owned(),
+        Goal::Game { innings: 1 } => "Game of 1 inning".to_owned(),
+        Goal::Game { innings } => format!("Game of {innings} innings"),
+    }
+}
+
+/// The attempts of an exam or the points of a run, a sign each; gives the first row that is left.
+fn draw_marks(session: &Session, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> u16 {
+    let signs = look.pick(["●", "○", "·"], ["x", "o", "."]);
+    let style = [theme.good(), theme.warning(), theme.faint()];
+    let sign = |made: Option<bool>| match made {
+        Some(true) => 0,
+        Some(false) => 1,
+        None => 2,
+    };
+    let marks: Vec<usize> = match session.goal {
+        Goal::Exam => {
+            let done = session.attempts.iter().map(|attempt: &Attempt| sign(Some(attempt.made)));
+            done.chain(std::iter::repeat(2)).take(session.exercises.len()).collect()
+        }
+        Goal::Run(points) => (0..points.min(40)).map(|n| sign((n < session.run()).then_some(true))).collect(),
+        _ => return area.y,
+    };
+    let spans: Vec<Span> = marks.iter().map(|&mark| Span::styled(signs[mark], style[mark])).collect();
+    buffer.set_line(area.x, area.y, &Line::from(spans), area.width);
+    area.y + 1
+}
+
+fn lines(session: &Session) -> Vec<String> {
+    let record = session.record();
+    let Record { tried, made, helped, .. } = record;
+    let mut lines = Vec::new();
+    if session.goal == Goal::Exam {
+        let number = (tried + 1).min(session.exercises.len());
+        lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));
+        if let Some(mark) = exam::mark(session) {
+            let [beginner, club, expert] =
+                [mark.expected.beginner, mark.expected.club, mark.expected.expert].map(|points| format!("{points:.1}"));
+            lines.push(format!("so far a beginner makes {beginner}, club {club}, an expert {expert}"));
+        }
+        return lines;
+    }
+    if tried == 0 {
+        lines.push("no attempt yet".to_owned());
+        return lines;
+    }
+    let average = record.average.map_or(String::new(), |average| format!(", average {average:.2}"));
+    if session.is_game() {
+        lines.push(format!("{made} points in {} innings{average}", record.innings));
+        lines.push(format!("run {}, best {}", session.run(), record.high_run));
+    } else {
+        lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
+        lines.push(format!("run {}, best {}{average}", session.run(), record.high_run));
+    }
+    if helped > 0 {
+        lines.push(format!("{helped} of them with a hint ({})", percent(helped as f64 / tried as f64)));
+    }
+    lines
+}

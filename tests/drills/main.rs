@@ -1,0 +1,6 @@
+//! Practice through the real binary: sessions, scores, positions, and what becomes of them when something goes wrong.
+
+mod common;
+mod kept;
+mod scores;
+mod trouble;
