@@ -8,6 +8,7 @@ use crate::{
     game::Rule,
     learning::policy::kept::{LONGEST_NAME, is_name},
     physics::{CueError, CueInputs},
+    simulation::ShotError,
     table::{Layout, LayoutError, Table, TableError},
 };
 
@@ -145,6 +146,15 @@ pub enum ExerciseError {
     /// Its shot is impossible.
     #[error(transparent)]
     Shot(#[from] CueError),
+}
+
+impl From<ShotError> for ExerciseError {
+    fn from(error: ShotError) -> Self {
+        match error {
+            ShotError::Layout(error) => Self::Layout(error),
+            ShotError::Cue(error) => Self::Shot(error),
+        }
+    }
 }
 
 impl Exercise {

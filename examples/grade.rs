@@ -1,0 +1,69 @@
+//! Measures how hard the exercises of a folder are, and writes it into their files.
+//!
+//! `cargo run --release --example grade -- saves/` plays every shot 10,000 times with the errors of a beginner, a club player
+//! and an expert, and rewrites par and grade. With `--check` it writes nothing, and fails where a file is not what it would
+//! write, or where a shot does not show what its category teaches.
+
+use std::{
+    env,
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use carom::{
+    drills::{LibraryFile, Par, flaws},
+    storage::write_atomic,
+};
+
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let (options, folders): (Vec<String>, Vec<String>) = env::args().skip(1).partition(|word| word.starts_with("--"));
+    let check = match options.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => false,
+        ["--check"] => true,
+        _ => return Err("the only option is --check".into()),
+    };
+    let [folder] = &folders[..] else { return Err("say where the files are: grade [--check] saves/".into()) };
+    let mut is_well = true;
+    for path in files(Path::new(folder))? {
+        is_well &= grade(&path, check)?;
+    }
+    Ok(if is_well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// The JSON files of a folder, by name.
+fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>, std::io::Error>>()?;
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    Ok(paths)
+}
+
+/// Measures the exercises of a file; `false` where a shot does not do what it should, or a check finds another text.
+fn grade(path: &Path, check: bool) -> Result<bool, Box<dyn Error>> {
+    let named = |error: &dyn Error| format!("{}: {error}", path.display());
+    let text = fs::read_to_string(path).map_err(|error| named(&error))?;
+    let mut file = LibraryFile::parse(&text).map_err(|error| named(&error))?;
+    let mut is_well = true;
+    for exercise in &mut file.exercises {
+        for flaw in flaws(exercise).map_err(|error| named(&error))? {
+            println!("{}: not so: {flaw}", exercise.name);
+            is_well = false;
+        }
+        exercise.par = Par::measure(exercise)?;
+        exercise.grade = exercise.par.map_or(0, |par| par.grade());
+        if let Some(Par { beginner, club, expert }) = exercise.par {
+            let (category, name, grade) = (exercise.category, &exercise.name, exercise.grade);
+            println!("{category:14} {name:26} grade {grade}  {beginner:.3} {club:.3} {expert:.3}");
+        }
+    }
+    let measured = file.to_text()?;
+    if measured != text && check {
+        println!("{}: not as measured", path.display());
+    } else if measured != text {
+        write_atomic(path, measured.as_bytes())?;
+    }
+    Ok(is_well && (measured == text || !check))
+}

@@ -1,0 +1,36 @@
+//! How hard an exercise is: what players of the named skills make of its shot.
+
+use super::{Exercise, ExerciseError, Par};
+use crate::coach::{Skill, make_probability};
+
+/// Attempts from which each share is measured; its standard error is at most 0.5 %.
+pub const ATTEMPTS: usize = 10_000;
+
+/// Seed of the attempts' errors.
+pub const SEED: u64 = 2026;
+
+/// Least share that a club player makes in grades 1 to 4; below the last it is grade 5.
+pub const GRADES: [f64; 4] = [0.98, 0.9, 0.75, 0.5];
+
+impl Par {
+    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player; `None` where it has no shot. The shares
+    /// are rounded to a thousandth.
+    ///
+    /// # Errors
+    /// Where the exercise cannot be played.
+    pub fn measure(exercise: &Exercise) -> Result<Option<Self>, ExerciseError> {
+        exercise.validate()?;
+        let table = exercise.table()?;
+        let Some(shot) = exercise.shot else { return Ok(None) };
+        let share = |skill| {
+            let made = make_probability(skill, exercise.rule, &table, &exercise.layout, &shot, ATTEMPTS, SEED);
+            (made.rate * 1e3).round() / 1e3
+        };
+        Ok(Some(Self { beginner: share(Skill::BEGINNER), club: share(Skill::CLUB), expert: share(Skill::EXPERT) }))
+    }
+
+    /// How hard that is, 1 to 5, by what the club player makes.
+    pub fn grade(&self) -> u8 {
+        1 + GRADES.iter().filter(|least| self.club < **least).count() as u8
+    }
+}

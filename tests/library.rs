@@ -1,0 +1,111 @@
+//! The bundled exercises: each can be played, and its shot shows what it teaches.
+
+use std::{collections::HashSet, fs, path::Path};
+
+use carom::{
+    drills::{Category, Exercise, Library, LibraryFile, Par, Technique, decode, encode, flaws, shifted},
+    game::scores,
+    physics::CueInputs,
+};
+
+fn bundled() -> Vec<Exercise> {
+    Library::bundled().unwrap().exercises().to_vec()
+}
+
+#[test]
+fn there_are_enough_of_every_category_and_each_says_what_it_teaches() {
+    let exercises = bundled();
+    assert!(exercises.len() >= 72, "{}", exercises.len());
+    for category in Category::ALL {
+        let of_it: Vec<u8> = exercises.iter().filter(|e| e.category == category).map(|e| e.grade).collect();
+        let least = if category == Category::Own { 0 } else { 9 };
+        assert!(of_it.len() >= least && (least > 0 || of_it.is_empty()), "{category}: {}", of_it.len());
+        assert!(of_it.is_sorted(), "{category} goes from easy to hard: {of_it:?}");
+    }
+    for grade in 1..=5 {
+        assert!(exercises.iter().filter(|e| e.grade == grade).count() >= 5, "grade {grade}");
+    }
+    let names: HashSet<&str> = exercises.iter().map(|e| e.name.as_str()).collect();
+    let titles: HashSet<&str> = exercises.iter().map(|e| e.title.as_str()).collect();
+    assert_eq!((names.len(), titles.len()), (exercises.len(), exercises.len()));
+    for Exercise { name, point, title, tags, .. } in &exercises {
+        assert!(!title.is_empty() && title.len() <= 40, "{name}: {title}");
+        assert!(point.len() >= 40 && point.len() <= 240 && point.ends_with('.'), "{name}: {point}");
+        assert!(!tags.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn every_shot_shows_what_its_category_teaches() {
+    let exercises = bundled();
+    for exercise in &exercises {
+        assert_eq!(flaws(exercise).unwrap(), Vec::<&str>::new(), "{}", exercise.name);
+        assert!(exercise.shot.is_some(), "{}", exercise.name);
+    }
+    let turns = |exercise: &&Exercise| {
+        let table = exercise.table().unwrap();
+        Technique::of(&table, &exercise.layout, &exercise.shot.unwrap()).unwrap().turn.to_degrees() > 90.0
+    };
+    let draws = exercises.iter().filter(|e| e.category == Category::Draw);
+    assert!(draws.filter(turns).count() >= 6);
+}
+
+#[test]
+fn a_shot_that_does_not_show_it_is_found_out() {
+    let library = Library::bundled().unwrap();
+    let changed = |category, change: fn(&mut CueInputs)| {
+        let exercise = library.exercises().iter().find(|e| e.category == category).unwrap();
+        let mut exercise = exercise.clone();
+        change(exercise.shot.as_mut().unwrap());
+        flaws(&exercise).unwrap()
+    };
+    assert!(changed(Category::Draw, |cue| cue.b = 0.0).contains(&"the tip is more than 0.2 R below the centre"));
+    assert!(changed(Category::Side, |cue| cue.a = 0.0).contains(&"it makes the point by its rule"));
+    assert!(changed(Category::FirstCaroms, |cue| cue.phi += 3.0).contains(&"it meets ball 1 first"));
+    let mut named_otherwise = library.get("umbrella").unwrap().clone();
+    named_otherwise.tags = vec!["natural".to_owned()];
+    assert_eq!(flaws(&named_otherwise).unwrap(), ["the course is the pattern's"]);
+}
+
+#[test]
+fn par_is_what_is_measured_and_the_grade_follows_it() {
+    let exercises = bundled();
+    for exercise in &exercises {
+        let par = exercise.par.unwrap();
+        assert_eq!(exercise.grade, par.grade(), "{}", exercise.name);
+        assert!(par.beginner <= par.club && par.club <= par.expert, "{}: {par:?}", exercise.name);
+    }
+    // All of them: the example `grade` with --check.
+    for exercise in exercises.iter().step_by(19) {
+        assert_eq!(Par::measure(exercise).unwrap(), exercise.par, "{}", exercise.name);
+    }
+}
+
+#[test]
+fn the_files_are_written_as_the_program_writes_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("saves");
+    for category in Category::ALL.into_iter().filter(|category| *category != Category::Own) {
+        let text = fs::read_to_string(folder.join(format!("{category}.json"))).unwrap();
+        let file = LibraryFile::parse(&text).unwrap();
+        assert!(file.exercises.iter().all(|exercise| exercise.category == category));
+        assert_eq!(file.to_text().unwrap(), text, "{category}");
+    }
+}
+
+#[test]
+fn every_exercise_is_shared_in_a_line_and_shifted_on_the_table() {
+    for exercise in bundled() {
+        let code = encode(&exercise).unwrap();
+        let shared = decode(&code).unwrap();
+        let table = shared.table().unwrap();
+        assert_eq!((shared.layout, shared.rule, &shared.title), (exercise.layout, exercise.rule, &exercise.title));
+        assert_eq!(shared.tags, exercise.tags);
+        assert!(scores(shared.rule, &table, &shared.layout, &shared.shot.unwrap()), "{}", exercise.name);
+        assert!(code.len() <= 200, "{}: {}", exercise.name, code.len());
+        for repetition in 1..10 {
+            let moved = shifted(&exercise.layout, &table, 1, repetition);
+            moved.validate(&table).unwrap();
+            assert_ne!(moved, exercise.layout);
+        }
+    }
+}
