@@ -1,7 +1,7 @@
 //! A player's skill from results at a real table.
 //!
 //! The player is taken to err like an expert, only so many times as much in all five inputs, and to play the shot that the
-//! coach advised or the exercise teaches. How often the shot of exercise e is made at scale s, p_e(s), is simulated; the
+//! coach advised or the exercise teaches. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
 //! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
 //! are its interval (likelihood ratio, Wilks 1938).
 
@@ -32,7 +32,7 @@ const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
 /// thousand attempts the interval is 40 of them wide.
 const FINER: usize = 32;
 
-/// Simulated strokes for each scale and shot. They are the same errors for all, evenly spread: the curve p_e(s) is smooth,
+/// Simulated strokes for each scale and shot. They are the same errors for all, evenly spread: the curve `p_e(s)` is smooth,
 /// and off by about 1 %.
 const STROKES: usize = 1000;
 
@@ -153,7 +153,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
 }
 
 impl Shot {
-    /// p_e(s) at every scale: never 0 or 1, which a finite number of strokes cannot tell.
+    /// `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot tell.
     fn curve(&self, errors: &[Errors]) -> [f64; SCALES] {
         std::array::from_fn(|index| {
             let skill = Skill::EXPERT.scaled(scale(index as f64 / STEPS as f64));
@@ -262,7 +262,6 @@ mod tests {
             };
             let covered = (0..100).filter(within).count();
             // Of 100 intervals of 95 %, fewer than 88 hold the truth once in 700 times.
-            eprintln!("COVER {scale} {covered}");
             assert!(covered >= 88, "{covered} of 100 at scale {scale}");
         }
     }
