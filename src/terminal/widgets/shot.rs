@@ -73,8 +73,11 @@ pub fn draw_proposal(
         title = vec![Span::styled("Shot", theme.text()), Span::styled(look.pick(" · ", " - "), theme.faint())];
     }
     title.push(Span::styled(words, style));
-    if wide {
-        title.push(Span::styled(format!(" {}", shot.source), theme.faint()));
+    let source = format!(" {}", shot.source);
+    // The rule before the title, and a blank on either side of it.
+    let taken = 3 + title.iter().map(Span::width).sum::<usize>() + source.len();
+    if wide && taken <= usize::from(area.width) {
+        title.push(Span::styled(source, theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
