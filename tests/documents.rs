@@ -82,6 +82,6 @@ fn the_settings_that_are_shown_are_a_file_that_can_be_used_and_mistakes_are_name
     let checked = config(&["config", "--check"]);
     let said = String::from_utf8(checked.stderr).unwrap();
     assert_eq!(checked.status.code(), Some(2));
-    assert!(said.contains("line 2: speed = 80; accepted is 0.1 to 8"), "{said}");
+    assert!(said.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{said}");
     assert!(String::from_utf8(config(&["config"]).stdout).unwrap().contains("theme = \"light\""));
 }

@@ -68,7 +68,7 @@ impl Cli {
             }
             return crate::terminal::talk(table, &settings).map_err(failure);
         }
-        crate::terminal::run(table, None).map_err(failure)
+        crate::terminal::run(table, &settings, &complaints).map_err(failure)
     }
 
     /// Does what the command line asks for.

@@ -1,5 +1,7 @@
 //! What the terminal can show: how many colours and which characters, found out from the environment.
 
+use super::settings::Settings;
+
 /// How many colours the terminal has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -37,16 +39,17 @@ pub struct Look {
 
 impl Look {
     /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`sextant`, `half` or
-    /// `letters`), with which a user whose font lacks sextants chooses once and for all.
-    pub fn detect(variable: impl Fn(&str) -> Option<String>) -> Self {
+    /// `letters`), with which a user whose font lacks sextants chooses once and for all. What the settings say goes before what
+    /// the environment lets guess, and before `NO_COLOR`, but not before `CAROM_GLYPHS`.
+    pub fn detect(variable: impl Fn(&str) -> Option<String>, settings: &Settings) -> Self {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
         let term = set("TERM").unwrap_or_default();
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&set).unwrap_or_default().to_lowercase();
         let unicode = locale.contains("utf-8") || locale.contains("utf8");
-        let depth = if set("NO_COLOR").is_some() || term.starts_with("vt") {
-            Depth::Mono
-        } else {
-            depth(&term, set("COLORTERM").as_deref().unwrap_or_default())
+        let depth = match settings.depth {
+            Some(depth) => depth,
+            None if set("NO_COLOR").is_some() || term.starts_with("vt") => Depth::Mono,
+            None => depth(&term, set("COLORTERM").as_deref().unwrap_or_default()),
         };
         let chosen = set("CAROM_GLYPHS").unwrap_or_default();
         let glyphs = match chosen.as_str() {
@@ -54,6 +57,7 @@ impl Look {
             "letters" => Glyphs::Letters,
             "half" => Glyphs::Half,
             "sextant" => Glyphs::Sextant,
+            _ if settings.glyphs.is_some() => settings.glyphs.unwrap_or(Glyphs::Sextant),
             // The Linux console has 512 glyphs, and sextants are not among them.
             _ if term == "linux" => Glyphs::Half,
             _ => Glyphs::Sextant,
@@ -96,7 +100,9 @@ mod tests {
     use super::*;
 
     fn look(variables: &[(&str, &str)]) -> Look {
-        Look::detect(|name| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned()))
+        let variable =
+            |name: &str| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());
+        Look::detect(variable, &Settings::default())
     }
 
     #[test]
@@ -118,6 +124,23 @@ mod tests {
         assert_eq!(look(&[("TERM", "xterm-kitty")]).depth, Depth::True);
         assert_eq!(look(&[("TERM", "linux"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Half);
         assert_eq!(look(&[("TERM", "vt100")]).depth, Depth::Mono);
+    }
+
+    #[test]
+    fn what_the_user_has_chosen_goes_before_what_is_guessed() {
+        let settings = Settings { depth: Some(Depth::Indexed), glyphs: Some(Glyphs::Half), ..Settings::default() };
+        let look = |chosen: &str| {
+            let variable = |name: &str| match name {
+                "TERM" => Some("xterm".to_owned()),
+                "LANG" => Some("C.UTF-8".to_owned()),
+                "NO_COLOR" => Some("1".to_owned()),
+                "CAROM_GLYPHS" => Some(chosen.to_owned()),
+                _ => None,
+            };
+            Look::detect(variable, &settings)
+        };
+        assert_eq!((look("").depth, look("").glyphs), (Depth::Indexed, Glyphs::Half));
+        assert_eq!(look("sextant").glyphs, Glyphs::Sextant);
     }
 
     #[test]

@@ -83,18 +83,17 @@ pub enum TerminalError {
     Io(#[from] io::Error),
 }
 
-/// Opens the coach on `table` with the balls at `layout`, or in the opening position, until the player quits.
+/// Opens the coach on `table` as the user wants it, until the player quits. The `complaints` about the settings are told.
 ///
 /// # Errors
-/// [`TerminalError`]: no terminal, a layout that is not possible, or a terminal that fails.
-pub fn run(table: Table, layout: Option<Layout>) -> Result<(), TerminalError> {
-    let layout = layout.unwrap_or_else(|| Layout::opening(&table));
-    layout.validate(&table)?;
+/// [`TerminalError`]: no terminal, or one that fails.
+pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Result<(), TerminalError> {
+    let layout = Layout::opening(&table);
     if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
-    let look = Look::detect(|name| std::env::var(name).ok());
-    Ok(runner::run(App::new(table, layout, look, seed())?)?)
+    let app = App::new(table, layout, detect(settings), seed())?;
+    Ok(runner::run(app.with_settings(settings).with_complaints(&Settings::path(), complaints))?)
 }
 
 /// The coach as a conversation in lines, on the standard input and output.
@@ -106,6 +105,11 @@ pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table)?;
     Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), io::stdout().lock(), prompt)?)
+}
+
+/// What the terminal can show.
+fn detect(settings: &Settings) -> Look {
+    Look::detect(|name| std::env::var(name).ok(), settings)
 }
 
 /// Any number does: it only makes random layouts differ from one start to the next.
@@ -126,6 +130,7 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
     if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
-    let look = Look::detect(|name| std::env::var(name).ok());
-    Ok(runner::run(App::watching(look, run.map(Path::to_owned), list.map(Path::to_owned))?)?)
+    let (settings, complaints) = Settings::load(&Settings::path());
+    let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?;
+    Ok(runner::run(app.with_settings(&settings).with_complaints(&Settings::path(), &complaints))?)
 }

@@ -3,7 +3,7 @@
 use crate::simulation::Event;
 
 /// Speeds of playback, the real one in the middle.
-const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
+pub const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 const REAL: usize = 3;
 /// Seconds between two changes of the numbers on the screen while the balls move: nobody reads thirty a second, and
 /// each costs bytes on a slow link.
@@ -32,6 +32,11 @@ impl Playback {
     /// Seconds of the shot in a second of the screen.
     pub fn speed(&self) -> f64 {
         SPEEDS[self.speed]
+    }
+
+    /// Plays at one of [`SPEEDS`]; another changes nothing.
+    pub fn set_speed(&mut self, speed: f64) {
+        self.speed = SPEEDS.iter().position(|known| *known == speed).unwrap_or(self.speed);
     }
 
     /// The next higher speed.

@@ -22,10 +22,6 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Time that the coach may think. A quarter of it finds an expert three-cushion shots that are made 98 times of 100; the rest
-/// is for players who err more and for the next point, and no longer than a player looks at the table.
-const BUDGET: Duration = Duration::from_secs(1);
-
 /// Time that a search is given where simulations are to end it.
 const NO_HURRY: Duration = Duration::from_secs(3600);
 
@@ -55,6 +51,8 @@ pub struct Job {
     pub tutor: Tutor,
     /// Which shot is to be studied; without one the coach is to find one.
     pub shot: Option<CueInputs>,
+    /// Time that the coach may think.
+    pub budget: Duration,
     /// Seed of the coach's random numbers.
     pub seed: u64,
     /// Set when nobody waits for the answer any more.
@@ -120,7 +118,7 @@ impl Office {
             rule,
             skill,
             plan,
-            budget: if self.simulations.is_some() { NO_HURRY } else { BUDGET },
+            budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
             simulations: self.simulations.unwrap_or(u64::MAX),
             seed: job.seed,
             cancel: Arc::clone(&job.cancel),

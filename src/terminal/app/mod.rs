@@ -4,7 +4,10 @@
 
 mod view;
 
-use std::{cell::Cell, path::PathBuf};
+use std::{
+    cell::Cell,
+    path::{Path, PathBuf},
+};
 
 use crossterm::event::{KeyEvent, KeyEventKind};
 use ratatui::Frame;
@@ -13,11 +16,12 @@ use super::{
     coach::CoachScreen,
     drills::{Balls, DrillReport, DrillScreen, Errand},
     keymap::{self, Action, Place, When},
-    look::Look,
+    look::{Depth, Glyphs, Look},
     recommender::{Answer, Job},
     screens,
+    settings::{Complaint, Keys, Settings},
     status::Message,
-    theme::Theme,
+    theme::{Palette, Theme},
     training::{Keeping, Launch, Report, TrainingScreen, Wanted},
 };
 use crate::{
@@ -82,7 +86,12 @@ pub struct App {
     /// The first line of the help when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
     help_end: Cell<u16>,
     look: Look,
+    /// The look with any palette that has colours.
+    full_look: Look,
     theme: Theme,
+    palette: Palette,
+    /// Keys of the user's own.
+    keys: Keys,
 }
 
 impl App {
@@ -99,7 +108,10 @@ impl App {
             help: None,
             help_end: Cell::new(u16::MAX),
             look,
+            full_look: look,
             theme: Theme::new(look.depth),
+            palette: Palette::default(),
+            keys: Keys::default(),
         })
     }
 
@@ -126,6 +138,32 @@ impl App {
         self
     }
 
+    /// The same program as the user wants it.
+    #[must_use]
+    pub fn with_settings(mut self, settings: &Settings) -> Self {
+        self.coach.take_settings(settings);
+        self.keys = settings.keys.clone();
+        self.choose_palette(settings.palette);
+        self
+    }
+
+    /// Says that something is wrong with the settings.
+    #[must_use]
+    pub fn with_complaints(mut self, file: &Path, complaints: &[Complaint]) -> Self {
+        if let Some(first) = complaints.first() {
+            let more = if complaints.len() > 1 { "; carom config --check says more" } else { "" };
+            *self.message_mut() = Some(Message::warning(format!("{}: {first}{more}", file.display())));
+        }
+        self
+    }
+
+    fn choose_palette(&mut self, palette: Palette) {
+        self.palette = palette;
+        let mono = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
+        self.look = if palette == Palette::Mono { mono } else { self.full_look };
+        self.theme = Theme::of(palette, self.look.depth);
+    }
+
     /// A key was pressed.
     pub fn handle(&mut self, key: &KeyEvent) -> Option<Effect> {
         if key.kind == KeyEventKind::Release {
@@ -141,7 +179,7 @@ impl App {
                 return None;
             }
         }
-        let found = keymap::find(key, self.place(), |when| self.refusal(when))?;
+        let found = keymap::find(&self.keys.translate(key), self.place(), |when| self.refusal(when))?;
         *self.message_mut() = None;
         match found {
             Ok(action) => self.update(action),
@@ -166,7 +204,16 @@ impl App {
                 let end = self.help_end.get();
                 self.help = self.help.map(|top| top.min(end).saturating_add_signed(lines).min(end));
             }
-            Action::NextGlyphs => self.look = self.look.with_next_glyphs(),
+            Action::NextGlyphs => {
+                self.look = self.look.with_next_glyphs();
+                if self.palette != Palette::Mono {
+                    self.full_look = self.look;
+                }
+            }
+            Action::NextPalette => {
+                self.choose_palette(self.palette.next());
+                *self.message_mut() = Some(Message::plain(format!("theme: {}", self.palette)));
+            }
             Action::OpenTraining => {
                 // What nobody watches does not play on.
                 self.coach.playback.pause();

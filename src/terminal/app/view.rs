@@ -6,8 +6,8 @@ use super::{App, Mode, Screen};
 use crate::{
     table::{Layout, Table},
     terminal::{
-        coach::CoachScreen, drills::DrillScreen, look::Look, playback::Playback, shot::Shot, status::Message,
-        theme::Theme, training::TrainingScreen,
+        coach::CoachScreen, drills::DrillScreen, look::Look, playback::Playback, settings::Keys, shot::Shot,
+        status::Message, theme::Theme, training::TrainingScreen,
     },
 };
 
@@ -107,6 +107,11 @@ impl App {
     /// What the terminal can show.
     pub const fn look(&self) -> Look {
         self.look
+    }
+
+    /// Keys of the user's own.
+    pub const fn keys(&self) -> &Keys {
+        &self.keys
     }
 
     /// The colours.

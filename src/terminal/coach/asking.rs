@@ -56,6 +56,7 @@ impl CoachScreen {
             layout: *self.layout(),
             tutor: self.tutor.clone(),
             shot,
+            budget: self.budget,
             seed: self.questions,
             cancel: Arc::default(),
         }

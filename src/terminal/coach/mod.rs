@@ -6,7 +6,7 @@ mod actions;
 mod advised;
 mod asking;
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -18,6 +18,7 @@ use super::{
     history::History,
     keymap::CoachWhen,
     playback::Playback,
+    settings::Settings,
     shot::Shot,
     status::Message,
 };
@@ -29,7 +30,7 @@ use crate::{
 pub use advised::{Advised, Choice};
 
 /// Step sizes of the arrow keys, mm; Shift makes them ten times larger, Ctrl ten times smaller.
-const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
+pub const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
 const FIRST_STEP: usize = 2;
 /// Seconds a picture of the spinner stays.
 const SPINNER_INTERVAL: f64 = 0.1;
@@ -86,6 +87,8 @@ pub struct CoachScreen {
     pub view: View,
     balls: History<Position>,
     step: usize,
+    /// Time that the coach may think.
+    budget: Duration,
     pending: Option<Pending>,
     studying: Option<Studying>,
     questions: u64,
@@ -109,11 +112,21 @@ impl CoachScreen {
             view: View::default(),
             balls: History::new(Position { layout, advised: None }),
             step: FIRST_STEP,
+            budget: Duration::from_millis(Settings::default().think_ms),
             pending: None,
             studying: None,
             questions: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
+    }
+
+    /// Begins as the user wants it.
+    pub fn take_settings(&mut self, settings: &Settings) {
+        let Settings { rule, skill, plan, .. } = *settings;
+        self.tutor = Tutor { rule, skill, plan, ..self.tutor.clone() };
+        self.budget = Duration::from_millis(settings.think_ms);
+        self.step = STEPS.iter().position(|step| *step == settings.step_mm).unwrap_or(FIRST_STEP);
+        self.playback.set_speed(settings.speed);
     }
 
     /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.

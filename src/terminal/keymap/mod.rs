@@ -30,6 +30,8 @@ pub enum Action {
     ScrollHelp(i16),
     /// Draws the table with the next simpler set of characters.
     NextGlyphs,
+    /// Shows the next of the themes.
+    NextPalette,
     /// Opens the training screen.
     OpenTraining,
     /// Opens the library of exercises.
@@ -204,6 +206,7 @@ const HELP: &[Binding] = &[
 const PROGRAM: &[Binding] = &[
     entry(Program, When::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
     entry(Program, When::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
+    entry(Program, When::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
     entry(Program, When::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     entry(Program, When::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
 ];

@@ -98,7 +98,7 @@ fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
         }
         lines.push(Line::styled(section.title(), theme.good()));
         for binding in own {
-            let keys = keys_text(binding.keys.iter().map(|(chord, _)| *chord), look);
+            let keys = keys_text(binding.keys.iter().flat_map(|(chord, _)| app.keys().for_work_of(*chord)), look);
             let description = wrap(binding.description, width.saturating_sub(KEYS + 2));
             for (n, words) in description.into_iter().enumerate() {
                 let keys = if n == 0 { keys.as_str() } else { "" };

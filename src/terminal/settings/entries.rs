@@ -3,7 +3,11 @@
 use toml::de::DeValue;
 
 use super::Settings;
-use crate::terminal::look::{Depth, Glyphs};
+use crate::terminal::{
+    coach::STEPS,
+    look::{Depth, Glyphs},
+    playback::SPEEDS,
+};
 
 /// One key of the file.
 pub struct Entry {
@@ -99,16 +103,16 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         key: "step_mm",
         about: "How far an arrow key moves a ball, in millimetres.",
-        accepted: "0.1 to 100",
+        accepted: "1, 5, 10, 50 or 100",
         get: |settings| decimal(settings.step_mm),
-        set: |settings, value| Some(settings.step_mm = number(value, 0.1, 100.0)?),
+        set: |settings, value| Some(settings.step_mm = one_of(value, &STEPS)?),
     },
     Entry {
         key: "speed",
         about: "How fast shots are played, 1 as on the table.",
-        accepted: "0.1 to 8",
+        accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
         get: |settings| decimal(settings.speed),
-        set: |settings, value| Some(settings.speed = number(value, 0.1, 8.0)?),
+        set: |settings, value| Some(settings.speed = one_of(value, &SPEEDS)?),
     },
 ];
 
@@ -125,6 +129,11 @@ fn decimal(value: f64) -> String {
 fn number(value: &DeValue, least: f64, most: f64) -> Option<f64> {
     let text = value.as_integer().map(|n| n.as_str()).or_else(|| value.as_float().map(|x| x.as_str()))?;
     text.replace('_', "").parse().ok().filter(|number| (least..=most).contains(number))
+}
+
+/// One of some numbers.
+fn one_of(value: &DeValue, accepted: &[f64]) -> Option<f64> {
+    number(value, f64::MIN, f64::MAX).filter(|number| accepted.contains(number))
 }
 
 fn named<T: Copy>(names: &[(&str, T)], text: &str) -> Option<T> {

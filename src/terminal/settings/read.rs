@@ -125,7 +125,7 @@ mod tests {
         assert_ne!(settings.keys, Settings::default().keys);
         let said: Vec<String> = complaints.iter().map(ToString::to_string).collect();
         assert_eq!(complaints.iter().map(|complaint| complaint.line).collect::<Vec<_>>(), [2, 3, 5, 6, 8].map(Some));
-        assert!(said[0].contains("speed = 9.5") && said[0].contains("0.1 to 8"), "{said:?}");
+        assert!(said[0].contains("speed = 9.5") && said[0].contains("4 or 8"), "{said:?}");
         assert!(said[2].contains("tempo") && said[2].contains("think_ms"), "{said:?}");
         assert!(said[4].contains("Hyper-x"), "{said:?}");
     }

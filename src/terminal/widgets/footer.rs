@@ -111,7 +111,10 @@ pub fn draw_hints(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn hint(app: &App, binding: &Binding) -> Option<Line<'static>> {
     let (words, keys) = binding.hint?;
-    let keys = keys_text(binding.keys.iter().take(keys).map(|(chord, _)| *chord), app.look());
+    let keys = keys_text(
+        binding.keys.iter().take(keys).flat_map(|(chord, _)| app.keys().for_work_of(*chord).take(1)),
+        app.look(),
+    );
     Some(Line::from(vec![
         Span::styled(keys, app.theme().accent()),
         Span::styled(format!(" {words}"), app.theme().faint()),
