@@ -1,6 +1,6 @@
 //! The folders of this user, as the platform wants them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 
@@ -17,19 +17,28 @@ pub struct Places {
     pub positions: PathBuf,
     /// The file of the user's own skill.
     pub player: PathBuf,
+    /// What the last session of the screen left.
+    pub last: PathBuf,
+    /// What happened, line by line.
+    pub log: PathBuf,
 }
 
 impl Places {
-    /// The folders under the platform's data directory; where the user has no home, under the working directory.
+    /// The folders under the platform's data directory, and those of its state directory where the platform has one; where
+    /// the user has no home, under the working directory.
     pub fn of_this_user() -> Self {
-        let data = ProjectDirs::from("", "", "carom")
-            .map_or_else(|| PathBuf::from("carom-data"), |dirs| dirs.data_dir().to_owned());
+        let [data, state] = ProjectDirs::from("", "", "carom").map_or_else(
+            || [PathBuf::from("carom-data"), PathBuf::from("carom-data")],
+            |dirs| [dirs.data_dir(), dirs.state_dir().unwrap_or_else(|| dirs.data_local_dir())].map(Path::to_owned),
+        );
         Self {
             runs: data.join("runs"),
             policies: data.join("policies"),
             sessions: data.join("sessions"),
             positions: data.join("positions"),
             player: data.join("player.json"),
+            last: state.join("last.json"),
+            log: state.join("carom.log"),
         }
     }
 }

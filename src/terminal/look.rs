@@ -52,12 +52,12 @@ impl Look {
             None => depth(&term, set("COLORTERM").as_deref().unwrap_or_default()),
         };
         let chosen = set("CAROM_GLYPHS").unwrap_or_default();
-        let glyphs = match chosen.as_str() {
+        let glyphs = match (chosen.as_str(), settings.glyphs) {
             _ if !unicode || depth == Depth::Mono => Glyphs::Letters,
-            "letters" => Glyphs::Letters,
-            "half" => Glyphs::Half,
-            "sextant" => Glyphs::Sextant,
-            _ if settings.glyphs.is_some() => settings.glyphs.unwrap_or(Glyphs::Sextant),
+            ("letters", _) => Glyphs::Letters,
+            ("half", _) => Glyphs::Half,
+            ("sextant", _) => Glyphs::Sextant,
+            (_, Some(glyphs)) => glyphs,
             // The Linux console has 512 glyphs, and sextants are not among them.
             _ if term == "linux" => Glyphs::Half,
             _ => Glyphs::Sextant,

@@ -15,6 +15,8 @@ mod geometry;
 mod history;
 mod inbox;
 mod keymap;
+mod last;
+mod log;
 mod look;
 mod pace;
 mod painter;
@@ -44,6 +46,7 @@ use std::{
 use crate::{
     coach::Coach,
     learning::PolicyError,
+    storage::Places,
     table::{Layout, LayoutError, Table},
 };
 
@@ -56,6 +59,7 @@ pub use geometry::Mapping;
 pub use keymap::{
     Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, Place, TrainingAction, TrainingWhen, When,
 };
+pub use last::Last;
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Job, Office, Tidings};
 pub use settings::{Complaint, Keys, Settings};
@@ -92,8 +96,12 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Resul
     if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
-    let app = App::new(table, layout, detect(settings), seed())?;
-    Ok(runner::run(app.with_settings(settings).with_complaints(&Settings::path(), complaints))?)
+    let places = Places::of_this_user();
+    let app = App::new(table, layout, detect(settings), seed())?
+        .with_settings(settings)
+        .with_last(Last::load(&places.last))
+        .with_complaints(&Settings::path(), complaints);
+    Ok(runner::run(app, places)?)
 }
 
 /// The coach as a conversation in lines, on the standard input and output.
@@ -131,6 +139,8 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
         return Err(TerminalError::NoTerminal);
     }
     let (settings, complaints) = Settings::load(&Settings::path());
-    let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?;
-    Ok(runner::run(app.with_settings(&settings).with_complaints(&Settings::path(), &complaints))?)
+    let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
+        .with_settings(&settings)
+        .with_complaints(&Settings::path(), &complaints);
+    Ok(runner::run(app, Places::of_this_user())?)
 }

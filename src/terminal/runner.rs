@@ -12,18 +12,27 @@ use signal_hook::{
     low_level::emulate_default_handler,
 };
 
+use tracing::{info, warn};
+
 use super::{
     app::{App, Effect},
     errands::Errands,
     inbox::{self, News},
+    last::Last,
+    log,
     pace::Pace,
     recommender::{self, Answer, Job, Tidings},
     session::Session,
+    status::Message,
     training::Report,
 };
+use crate::storage::Places;
 
 /// Least time between two pictures; keys that come faster are drained and drawn together.
 const LEAST_INTERVAL: Duration = Duration::from_millis(15);
+
+/// Least time between two times that the session is written down.
+const REMEMBERED: Duration = Duration::from_secs(2);
 
 /// Whether the loop goes on.
 enum Next {
@@ -37,7 +46,10 @@ enum Next {
 ///
 /// # Errors
 /// What the terminal answers.
-pub fn run(app: App) -> io::Result<()> {
+pub fn run(app: App, places: Places) -> io::Result<()> {
+    // Without a log the program is as good.
+    let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
+    info!(version = env!("CARGO_PKG_VERSION"), look = ?app.look(), "the screen opens");
     let (to_screen, news) = inbox::open()?;
     let session = Session::start()?;
     let errands = Errands::new(to_screen.clone());
@@ -45,8 +57,11 @@ pub fn run(app: App) -> io::Result<()> {
         // A screen that is gone needs no answer.
         let _ = to_screen.send(News::Answer(answer));
     })?;
-    let mut runner = Runner { app, session, jobs, errands };
+    let remembered = (None, Instant::now());
+    let mut runner = Runner { app, session, jobs, errands, places, remembered, logged: None };
     let end = runner.until_the_end(&news);
+    runner.remember(true);
+    info!(?end, "the screen closes");
     let left = runner.session.leave();
     match end? {
         // The parent is to see that a signal ended the program, even where the terminal is gone already.
@@ -69,6 +84,11 @@ struct Runner {
     session: Session,
     jobs: Sender<Box<Job>>,
     errands: Errands,
+    places: Places,
+    /// What was last remembered of the session, and when.
+    remembered: (Option<Last>, Instant),
+    /// The refusal or failure that was last written down.
+    logged: Option<Message>,
 }
 
 impl Runner {
@@ -113,6 +133,34 @@ impl Runner {
             }
             self.draw()?;
             pace.drew(Instant::now());
+            self.remember(false);
+            self.write_down();
+        }
+    }
+
+    /// Writes down what the next session may go on from, at the end and now and then: a crash costs a few seconds of it.
+    fn remember(&mut self, at_the_end: bool) {
+        let (before, when) = &self.remembered;
+        if !at_the_end && when.elapsed() < REMEMBERED {
+            return;
+        }
+        let last = self.app.last();
+        if let Some(last) = last.as_ref().filter(|_| last != *before)
+            && let Err(error) = last.save(&self.places.last)
+        {
+            warn!(%error, path = %self.places.last.display(), "the session cannot be remembered");
+        }
+        self.remembered = (last, Instant::now());
+    }
+
+    /// Writes refusals and failures down that were shown.
+    fn write_down(&mut self) {
+        let message = self.app.message().filter(|message| message.is_warning());
+        if message != self.logged.as_ref() {
+            self.logged = message.cloned();
+            if let Some(message) = message {
+                warn!("{}", message.text);
+            }
         }
     }
 

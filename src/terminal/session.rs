@@ -127,6 +127,7 @@ fn restore_on_panic() {
     let screen = thread::current().id();
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
+        tracing::error!("{info}");
         if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
             let _ = execute!(io::stdout(), EndSynchronizedUpdate, DisableBracketedPaste, LeaveAlternateScreen, Show);

@@ -39,6 +39,8 @@ pub fn places(folder: &TempDir) -> Places {
         sessions: path("sessions"),
         positions: path("positions"),
         player: path("player.json"),
+        last: folder.path().join("last.json"),
+        log: folder.path().join("carom.log"),
     }
 }
 

@@ -16,6 +16,7 @@ use super::{
     coach::CoachScreen,
     drills::{Balls, DrillReport, DrillScreen, Errand},
     keymap::{self, Action, Place, When},
+    last::Last,
     look::{Depth, Glyphs, Look},
     recommender::{Answer, Job},
     screens,
@@ -145,6 +146,18 @@ impl App {
         self.keys = settings.keys.clone();
         self.choose_palette(settings.palette);
         self
+    }
+
+    /// The same program with the way back to where the last session ended.
+    #[must_use]
+    pub fn with_last(mut self, last: Option<Last>) -> Self {
+        self.coach.offer(last);
+        self
+    }
+
+    /// What the next session may go on from; `None` where nothing has been done that is worth it.
+    pub fn last(&self) -> Option<Last> {
+        self.coach.last()
     }
 
     /// Says that something is wrong with the settings.

@@ -50,6 +50,7 @@ impl CoachScreen {
             Action::NextView => self.view = self.view.next(),
             Action::NextShot => self.choose(true),
             Action::PreviousShot => self.choose(false),
+            Action::Resume => self.resume(),
             Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
             other => self.play(other),
         }

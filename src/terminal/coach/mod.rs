@@ -17,6 +17,7 @@ use super::{
     app::Mode,
     history::History,
     keymap::CoachWhen,
+    last::Last,
     playback::Playback,
     settings::Settings,
     shot::Shot,
@@ -86,6 +87,8 @@ pub struct CoachScreen {
     /// What the panels show.
     pub view: View,
     balls: History<Position>,
+    /// Where the last session ended, until it is gone on with.
+    before: Option<Last>,
     step: usize,
     /// Time that the coach may think.
     budget: Duration,
@@ -111,6 +114,7 @@ impl CoachScreen {
             tutor: Tutor::default(),
             view: View::default(),
             balls: History::new(Position { layout, advised: None }),
+            before: None,
             step: FIRST_STEP,
             budget: Duration::from_millis(Settings::default().think_ms),
             pending: None,
@@ -118,6 +122,29 @@ impl CoachScreen {
             questions: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
+    }
+
+    /// Offers to go on from where the last session ended, if that is somewhere else.
+    pub fn offer(&mut self, last: Option<Last>) {
+        self.before = last.filter(|last| last.layout != *self.layout() || last.table != self.table);
+        if self.before.is_some() {
+            self.message = Some(Message::plain("c goes on from where the last session ended"));
+        }
+    }
+
+    /// What the next session may go on from; `None` while the balls lie as at the start.
+    pub fn last(&self) -> Option<Last> {
+        let Tutor { rule, skill, plan, .. } = self.tutor;
+        let is_begun = self.balls.can_undo() || self.balls.present().advised.is_some();
+        is_begun.then(|| Last::new(self.table.clone(), *self.layout(), rule, skill, plan))
+    }
+
+    /// Goes on from where the last session ended.
+    pub(super) fn resume(&mut self) {
+        let Some(last) = self.before.take() else { return };
+        self.take_position(&last.table, last.layout, last.rule);
+        self.tutor = Tutor { skill: last.skill, plan: last.plan, ..self.tutor.clone() };
+        self.message = Some(Message::good("this is where the last session ended; Enter asks the coach"));
     }
 
     /// Begins as the user wants it.
@@ -218,6 +245,7 @@ impl CoachScreen {
                 "there is no other shot to choose",
             ),
             CoachWhen::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
+            CoachWhen::Interrupted => refuse(self.before.is_none(), "there is no earlier session to go on with"),
             CoachWhen::Trained => refuse(self.tutor.policy.is_none(), "the bundled weights are asked already"),
             CoachWhen::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }

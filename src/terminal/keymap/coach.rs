@@ -68,6 +68,8 @@ pub enum CoachAction {
     PreviousShot,
     /// Asks the bundled policies again.
     Bundled,
+    /// Goes on from where the last session ended.
+    Resume,
 }
 
 /// When a binding of the coach may be used.
@@ -93,6 +95,8 @@ pub enum CoachWhen {
     Redoable,
     /// Where a policy is asked that somebody has trained.
     Trained,
+    /// Where an earlier session can be gone on with.
+    Interrupted,
 }
 
 const fn bind(
@@ -125,6 +129,7 @@ use CoachWhen as W;
 pub const COACH: &[Binding] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
+    bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("last session", 1)), "go on from where the last session ended"),
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
