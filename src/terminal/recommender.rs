@@ -8,7 +8,7 @@ use std::{
         mpsc::{Receiver, Sender, channel},
     },
     thread,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use super::{
@@ -21,6 +21,10 @@ use crate::{
     physics::CueInputs,
     table::{Layout, Table},
 };
+
+/// Least time between two better shots that are told: each moves all paths on the screen, which is 3 KB on a slow link, and
+/// nobody follows more of them.
+const TELLING: Duration = Duration::from_millis(250);
 
 /// Time that a search is given where simulations are to end it.
 const NO_HURRY: Duration = Duration::from_secs(3600);
@@ -124,7 +128,12 @@ impl Office {
             cancel: Arc::clone(&job.cancel),
             ..Request::default()
         };
+        let (is_hurried, mut told) = (self.simulations.is_none(), None);
         let tell = |better: &Improvement| {
+            if is_hurried && told.is_some_and(|told: Instant| told.elapsed() < TELLING) {
+                return;
+            }
+            told = Some(Instant::now());
             // What cannot be shown is not told; the answer will say why.
             let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
             tell(Proposal {
