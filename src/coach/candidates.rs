@@ -13,13 +13,13 @@ use crate::{
 };
 
 /// Fastest stroke that is recommended, m/s: the thesis' limit (its 4.1.3).
-const MAX_SPEED: f64 = 6.0;
+pub const MAX_SPEED: f64 = 6.0;
 
 /// Slowest stroke that is tried, m/s.
 const MIN_SPEED: f64 = 0.4;
 
 /// Steepest cue that is tried, rad: 30°, beyond which a stroke is a massé.
-const MAX_ELEVATION: f64 = PI / 6.0;
+pub const MAX_ELEVATION: f64 = PI / 6.0;
 
 /// Steepest cue of the wide net, rad: 7°, for a player lifts the cue only with a reason.
 const USUAL_ELEVATION: f64 = 0.12;

@@ -2,6 +2,7 @@
 
 use super::{
     Kind, Source, Suggestion,
+    candidates::{MAX_ELEVATION, MAX_SPEED},
     errors::{Errors, spread},
     next::prospect,
     trial::Task,
@@ -69,11 +70,14 @@ pub struct Candidate {
     pub wide: usize,
     /// Probability of the next point, where that counts; else 1.
     pub next: f64,
+    /// What is taken off for a stroke that is hard to play, whatever its errors.
+    pub burden: f64,
 }
 
 impl Candidate {
-    /// `cue` as a candidate, if it makes the point under `rule`.
-    pub fn new(task: &Task, rule: Rule, cue: CueInputs, source: Source) -> Option<Self> {
+    /// `cue` as a candidate, if it makes the point under `rule`; of two that make it as often, the softer and more level one
+    /// is better, by `weight`.
+    pub fn new(task: &Task, rule: Rule, cue: CueInputs, source: Source, weight: f64) -> Option<Self> {
         let course = task.play(&cue)?;
         task.clock.count(1);
         let shot = Suggestion { cue, source };
@@ -84,6 +88,7 @@ impl Candidate {
             made: 0,
             wide: 0,
             next: 1.0,
+            burden: weight * (cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED),
         })
     }
 
@@ -106,7 +111,7 @@ impl Candidate {
     pub fn score(&self) -> f64 {
         let wide = self.tried / 4;
         let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
-        (self.rate() + WORTH_OF_WIDE * share) * self.next
+        (self.rate() + WORTH_OF_WIDE * share) * self.next - self.burden
     }
 }
 

@@ -40,6 +40,12 @@ const LEADERS: usize = 10;
 /// Shots of each kind that stay in, however they stand.
 const OF_EACH_KIND: usize = 3;
 
+/// What the hardest stroke costs against the softest in a shot's score, and what the steepest cue costs: a player is not to
+/// strike with all force and a raised cue for the last percent. Where runs of hundreds of points are at stake, a percent is
+/// much: then it only decides between equals.
+const BURDEN: f64 = 0.01;
+const BURDEN_IN_A_PLAN: f64 = 0.001;
+
 /// Shots of one piece of work: enough that handing it out costs nothing.
 const PIECE: usize = 32;
 
@@ -94,15 +100,20 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// What the hardest stroke and the steepest cue cost.
+    const fn weight(&self) -> f64 {
+        if self.plan { BURDEN_IN_A_PLAN } else { BURDEN }
+    }
+
     /// Judges the net's catch.
     fn haul(&mut self, shots: &[Suggestion]) {
         keep(&mut self.pool, HAUL, OF_EACH_KIND);
         // Who does not come near those who stay in is not looked at twice.
         let bar = self.pool.get(HAUL / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
-        let (task, contest) = (&self.task, &self.contest);
+        let (task, contest, weight) = (&self.task, &self.contest, self.weight());
         let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
         let judge = |shot: &Suggestion| {
-            let candidate = Candidate::new(task, task.rule, shot.cue, shot.source)?;
+            let candidate = Candidate::new(task, task.rule, shot.cue, shot.source, weight)?;
             let candidate = contest.go_on(task, &candidate, FIRST_LOOK)?;
             if candidate.score() < bar { Some(candidate) } else { contest.go_on(task, &candidate, SECOND_LOOK) }
         };
@@ -180,7 +191,8 @@ impl<'a> Search<'a> {
         }
         let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
         // Until it is known, what comes next is what comes after the parent.
-        let mut candidate = Candidate { next: parent.next, ..Candidate::new(task, task.rule, cue, source)? };
+        let mut candidate =
+            Candidate { next: parent.next, ..Candidate::new(task, task.rule, cue, source, self.weight())? };
         for look in LOOKS.into_iter().take_while(|look| *look <= errors) {
             if candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried) {
                 return None;
