@@ -245,7 +245,7 @@ impl DrillScreen {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match when {
             DrillWhen::Here => None,
-            DrillWhen::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; Esc lists all"),
+            DrillWhen::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
             DrillWhen::MarkedOwn => refuse(!self.catalogue.is_own(), "bundled exercises stay; only your own go"),
             DrillWhen::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillWhen::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),

@@ -117,6 +117,6 @@ fn compared(turn: &Turn, watched: &Watched, look: Look) -> Vec<String> {
         None => vec![format!("makes: yours {own}; the coach has found no shot")],
     };
     let added = told(&watched.meant, &watched.outcome.played.stroke, "nothing worth telling");
-    lines.push(format!("your hand added: {added}"));
+    lines.push(format!("your hand: {added}"));
     lines
 }
