@@ -3,10 +3,14 @@
 use std::{collections::HashSet, fs, path::Path};
 
 use carom::{
-    drills::{Category, Exercise, Library, LibraryFile, Par, Technique, decode, encode, flaws, shifted},
+    coach::Skill,
+    drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, Technique, decode, encode, flaws, shifted},
     game::scores,
+    learning::normal_pair,
     physics::CueInputs,
 };
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 fn bundled() -> Vec<Exercise> {
     Library::bundled().unwrap().exercises().to_vec()
@@ -48,6 +52,25 @@ fn every_shot_shows_what_its_category_teaches() {
     };
     let draws = exercises.iter().filter(|e| e.category == Category::Draw);
     assert!(draws.filter(turns).count() >= 6);
+}
+
+#[test]
+fn balls_are_gathered_for_players_too() {
+    for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Gather) {
+        let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+        let gathered = |errors: &[f64; 5]| {
+            let stroke = Skill::EXPERT.stroke(table.radius, &shot, errors);
+            let technique = Technique::of(&table, &exercise.layout, &stroke).unwrap();
+            technique.tally.is_point(exercise.rule) && technique.spread <= GATHERED
+        };
+        let mut errors = || {
+            let [[a, b], [theta, phi], [speed, _]] = std::array::from_fn(|_| normal_pair(&mut rng));
+            [a, b, theta, phi, speed]
+        };
+        let times = (0..200).filter(|_| gathered(&errors())).count();
+        assert!(times >= 120, "{}: {times} of 200", exercise.name);
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ pub const ATTEMPTS: usize = 10_000;
 pub const SEED: u64 = 2026;
 
 /// Least share that a club player makes in grades 1 to 4; below the last it is grade 5.
-pub const GRADES: [f64; 4] = [0.98, 0.9, 0.75, 0.5];
+pub const GRADES: [f64; 4] = [0.995, 0.97, 0.88, 0.65];
 
 impl Par {
     /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player; `None` where it has no shot. The shares
