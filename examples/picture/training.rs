@@ -51,7 +51,7 @@ struct Camera {
 impl Camera {
     fn take(&self) -> Result<App, Box<dyn Error>> {
         let table = Table::default();
-        let places = Places { runs: self.runs.clone(), policies: self.runs.clone() };
+        let places = Places { runs: self.runs.clone(), policies: self.runs.clone(), ..Places::of_this_user() };
         let mut app = App::new(table.clone(), Layout::opening(&table), self.look, 1)?.with_places(places);
         app.handle(&Char('t').into());
         app.receive_report(Report::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));

@@ -40,7 +40,7 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     assert_eq!([&first["positions"], &first["sessions"], &first["known"]], [1, 2, 0]);
     assert_eq!((tried(there.path()), import()["known"].as_u64()), (3, Some(3)));
     assert_eq!(drill(there.path(), &["export"]).out.trim(), fs::read_to_string(file).unwrap().trim());
-    // One attempt more there wins over what is here, and a newer file is refused whole.
+    // Of what has grown there since, the longer is taken; a file of a newer version is refused whole.
     let text = fs::read_to_string(file).unwrap();
     fs::write(file, text.replace("\"version\":1", "\"version\":2")).unwrap();
     let newer = drill(there.path(), &["import", file]);

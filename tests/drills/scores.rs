@@ -149,3 +149,25 @@ fn what_is_wrong_or_not_there_is_named() {
         assert!(outcome.err.contains(word), "{args:?}: {}", outcome.err);
     }
 }
+
+#[test]
+fn an_exam_asks_twenty_exercises_once_and_says_whose_score_it_is() {
+    let folder = folder();
+    let args = ["exam", "--level", "2", "--seed", "8", "--skill", "perfect", "--budget-ms", "200", "--json"];
+    let lines = drill(folder.path(), &[&args[..], &["--coach"]].concat()).json();
+    let attempts = kinds(&lines, "attempt");
+    let names: std::collections::BTreeSet<&str> =
+        attempts.iter().map(|attempt| attempt["exercise"].as_str().unwrap()).collect();
+    assert_eq!((attempts.len(), names.len()), (20, 20));
+    let result = lines.last().unwrap();
+    let points = result["made"].as_u64().unwrap();
+    assert_eq!((&result["over"], &result["nearest"]), (&json!(true), &json!("expert")), "{result}");
+    assert!(points > 15, "a perfect player makes what the coach finds: {points}");
+    // The same seed asks the same; one that ends early is kept as far as it went.
+    let lines = fed(command(folder.path(), &[&["drill"], &args[..]].concat()), "0,0,0,0,1\n").json();
+    assert_eq!(kinds(&lines, "position")[0]["exercise"], attempts[0]["exercise"]);
+    let result = lines.last().unwrap();
+    assert_eq!([&result["tried"], &result["over"]], [&json!(1), &json!(false)]);
+    let text = fed(command(folder.path(), &["drill", "exam"]), "0,0,0,0,1\n").out;
+    assert!(text.contains("(1 of 20 played)"), "{text}");
+}

@@ -25,7 +25,7 @@ fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
     let mut least = 0;
     for kill in 0..12 {
         let before = sessions(folder.path());
-        let args = ["drill", "run", "mine", "--goal", "100000", "--strokes", "100000", "--json"];
+        let args = ["drill", "run", "mine", "--goal", "10000", "--strokes", "10000", "--json"];
         let mut child = command(folder.path(), &args).stdin(Stdio::piped()).spawn().unwrap();
         let mut input = child.stdin.take().unwrap();
         let feeder = std::thread::spawn(move || while writeln!(input, "0,0.3,0,1,4").is_ok() {});

@@ -21,7 +21,7 @@ pub struct TryArgs {
     #[arg(long, allow_hyphen_values = true)]
     shot: String,
     /// Attempts at it.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     repeat: u32,
     /// Shift the balls by half a ball at every repetition but the first.
     #[arg(long)]
@@ -37,7 +37,7 @@ pub struct RunArgs {
     /// The exercise.
     name: String,
     /// Points in a row that end the session.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     goal: u32,
     /// Shift the balls by half a ball at every repetition but the first.
     #[arg(long)]
@@ -46,7 +46,7 @@ pub struct RunArgs {
     #[arg(long)]
     coach: bool,
     /// Attempts after which it ends in any case.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     strokes: u32,
     #[command(flatten)]
     means: Means,

@@ -81,7 +81,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return log.keep();
     }
     if args.results.is_empty() {
-        return log.from_input();
+        return log.read();
     }
     let words: Vec<Word> = args.results.iter().map(|text| Word::read(text)).collect::<Result<_, _>>()?;
     words.iter().try_for_each(|word| log.take(word))?;
@@ -116,7 +116,8 @@ impl Log {
         line(words(&record))
     }
 
-    fn from_input(&mut self) -> Result<(), Failure> {
+    /// Takes results from the standard input, and answers each.
+    fn read(&mut self) -> Result<(), Failure> {
         let mut refused = 0;
         let mut lines = io::stdin().lock().split(b'\n');
         loop {

@@ -1,6 +1,7 @@
 //! `carom drill`: exercises, sessions, scores.
 
 mod attempts;
+mod bout;
 mod desk;
 mod history;
 mod listing;

@@ -77,7 +77,7 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     };
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     keep(
-        Exercise {
+        &Exercise {
             name: args.name.clone(),
             title: args.title.clone().unwrap_or_else(|| args.name.clone()),
             category: Category::Own,
@@ -104,7 +104,7 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
     if let Some(name) = &args.name {
         position.name.clone_from(name);
     }
-    keep(position, args.replace)
+    keep(&position, args.replace)
 }
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
@@ -116,9 +116,9 @@ pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
     line(format_args!("removed {}", args.name))
 }
 
-fn keep(position: Exercise, replaces: bool) -> Result<(), Failure> {
+fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {
     let desk = Desk::open()?;
-    desk.store.save_position(&position, replaces).map_err(|error| match error {
+    desk.store.save_position(position, replaces).map_err(|error| match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
         StoreError::Taken(name) => Failure::failed(format_args!(
             "there is a position \"{name}\" already; --replace saves over it, another name beside it"

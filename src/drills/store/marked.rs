@@ -24,12 +24,18 @@ pub enum MarkError {
     Version(u32),
 }
 
-#[derive(Serialize, Deserialize)]
-struct Marked<F, T> {
-    format: F,
+#[derive(Serialize)]
+struct Marked<'a, T> {
+    format: &'static str,
     version: u32,
     #[serde(flatten)]
-    content: T,
+    content: &'a T,
+}
+
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+    version: u32,
 }
 
 /// The text of a file.
@@ -42,20 +48,17 @@ pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>,
     Ok(bytes)
 }
 
-/// What a file's text holds.
+/// What a file's text holds besides its marks.
 ///
 /// # Errors
 /// [`MarkError`].
 pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T, MarkError> {
-    #[derive(Deserialize)]
-    struct Anything {}
-    let header: Marked<String, Anything> = serde_json::from_slice(text)?;
+    let header: Header = serde_json::from_slice(text)?;
     if header.format != format {
         return Err(MarkError::Format { found: header.format, accepted: format });
     }
     if !(1..=NEWEST).contains(&header.version) {
         return Err(MarkError::Version(header.version));
     }
-    let marked: Marked<String, T> = serde_json::from_slice(text)?;
-    Ok(marked.content)
+    Ok(serde_json::from_slice(text)?)
 }

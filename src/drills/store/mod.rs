@@ -13,6 +13,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use serde::{Deserialize, de::DeserializeOwned};
+
 pub use self::{
     error::StoreError,
     marked::MarkError,
@@ -57,7 +59,7 @@ impl Store {
 
     /// All sessions, the oldest first.
     pub fn sessions(&self) -> Found<Session> {
-        let mut found = read_all(&self.sessions, |path| read_session(path));
+        let mut found = read_all(&self.sessions, read_session);
         found.items.sort_by(|x, y| (x.started, &x.id).cmp(&(y.started, &y.id)));
         found
     }
@@ -71,7 +73,7 @@ impl Store {
         let bytes = marked::write(SESSION, session).map_err(|error| StoreError::file(&path, io::Error::from(error)))?;
         let written = if path.exists() {
             // It was written by this session, or nothing is written.
-            read_session(&path)?;
+            is_called(&path, &read_marked::<SessionName>(&path)?.id)?;
             write_atomic(&path, &bytes)
         } else {
             let created = create_atomic(&path, &bytes);
@@ -84,7 +86,7 @@ impl Store {
 
     /// The player's own positions, by name.
     pub fn positions(&self) -> Found<Exercise> {
-        let mut found = read_all(&self.positions, |path| read_position(path));
+        let mut found = read_all(&self.positions, read_position);
         found.items.sort_by(|x, y| x.name.cmp(&y.name));
         found
     }
@@ -155,10 +157,19 @@ fn file(folder: &Path, name: &str) -> Result<PathBuf, StoreError> {
     }
 }
 
-fn read_session(path: &Path) -> Result<Session, StoreError> {
+/// The part of a session's file that tells whose it is.
+#[derive(Deserialize)]
+struct SessionName {
+    id: String,
+}
+
+fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
     let text = fs::read(path).map_err(|error| StoreError::file(path, error))?;
-    let session: Session =
-        marked::read(SESSION, &text).map_err(|error| StoreError::Mark { path: path.into(), error })?;
+    marked::read(SESSION, &text).map_err(|error| StoreError::Mark { path: path.into(), error })
+}
+
+fn read_session(path: &Path) -> Result<Session, StoreError> {
+    let session: Session = read_marked(path)?;
     is_called(path, &session.id)?;
     Ok(session)
 }

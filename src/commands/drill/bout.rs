@@ -1,0 +1,270 @@
+//! A session that is played stroke by stroke: each is judged, saved, and then told.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::{
+    score::{Score, layout_text, plural, shot_text, words},
+    strokes::{Means, Stroke, line},
+};
+use crate::{
+    coach::Coach,
+    commands::{
+        Failure,
+        input::ByTable,
+        output::{json_line, tell},
+        recommend::coach_for,
+    },
+    drills::{
+        Advice, Exercise, Goal, Par, Session, Store, advise, chance, changes, check, difference,
+        exam::{Mark, mark},
+    },
+    learning::evaluation::SuccessRate,
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// What makes the coach for a table.
+type MakeCoach = fn(Table) -> Result<Coach, Failure>;
+
+/// A session that is being played.
+pub struct Bout<'a> {
+    store: &'a Store,
+    session: Session,
+    means: &'a Means,
+    /// Whether every stroke is compared with the coach's: that takes the coach's time.
+    compares: bool,
+    coaches: ByTable<Coach, MakeCoach>,
+    /// The coach's shot in a layout: while nothing moves, it is looked for once.
+    advice: Option<(Layout, Advice)>,
+    /// The exercise and the layout that were told last.
+    shown: Option<(String, Layout)>,
+}
+
+/// Where the balls lie.
+#[derive(Serialize)]
+struct Position<'a> {
+    kind: &'static str,
+    number: usize,
+    exercise: &'a str,
+    title: &'a str,
+    rule: &'static str,
+    table: &'a str,
+    layout: &'a Layout,
+}
+
+/// What came of a stroke.
+#[derive(Serialize)]
+struct Turn<'a> {
+    kind: &'static str,
+    number: usize,
+    exercise: &'a str,
+    made: bool,
+    verdict: String,
+    helped: bool,
+    run: u32,
+    meant: CueInputs,
+    played: CueInputs,
+    /// How often the player makes what was meant, with its interval.
+    chance: f64,
+    chance_interval: [f64; 2],
+    #[serde(flatten)]
+    advised: Option<Advised>,
+    /// Where the balls came to rest.
+    end: Layout,
+}
+
+/// The coach's shot beside the player's.
+#[derive(Serialize)]
+struct Advised {
+    #[serde(rename = "advised")]
+    cue: CueInputs,
+    #[serde(rename = "advised_chance")]
+    chance: f64,
+    #[serde(rename = "advised_interval")]
+    interval: [f64; 2],
+    /// What was meant less what is advised.
+    difference: CueInputs,
+    /// What to change, in words.
+    changes: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Refused {
+    kind: &'static str,
+    line: usize,
+    error: String,
+}
+
+#[derive(Serialize)]
+struct Outcome {
+    kind: &'static str,
+    session: String,
+    over: bool,
+    #[serde(flatten)]
+    score: Score,
+    /// Of an exam.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    expected: Option<Par>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest: Option<&'static str>,
+}
+
+fn percent(rate: &SuccessRate) -> String {
+    format!("{:.1} %", 100.0 * rate.rate)
+}
+
+impl<'a> Bout<'a> {
+    pub fn new(store: &'a Store, session: Session, means: &'a Means, compares: bool) -> Self {
+        let coaches = ByTable::new((|table| coach_for(table, "bundled")) as MakeCoach);
+        Self { store, session, means, compares, coaches, advice: None, shown: None }
+    }
+
+    /// The session as far as it was played.
+    pub const fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Tells what is to be played, where that is news.
+    pub fn show(&mut self, layout: &Layout) -> Result<(), Failure> {
+        let Some(Exercise { name, title, rule, table, .. }) = self.session.exercise() else { return Ok(()) };
+        let shown = Some((name.clone(), *layout));
+        if shown == self.shown {
+            return Ok(());
+        }
+        let number = self.session.attempts.len() + 1;
+        if self.means.json {
+            let rule = rule.name();
+            json_line(&Position { kind: "position", number, exercise: name, title, rule, table, layout })?;
+        } else {
+            let title = if title == name { String::new() } else { format!("{title}; ") };
+            line(format_args!("{name} ({rule}): {title}balls {}", layout_text(layout)))?;
+        }
+        self.shown = shown;
+        Ok(())
+    }
+
+    /// Plays one stroke; when its result is told, it is safe on the disk.
+    pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: Stroke) -> Result<(), Failure> {
+        let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(()) };
+        let helped = matches!(stroke, Stroke::Coach);
+        if let Stroke::Own(cue) = &stroke {
+            check(table, cue).map_err(Failure::wrong_input)?;
+        }
+        let advice = if helped || self.compares { self.advice(table, layout)? } else { None };
+        let meant = match (stroke, advice) {
+            (Stroke::Own(cue), _) => cue,
+            (Stroke::Coach, Some(advice)) => advice.cue,
+            (Stroke::Coach, None) => {
+                return Err(Failure::failed(format_args!(
+                    "the coach found no point in {} ms; a larger --budget-ms may do",
+                    self.means.budget_ms
+                )));
+            }
+        };
+        let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
+        let share = chance(self.session.skill, rule, table, layout, &meant);
+        if let Some(attempt) = self.session.attempts.last_mut() {
+            attempt.chance = Some(share.rate);
+            attempt.advised = advice.map(|advice| advice.cue);
+            attempt.advised_chance = advice.map(|advice| advice.chance.rate);
+        }
+        self.store.save(&self.session).map_err(Failure::failed)?;
+
+        let number = self.session.attempts.len();
+        let (verdict, run) = (played.verdict(rule), self.session.run());
+        let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
+        if self.means.json {
+            let turn = Turn {
+                kind: "attempt",
+                number,
+                exercise: self.session.attempts.last().map_or("", |attempt| &attempt.exercise),
+                made: played.made,
+                verdict,
+                helped,
+                run,
+                meant,
+                played: played.stroke,
+                chance: share.rate,
+                chance_interval: [share.low, share.high],
+                advised: advice.map(|advice| Advised {
+                    cue: advice.cue,
+                    chance: advice.chance.rate,
+                    interval: [advice.chance.low, advice.chance.high],
+                    difference: difference(&meant, &advice.cue),
+                    changes,
+                }),
+                end: played.end,
+            };
+            return Ok(json_line(&turn)?);
+        }
+        line(format_args!("{number}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
+        if helped {
+            line(format_args!("   the coach played {}", shot_text(&meant)))?;
+        } else if let Some(advice) = advice {
+            let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };
+            let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
+            line(format_args!("   the coach's shot {shot} is made {share} of the time{changes}"))?;
+        }
+        Ok(())
+    }
+
+    fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {
+        if let Some((known, advice)) = &self.advice
+            && known == layout
+        {
+            return Ok(Some(*advice));
+        }
+        let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(None) };
+        let budget = Duration::from_millis(self.means.budget_ms);
+        let coach = self.coaches.get(&table.name)?;
+        let Session { skill, seed, .. } = self.session;
+        let advice = advise(coach, skill, rule, layout, budget, seed).map_err(Failure::wrong_input)?;
+        self.advice = advice.map(|advice| (*layout, advice));
+        Ok(advice)
+    }
+
+    pub fn refuse(&self, number: usize, failure: &Failure) -> Result<(), Failure> {
+        if self.means.json {
+            return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
+        }
+        tell(format_args!("line {number}: {failure}"));
+        Ok(())
+    }
+
+    /// Tells the score.
+    pub fn finish(&self) -> Result<(), Failure> {
+        let session = &self.session;
+        let record = session.record();
+        let mark = mark(session).filter(|_| session.goal == Goal::Exam);
+        if self.means.json {
+            return Ok(json_line(&Outcome {
+                kind: "result",
+                session: session.id.clone(),
+                over: session.is_over(),
+                score: record.into(),
+                expected: mark.map(|mark| mark.expected),
+                nearest: mark.map(|mark| mark.nearest),
+            })?);
+        }
+        line(words(&record))?;
+        match (session.goal, mark) {
+            (Goal::Run(points), _) if session.is_over() => {
+                line(format_args!("the run of {points} is made, after {}", plural(record.tried, "attempt")))
+            }
+            (Goal::Run(points), _) => line(format_args!("the run of {points} is not made yet")),
+            (Goal::Exam, Some(mark)) => line(mark_words(&mark, session.exercises.len())),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn mark_words(Mark { tried, made, expected, nearest }: &Mark, of: usize) -> String {
+    let unfinished = if *tried < of { format!(" ({tried} of {of} played)") } else { String::new() };
+    format!(
+        "score {made} of {tried}{unfinished}; on average a beginner makes {:.1}, a club player {:.1}, an expert {:.1}: \
+         nearest is {nearest}",
+        expected.beginner, expected.club, expected.expert
+    )
+}
