@@ -48,7 +48,7 @@ pub const fn rail_word(rail: Rail) -> &'static str {
 /// What sort of shot it is: the first object ball, the cushions on the way to the second, and how hard. A bank shot comes
 /// off a cushion to the first ball.
 pub fn kind_words(kind: Kind) -> String {
-    let bank = if kind.cushion_first { "bank to " } else { "" };
+    let bank = if kind.cushion_first { "bank " } else { "" };
     let way = match kind.way {
         Way::Direct => "direct",
         Way::OffCushion => "1-2 rails",

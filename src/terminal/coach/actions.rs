@@ -50,10 +50,7 @@ impl CoachScreen {
             Action::NextView => self.view = self.view.next(),
             Action::NextShot => self.choose(true),
             Action::PreviousShot => self.choose(false),
-            Action::Bundled => {
-                let tutor = Tutor { policy: None, ..self.tutor.clone() };
-                self.take_tutor(&self.table.clone(), tutor);
-            }
+            Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
             other => self.play(other),
         }
         None

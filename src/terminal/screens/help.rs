@@ -20,10 +20,17 @@ use crate::{
 const KEYS: usize = 22;
 
 /// Each is a paragraph.
-const COACH_NOTES: [&str; 3] = [
+const COACH_NOTES: [&str; 6] = [
     "Places are measured from the middle of the table, x to the right, y up. The dots are the predicted paths; rings are \
      the first contact and where the balls stop. On a small screen the balls are drawn larger than they are; they roll \
      and touch at their true size.",
+    "Chances are those of the player in the first row, from attempts that took no part in the choice, with their 95 % \
+     interval. Shots that are made less than half as often as the best are not listed.",
+    "Margins: how far one input may be off while the others are as meant, beside the player's standard errors. The maps show \
+     what comes of the stroke over two inputs, left and right as the shooter sees them; the ring is twice the standard \
+     errors.",
+    "The plan: dots show where the balls stop in 100 attempts, as far as they make the point, and the cue ball's way in the \
+     next shot, if all goes as meant.",
     "Tip: the cue ball from behind the cue; in its grey part the tip would slip off.",
     "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
 ];

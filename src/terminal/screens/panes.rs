@@ -1,4 +1,5 @@
-//! Which part of the screen is for what: the arrangement that leaves the table the most room wins.
+//! Which part of the screen is for what: the arrangement that leaves the table the most room wins, by a little for panels
+//! beside it.
 
 use ratatui::layout::Rect;
 
@@ -15,11 +16,17 @@ const BESIDE: (u16, u16) = (16, 36);
 /// Columns of the panels of balls, shot and tip where they stand side by side; the tip's may be wider.
 const INFO_WIDTH: u16 = 39;
 const SHOT_WIDTH: u16 = 33;
-const TIP_WIDTH: (u16, u16) = (16, 20);
-/// Columns that the events need.
-const EVENTS_WIDTH: u16 = 24;
+const TIP_WIDTH: (u16, u16) = (16, 18);
+/// Columns of what other views tell beside them.
+const MORE_WIDTH: u16 = 38;
+/// Columns that the events need for their longest words.
+const EVENTS_WIDTH: u16 = 29;
 /// Columns from which on the events find room beside these three.
-const ALL_BELOW_WIDTH: u16 = INFO_WIDTH + SHOT_WIDTH + TIP_WIDTH.0 + EVENTS_WIDTH;
+const ALL_BELOW_WIDTH: u16 = INFO_WIDTH + SHOT_WIDTH + TIP_WIDTH.0 + EVENTS_WIDTH + 3;
+
+/// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
+/// several panels at once.
+const LARGE: f64 = 0.95;
 
 /// The areas of the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +57,8 @@ impl Panes {
         let below = Self::all_below(table, area);
         let beside = Self::some_beside(table, area);
         let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
-        if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
+        let is_large = f64::from(rows(&below)) >= LARGE * f64::from(rows(&beside));
+        if area.width >= ALL_BELOW_WIDTH && is_large { below } else { beside }
     }
 
     fn frame(area: Rect) -> (Rect, Rect, Rect, Rect) {
@@ -74,9 +82,9 @@ impl Panes {
         };
         let tip = (2 * rows).clamp(TIP_WIDTH.0, TIP_WIDTH.1);
         let taken = INFO_WIDTH + SHOT_WIDTH + tip + 3 + EVENTS_WIDTH;
-        let others = area.width.saturating_sub(taken) / (INFO_WIDTH + 1);
+        let others = area.width.saturating_sub(taken) / (MORE_WIDTH + 1);
         let [info, shot, tip] = [INFO_WIDTH, SHOT_WIDTH, tip].map(&mut panel);
-        let more = [1, 2].map(|n| panel(if n <= others { INFO_WIDTH } else { 0 }));
+        let more = [1, 2].map(|n| panel(if n <= others { MORE_WIDTH } else { 0 }));
         let events = panel(area.width);
         Self { header, table: room, info, more, shot, tip, events, status, hints }
     }

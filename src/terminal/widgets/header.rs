@@ -49,11 +49,14 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
 fn transport(app: &App, bar: usize) -> Line<'static> {
     let (theme, look) = (app.theme(), app.look());
     let playback = app.playback();
+    let is_thinking = app.spinner().is_some();
     let Some(shot) = app.shot() else {
-        return Line::from(Span::styled("placing balls", theme.faint()));
+        let words = if is_thinking { "thinking" } else { "placing balls" };
+        return Line::from(Span::styled(words, theme.faint()));
     };
     let duration = shot.recording.duration();
     let state = match app.mode() {
+        _ if is_thinking => "thinking",
         Mode::Placing => "shot ready",
         Mode::Watching if playback.playing => "playing",
         Mode::Watching => "paused",

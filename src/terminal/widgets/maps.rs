@@ -230,6 +230,7 @@ mod tests {
 
     #[test]
     fn the_corners_of_a_map_are_its_ends() {
+        use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
         let row = |one, other| vec![one, Outcome::Point, other];
         let map = Map {
             across: Input::Side,
@@ -243,7 +244,6 @@ mod tests {
             ],
         };
         let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| at(&map, x, y));
-        use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
         assert_eq!(corners, [NoStroke, NoBall, OneBall, TooFewCushions, Point]);
     }
 }

@@ -135,7 +135,7 @@ impl Row<'_> {
         buffer.set_string(x + 1, y, self.name(), self.theme.faint());
         write_right(buffer, x + 3, x + 8, y, &size(self.margin.less, "-"), self.style());
         write_right(buffer, x + 8, x + 14, y, &size(self.margin.more, "+"), self.style());
-        write_right(buffer, x + 14, x + 19, y, &self.yours, self.theme.faint());
+        write_right(buffer, x + 15, x + 20, y, &self.yours, self.theme.faint());
     }
 }
 

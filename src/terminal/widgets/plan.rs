@@ -18,8 +18,8 @@ use crate::{
     },
 };
 
-/// Signs of an end of a ball and of the cue ball's next way where only letters are drawn.
-const END_LETTER: char = ':';
+/// Signs of the balls' ends and of the cue ball's next way where only letters are drawn.
+const END_LETTERS: [char; BALLS] = ['w', 'y', 'r'];
 const WAY_LETTER: char = '*';
 
 /// What the distances of the stops are.
@@ -84,18 +84,17 @@ fn next_words(choice: &Choice) -> String {
 pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
     let cloud = ends.flat_map(|end| {
-        let spot =
-            |ball: usize| Spot { place: end.balls[ball], is_ball: false, color: theme.balls[ball], letter: END_LETTER };
+        let spot = |ball: usize| Spot {
+            place: end.balls[ball],
+            is_ball: false,
+            color: theme.balls[ball],
+            letter: END_LETTERS[ball],
+        };
         (0..BALLS).map(spot)
     });
     let next = choice.next.as_ref().and_then(|next| next.proposals.first());
     let way = next.into_iter().flat_map(|next| {
-        let spot = |place, is_ball| Spot {
-            place,
-            is_ball,
-            color: theme.accent,
-            letter: if is_ball { 'w' } else { WAY_LETTER },
-        };
+        let spot = |place, is_ball| Spot { place, is_ball, color: theme.accent, letter: WAY_LETTER };
         let dots = next.shot.paths[0].iter().step_by(2).map(move |dot| spot(dot.place, false));
         dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
     });

@@ -73,13 +73,16 @@ pub fn draw_proposal(
         title = vec![Span::styled("Shot", theme.text()), Span::styled(look.pick(" · ", " - "), theme.faint())];
     }
     title.push(Span::styled(words, style));
-    if wide {
-        title.push(Span::styled(format!(" {}", shot.source), theme.faint()));
+    let source = format!(" {}", shot.source);
+    // The rule before the title, and a blank on either side of it.
+    let taken = 3 + title.iter().map(Span::width).sum::<usize>() + source.len();
+    if wide && taken <= usize::from(area.width) {
+        title.push(Span::styled(source, theme.faint()));
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
     let [ahead, behind] = line_of_aim(table, layout, &shot.cue).map(mark);
-    let aim = format!("{behind} {} {ahead}", look.pick("→", ">"));
+    let aim = format!("{behind}{}{ahead}", look.pick("→", ">"));
     draw_rows(shot, aim, table, inner, theme, look, buffer);
 }
 
@@ -113,7 +116,7 @@ fn wide_rows(shot: &Shot, aim: String, radius: f64, look: Look) -> Vec<Row> {
         ("a", value(fixed(cue.a, 3)), offset(cue.a, across_word(cue.a))),
         ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
         (look.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
-        (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + degree), aim),
+        (look.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + look.pick("°", "")), aim),
         ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
         ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
         (
