@@ -40,7 +40,7 @@ pub use errand::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught}
 pub use question::Question;
 pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
-pub use turn::{Stage, Turn, Watched};
+pub use turn::{Lesson, Stage, Turn, Watched};
 
 /// A page of the drill screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -108,12 +108,11 @@ impl Clerk {
 
     fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
         let Position { table, layout, rule, skill, .. } = position;
-        let advice = match position.own {
-            Some(cue) => Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) }),
-            None => {
-                let coach = self.coach(table)?;
-                advise(coach, *skill, *rule, layout, BUDGET, 0).map_err(|error| error.to_string())?
-            }
+        let advice = if let Some(cue) = position.own {
+            Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) })
+        } else {
+            let coach = self.coach(table)?;
+            advise(coach, *skill, *rule, layout, BUDGET, 0).map_err(|error| error.to_string())?
         };
         self.taught = advice.map(|advice| (position.id, advice));
         let taught = advice.map(|advice| {

@@ -6,7 +6,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 use super::{draw_header, panels, panes::Panes, score};
 use crate::terminal::{
     app::App,
-    drills::{Sight, Turn},
+    drills::{Lesson, Sight, Turn},
     look::Look,
     status::Message,
     theme::Theme,
@@ -84,11 +84,11 @@ fn standing(turn: &Turn) -> Message {
     if let Some(verdict) = turn.verdict() {
         return verdict;
     }
-    Message::plain(match (turn.watched().is_some(), &turn.taught) {
+    Message::plain(match (turn.watched().is_some(), &turn.lesson) {
         (true, _) => "the shot is on its way; Enter goes to its end",
-        (false, None) => "set the stroke and play it; the coach is still thinking",
-        (false, Some(None)) => "set the stroke and play it; the coach has found no shot here",
-        (false, Some(Some(_))) if turn.shows_hint => "this is the shot that is taught; the attempt counts as helped",
-        (false, Some(Some(_))) => "set the stroke and play it",
+        (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
+        (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
+        (false, Lesson::Known(_)) if turn.shows_hint => "this is the shot that is taught; the attempt counts as helped",
+        (false, Lesson::Known(_)) => "set the stroke and play it",
     })
 }

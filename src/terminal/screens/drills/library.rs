@@ -104,10 +104,7 @@ fn filter_words(app: &App, found: usize) -> String {
         filter.text.as_ref().map(|text| format!("\"{text}\"")),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
-    match parts.is_empty() {
-        true => format!("All {found}"),
-        false => format!("{found}: {}", parts.join(", ")),
-    }
+    if parts.is_empty() { format!("All {found}") } else { format!("{found}: {}", parts.join(", ")) }
 }
 
 fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer: &mut Buffer) {

@@ -12,7 +12,7 @@ use crate::{
     physics::CueInputs,
     terminal::{
         app::App,
-        drills::{Meets, Sight, Turn, Watched},
+        drills::{Lesson, Meets, Sight, Turn, Watched},
         look::Look,
         widgets::draw_title,
         words::{BALL_NAMES, fixed, rail_name},
@@ -81,12 +81,9 @@ fn sight_words(sight: &Sight) -> String {
     let way = fixed(100.0 * sight.way, 0);
     match sight.meets {
         Meets::Ball(hit) => {
-            let side = match hit.left {
-                // Head-on has no side.
-                _ if hit.fullness > FULL => "",
-                true => ", left side",
-                false => ", right side",
-            };
+            // Head-on has no side.
+            let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
+            let side = sides[usize::from(hit.left)];
             format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(rail, diamond) => {
@@ -99,22 +96,22 @@ fn sight_words(sight: &Sight) -> String {
 fn compared(turn: &Turn, watched: &Watched, look: Look) -> Vec<String> {
     let told = |from: &CueInputs, to: &CueInputs, none: &str| {
         let words = changes(&turn.table, from, to).join(", ");
-        match words.is_empty() {
-            true => none.to_owned(),
-            false if look.unicode => words,
-            false => words.replace('°', " deg"),
+        match words.as_str() {
+            "" => none.to_owned(),
+            _ if look.unicode => words,
+            _ => words.replace('°', " deg"),
         }
     };
     let own = watched.chance.map_or_else(|| look.pick("…", "...").to_owned(), percent);
-    let mut lines = match turn.lesson() {
-        Some(taught) => {
+    let mut lines = match &turn.lesson {
+        Lesson::Known(taught) => {
             let whose = if taught.is_own { "taught" } else { "coach" };
             let advice = &taught.advice;
             let changes = told(&watched.meant, &advice.cue, "no change worth telling");
             vec![format!("makes: yours {own}, {whose} {}", percent(advice.chance.rate)), format!("{whose}: {changes}")]
         }
-        None if turn.taught.is_none() => vec![format!("makes: yours {own}, the coach is still thinking")],
-        None => vec![format!("makes: yours {own}; the coach has found no shot")],
+        Lesson::Pending => vec![format!("makes: yours {own}, the coach is still thinking")],
+        Lesson::Missing => vec![format!("makes: yours {own}; the coach has found no shot")],
     };
     let added = told(&watched.meant, &watched.outcome.played.stroke, "nothing worth telling");
     lines.push(format!("your hand: {added}"));
