@@ -235,6 +235,8 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     let folder = tempfile::tempdir().unwrap();
     let player = Player::at_coach(TRUE_COLOUR, folder).press("Right s");
     check("save", &player);
+    assert_eq!(player.press("Esc").app.place(), Place::Coach);
+    let player = Player::at_coach(TRUE_COLOUR, tempfile::tempdir().unwrap()).press("Right s");
     let refused = player.type_in("??").press("Enter");
     refused.says("makes no name");
     let saved = refused.press("Backspace Backspace").type_in("My corner #draw #hard").press("Enter");
@@ -265,7 +267,7 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
 
 #[test]
 fn a_code_that_was_cut_is_refused_and_can_be_mended() {
-    let mut player = Player::with(TRUE_COLOUR, &[], &[]).press("a");
+    let mut player = Player::with(TRUE_COLOUR, &[], &[]).press("Left a");
     let code = carom::drills::encode(&exercise("opening", "From the opening")).unwrap();
     player.app.paste(&code[..code.len() - 3]);
     let refused = player.press("Enter");

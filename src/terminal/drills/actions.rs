@@ -114,9 +114,13 @@ impl DrillScreen {
     }
 
     fn share(&mut self) -> Option<Effect> {
-        match encode(self.catalogue.marked()?) {
+        let exercise = self.catalogue.marked()?;
+        match encode(exercise) {
             Ok(code) => {
-                self.message = Some(Message::plain(format!("{code} is copied where the terminal allows it")));
+                self.message = Some(Message::plain(format!(
+                    "{code} is copied where the terminal allows it; carom drill share {} prints it",
+                    exercise.name
+                )));
                 Some(Effect::Copy(code))
             }
             Err(error) => {
@@ -145,8 +149,11 @@ impl DrillScreen {
     }
 
     fn no(&mut self) {
-        if let Some(Question::Search(_)) = self.question.take() {
-            self.catalogue.find_text("");
+        match self.question.take() {
+            Some(Question::Search(_)) => self.catalogue.find_text(""),
+            // One has come from the coach for this alone.
+            Some(Question::Name(..)) => self.pages.clear(),
+            _ => {}
         }
     }
 

@@ -169,7 +169,10 @@ impl DrillScreen {
         };
         let effect = self.open(skill);
         match position.table() {
-            Ok(known) if known == table => self.question = Some(Question::Name(String::new(), Box::new(position))),
+            Ok(known) if known == table => {
+                self.catalogue.show_own("");
+                self.question = Some(Question::Name(String::new(), Box::new(position)));
+            }
             _ => {
                 let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
                 self.message = Some(Message::warning(words));

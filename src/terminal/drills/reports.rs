@@ -134,8 +134,7 @@ impl DrillScreen {
         let own = self.own().filter(|own| own.name != exercise.name).cloned();
         let own = own.chain([exercise.clone()]).collect();
         self.take_own(own);
-        self.catalogue.show_all();
-        self.catalogue.mark_named(&exercise.name);
+        self.catalogue.show_own(&exercise.name);
         self.message = Some(Message::good(format!("saved as {}", exercise.name)));
     }
 }

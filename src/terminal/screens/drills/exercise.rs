@@ -64,10 +64,11 @@ fn about(turn: &Turn, look: Look) -> String {
 fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
     let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke.phi));
     let dot = look.pick('·', '.');
+    let sign = cue_sign(ahead, look);
     let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };
     let steps =
         |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
-    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, look.pick('─', '-')));
+    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, sign));
     let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
     let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();
     // The ball at the end of the line is drawn over it.
@@ -75,6 +76,14 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
     let line = line.map(|way| spot(start + way * ahead, theme.paths[0], dot));
     let ghost = Spot { place: sight.end, is_ball: true, color: theme.paths[0], letter: 'w' };
     cue.filter(on_table).chain(line).chain([ghost]).collect()
+}
+
+/// The sign of a line in this direction: of the four that there are, the one whose slope is nearest on the screen.
+fn cue_sign(direction: DVec2, look: Look) -> char {
+    let signs = look.pick(['─', '╱', '│', '╲'], ['-', '/', '|', '\\']);
+    // A row is as high as two columns are wide.
+    let eighths = (direction * DVec2::new(1.0, 0.5)).to_angle() / std::f64::consts::FRAC_PI_4;
+    signs[(eighths.round() as i32).rem_euclid(4) as usize]
 }
 
 fn standing(turn: &Turn) -> Message {

@@ -176,7 +176,7 @@ fn draw_nothing(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look, filter) = (app.theme(), app.look(), &app.drills().catalogue.filter);
     let inner = draw_title(&Line::default(), area, theme, look, buffer);
     let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
-        "You have saved no position yet. On the coach's table, S saves the balls as they lie; here, a adds a position from \
+        "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \
          a code that somebody has sent you."
     } else {
         "No exercise is like that. 0 lists all."
