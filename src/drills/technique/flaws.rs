@@ -28,7 +28,6 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let technique = Technique::of(&table, layout, &cue)?;
     let misses = |changed: CueInputs| !scores(exercise.rule, &table, layout, &changed);
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
-    let between = technique.between.len();
     let mut checks = vec![
         ("it makes the point by its rule", technique.tally.is_point(exercise.rule)),
         ("it meets ball 1 first", technique.first == Some(1)),
@@ -68,7 +67,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
                 ("the rule is three-cushion", exercise.rule.cushions() == 3),
                 ("the first tag names a pattern", pattern.is_some()),
                 ("the course is the pattern's", pattern.is_some_and(|pattern| (pattern.is_it)(&technique))),
-                ("before or between the balls there are no more than five cushions", between <= 5),
+                ("between the balls there are no more than five cushions", technique.between.len() <= 5),
             ]
         }
         Category::Own => Vec::new(),
