@@ -13,8 +13,10 @@ use crate::{
 /// What a game is called among exercises.
 const GAME: &str = "game";
 
-/// Play innings from the opening position: a miss ends one, and the next begins where the balls lie. Strokes are read line
-/// by line from the standard input: "a,b,theta,phi,V", or the word coach. At the end average and high run are told.
+/// Play innings from the opening position.
+///
+/// A miss ends an inning, and the next begins where the balls lie. Strokes are read line by line from the standard input:
+/// "a,b,theta,phi,V", or the word coach. At the end average and high run are told.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.

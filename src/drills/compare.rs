@@ -42,9 +42,17 @@ pub fn advise(
     budget: Duration,
     seed: u64,
 ) -> Result<Option<Advice>, LayoutError> {
-    let answer = coach.recommend(layout, &Request { rule, skill, budget, seed, ..Request::default() })?;
-    let advice = |cue| Advice { cue, chance: chance(skill, rule, coach.table(), layout, &cue) };
-    Ok(answer.solved.then(|| advice(answer.cue)))
+    advise_on(coach, layout, &Request { rule, skill, budget, seed, ..Request::default() })
+}
+
+/// The same for any request.
+///
+/// # Errors
+/// Where the layout is impossible.
+pub fn advise_on(coach: &Coach, layout: &Layout, request: &Request) -> Result<Option<Advice>, LayoutError> {
+    let answer = coach.recommend(layout, request)?;
+    let chance = |cue| chance(request.skill, request.rule, coach.table(), layout, &cue);
+    Ok(answer.solved.then(|| Advice { cue: answer.cue, chance: chance(answer.cue) }))
 }
 
 /// What `meant` has more than `advised` in every input; the direction is turned by the smaller angle, from -π to π.

@@ -14,6 +14,10 @@ use crate::{
 /// Steepest cue of a stroke that errors are added to, rad: just below upright.
 const STEEPEST: f64 = 89.9_f64.to_radians();
 
+/// Sets the errors of strokes apart from all else that is drawn from a session's seed: a coach who knew them would choose by
+/// them.
+const ERRORS: u64 = 0x7374_726f_6b65_733f;
+
 /// Why no attempt can be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PlayError {
@@ -103,7 +107,7 @@ impl Session {
         check(&table, &meant)?;
         let exercise = self.exercise().ok_or(PlayError::Over)?;
         let number = self.attempts.len();
-        let errors = errors::independent(number + 1, self.seed)[number];
+        let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
         let stroke = with_errors(self.skill, &table, &meant, &errors);
         let played = Played::of(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {

@@ -12,7 +12,9 @@ use crate::{
     },
 };
 
-/// Play a stroke at an exercise, with the player's errors, and compare it with the coach's. Every attempt is logged.
+/// Play a stroke at an exercise, with the player's errors, and compare it with the coach's.
+///
+/// Every attempt is logged.
 #[derive(Debug, clap::Args)]
 pub struct TryArgs {
     /// The exercise.
@@ -30,8 +32,9 @@ pub struct TryArgs {
     means: Means,
 }
 
-/// Play an exercise until it was made so many times in a row. Strokes are read line by line from the standard input:
-/// "a,b,theta,phi,V", or the word coach.
+/// Play an exercise until it was made so many times in a row.
+///
+/// Strokes are read line by line from the standard input: "a,b,theta,phi,V", or the word coach.
 #[derive(Debug, clap::Args)]
 pub struct RunArgs {
     /// The exercise.
@@ -52,8 +55,9 @@ pub struct RunArgs {
     means: Means,
 }
 
-/// Take an exam: twenty exercises, one attempt each. Strokes are read line by line from the standard input:
-/// "a,b,theta,phi,V", or the word coach.
+/// Take an exam: twenty exercises, one attempt each.
+///
+/// Strokes are read line by line from the standard input: "a,b,theta,phi,V", or the word coach.
 #[derive(Debug, clap::Args)]
 pub struct ExamArgs {
     /// How hard: 1, 2 or 3.

@@ -9,7 +9,7 @@ use super::{
     strokes::{Means, Stroke, line},
 };
 use crate::{
-    coach::Coach,
+    coach::{Coach, Request},
     commands::{
         Failure,
         input::ByTable,
@@ -17,7 +17,7 @@ use crate::{
         recommend::coach_for,
     },
     drills::{
-        Advice, Exercise, Goal, Par, Session, Store, advise, chance, changes, check, difference,
+        Advice, Exercise, Goal, Par, Session, Store, advise_on, chance, changes, check, difference,
         exam::{Mark, mark},
     },
     learning::evaluation::SuccessRate,
@@ -217,10 +217,13 @@ impl<'a> Bout<'a> {
             return Ok(Some(*advice));
         }
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(None) };
-        let budget = Duration::from_millis(self.means.budget_ms);
-        let coach = self.coaches.get(&table.name)?;
         let Session { skill, seed, .. } = self.session;
-        let advice = advise(coach, skill, rule, layout, budget, seed).map_err(Failure::wrong_input)?;
+        // In a game the next point counts too.
+        let plan = self.session.is_game();
+        let budget = Duration::from_millis(self.means.budget_ms);
+        let request = Request { rule, skill, plan, budget, seed, ..Request::default() };
+        let coach = self.coaches.get(&table.name)?;
+        let advice = advise_on(coach, layout, &request).map_err(Failure::wrong_input)?;
         self.advice = advice.map(|advice| (*layout, advice));
         Ok(advice)
     }

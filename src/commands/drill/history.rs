@@ -103,6 +103,11 @@ fn average(record: &Record) -> String {
     record.average.map_or_else(|| "-".to_owned(), |average| format!("{average:.2}"))
 }
 
+/// Where no order is known, no run is.
+fn high_run(record: &Record) -> String {
+    if record.innings > 0 { record.high_run.to_string() } else { "-".to_owned() }
+}
+
 fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
     let mut subjects: Vec<Subject> = Vec::new();
     for subject in sessions.iter().flat_map(Subject::of) {
@@ -123,7 +128,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
             record.tried.to_string(),
             share(&record),
             average(&record),
-            record.high_run.to_string(),
+            high_run(&record),
             time(last),
         ]);
     }
@@ -164,7 +169,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
             record.made.to_string(),
             record.tried.to_string(),
             share(record),
-            record.high_run.to_string(),
+            high_run(record),
         ]);
     }
     if json {

@@ -32,7 +32,7 @@ pub struct ListArgs {
     json: bool,
 }
 
-/// Show an exercise: where the balls lie, what is to be learnt, the shot, its share code and the player's record.
+/// Show an exercise: balls, what is to be learnt, the shot, its share code and the player's record.
 #[derive(Debug, clap::Args)]
 pub struct ShowArgs {
     /// The exercise.

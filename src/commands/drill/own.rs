@@ -61,7 +61,9 @@ pub struct AddArgs {
     replace: bool,
 }
 
-/// Remove a position of one's own. What was practised on it stays in the history.
+/// Remove a position of one's own.
+///
+/// What was practised on it stays in the history.
 #[derive(Debug, clap::Args)]
 pub struct RemoveArgs {
     /// The position.

@@ -12,8 +12,10 @@ use crate::{
     drills::estimate::{Estimate, estimate},
 };
 
-/// Estimate the player's skill from the results at a real table: so many times an expert's errors, with the 95 % interval.
-/// The player is taken to have played the exercises' own shots.
+/// Estimate the player's skill from the results at a real table.
+///
+/// It is so many times an expert's errors, with the 95 % interval. The player is taken to have played the exercises' own
+/// shots.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Keep the estimate: `--skill own` is then this player.

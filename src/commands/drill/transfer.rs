@@ -25,8 +25,10 @@ pub struct ExportArgs {
     file: Option<PathBuf>,
 }
 
-/// Take in a file that `carom drill export` wrote, or a library of exercises. Nothing that is here is lost: of a session on
-/// both sides the one with more attempts is kept, and a position whose name is that of another is refused.
+/// Take in a file that `carom drill export` wrote, or a library of exercises.
+///
+/// Nothing that is here is lost: of a session on both sides the one with more attempts is kept, and a position whose name is
+/// that of another is refused.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The file; "-" reads the standard input.
