@@ -212,5 +212,5 @@ fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor) -> Message {
         return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
     };
     let chance = chance_words(&made);
-    Message::good(format!("makes the point {chance} of the time ({}{took}){contact}", skill_word(tutor.skill)))
+    Message::good(format!("{} makes it {chance}{took}{contact}", skill_word(tutor.skill)))
 }

@@ -41,6 +41,10 @@ const STROKE_RADIUS: f64 = 0.07;
 /// Standard errors at which the player's errors are outlined: 86 of 100 strokes lie inside in both inputs.
 const OUTLINE: f64 = 2.0;
 
+/// Half the width of the outline, as a share of its radius: a sub-pixel or two, and a line without gaps.
+const LINE: f64 = 0.09;
+const COARSE_LINE: f64 = 0.2;
+
 /// Columns of the panel from which on the speeds stand beside the map, and theirs.
 const WIDE: u16 = 24;
 const GUTTER: u16 = 6;
@@ -117,6 +121,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, theme: &Theme, look: Lo
     buffer.set_string(plot.x, axis, format!("+{}{degree}", fixed(across, 2)), theme.faint());
     buffer.set_string(plot.x + (plot.width - 1) / 2, axis, phi, theme.faint());
     write_right(buffer, plot.x, plot.right(), axis, &format!("-{}{degree}", fixed(across, 2)), theme.faint());
+    let line = if look.glyphs == Glyphs::Half { COARSE_LINE } else { LINE };
     let errors = (OUTLINE * skill.phi.to_degrees() / across, OUTLINE * skill.speed / up);
     draw_signs(plot, theme, look, buffer, |x, y, cell| {
         let is_stroke = if cell > 0.0 {
@@ -129,7 +134,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, theme: &Theme, look: Lo
         let from_errors = (x / errors.0).hypot(y / errors.1);
         match () {
             () if is_stroke => Some(Sign::Stroke),
-            () if cell == 0.0 && (from_errors - 1.0).abs() <= 0.09 => Some(Sign::Errors),
+            () if cell == 0.0 && (from_errors - 1.0).abs() <= line => Some(Sign::Errors),
             () => Some(Sign::Outcome(at(map, -x, y))),
         }
     });
