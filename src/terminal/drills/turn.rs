@@ -185,7 +185,8 @@ impl Turn {
             layout: self.layout,
             rule: self.exercise.rule,
             skill: self.session.skill,
-            own: self.exercise.shot.filter(|_| is_exact),
+            plan: self.session.is_game(),
+            own: self.exercise.shot.filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
     }
@@ -271,11 +272,11 @@ impl Turn {
 
     /// Begins another session of the same exercises, and asks for what is taught where that may be another stroke.
     pub(super) fn begin(&mut self, session: Session) -> Vec<Errand> {
-        let is_other_player = session.skill != self.session.skill;
+        let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
         self.session = session;
         self.ahead = None;
         let is_moved = self.place_next();
-        if is_moved || is_other_player { self.ask() } else { Vec::new() }
+        if is_moved || asks_otherwise { self.ask() } else { Vec::new() }
     }
 
     /// Places the balls for the next attempt of the session; whether they lie elsewhere now.
