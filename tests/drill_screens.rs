@@ -331,11 +331,8 @@ fn an_exercise_goes_to_the_coachs_table() {
 
 #[test]
 fn the_help_tells_every_key() {
-    for (name, player) in [
-        ("help_library", Player::with(TRUE_COLOUR, &[], &[])),
-        ("help_exercise", Player::practising(TRUE_COLOUR)),
-        ("help_record", Player::with(TRUE_COLOUR, &[], &[]).press("r")),
-    ] {
+    for (name, keys) in [("help_library", ""), ("help_exercise", "Left Enter"), ("help_record", "r")] {
+        let player = Player::with(TRUE_COLOUR, &[exercise("opening", "From the opening")], &[]).press(keys);
         insta::assert_snapshot!(name, player.press("?").text(100, 60));
     }
 }

@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
-    drills::{Exercise, Goal, Library},
+    drills::{Category, Exercise, Goal, Library},
     game::Rule,
     physics::CueInputs,
     storage::Places,
@@ -157,7 +157,7 @@ impl DrillScreen {
         let position = Exercise {
             name: String::new(),
             title: String::new(),
-            category: crate::drills::Category::Own,
+            category: Category::Own,
             grade: 0,
             rule,
             table: table.name.clone(),
