@@ -97,7 +97,10 @@ fn standing(turn: &Turn) -> Message {
         (true, _) => "the shot is on its way; Enter goes to its end",
         (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
         (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
-        (false, Lesson::Known(_)) if turn.shows_hint => "this is the shot that is taught; the attempt counts as helped",
+        (false, Lesson::Known(taught)) if turn.shows_hint && taught.is_own => {
+            "this is the shot that is taught; the attempt counts as helped"
+        }
+        (false, Lesson::Known(_)) if turn.shows_hint => "this is the coach's shot; the attempt counts as helped",
         (false, Lesson::Known(_)) => "set the stroke and play it",
     })
 }

@@ -89,7 +89,8 @@ fn lines(session: &Session) -> Vec<String> {
     }
     let average = record.average.map_or(String::new(), |average| format!(", average {average:.2}"));
     if session.is_game() {
-        lines.push(format!("{made} points in {} innings{average}", record.innings));
+        let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
+        lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
         lines.push(format!("run {}, best {}", session.run(), record.high_run));
     } else {
         lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
