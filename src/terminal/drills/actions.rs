@@ -19,7 +19,7 @@ impl DrillScreen {
             Action::Search => self.question = Some(Question::Search(String::new())),
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
-            Action::Record => return self.open_records(),
+            Action::Record => return Some(self.open_records()),
             Action::Scope => self.records.toggle_scope(),
             Action::KeepSkill => {
                 return self.records.skill().map(|skill| Effect::Drill(vec![Errand::KeepSkill(skill)]));
@@ -33,7 +33,7 @@ impl DrillScreen {
                 self.player.choose_next();
                 self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
             }
-            Action::ToCoach => self.to_coach(),
+            Action::ToCoach => self.send_to_coach(),
             Action::Yes => return self.yes(),
             Action::No => self.no(),
             Action::Erase => {
@@ -101,11 +101,11 @@ impl DrillScreen {
         }
     }
 
-    fn open_records(&mut self) -> Option<Effect> {
+    fn open_records(&mut self) -> Effect {
         self.pages.push(Page::Record);
         let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
-        Some(Effect::Drill(vec![Errand::Estimate(self.book.shared())]))
+        Effect::Drill(vec![Errand::Estimate(self.book.shared())])
     }
 
     fn scroll_records(&mut self, lines: isize) {
@@ -114,9 +114,13 @@ impl DrillScreen {
     }
 
     fn share(&mut self) -> Option<Effect> {
-        match encode(self.catalogue.marked()?) {
+        let exercise = self.catalogue.marked()?;
+        match encode(exercise) {
             Ok(code) => {
-                self.message = Some(Message::plain(format!("{code} is copied where the terminal allows it")));
+                self.message = Some(Message::plain(format!(
+                    "{code} is copied where the terminal allows it; carom drill share {} prints it",
+                    exercise.name
+                )));
                 Some(Effect::Copy(code))
             }
             Err(error) => {
@@ -126,7 +130,7 @@ impl DrillScreen {
         }
     }
 
-    fn to_coach(&mut self) {
+    fn send_to_coach(&mut self) {
         let turn = self.turn.as_ref().map(|turn| Balls {
             table: turn.table.clone(),
             layout: turn.layout,
@@ -145,8 +149,11 @@ impl DrillScreen {
     }
 
     fn no(&mut self) {
-        if let Some(Question::Search(_)) = self.question.take() {
-            self.catalogue.find_text("");
+        match self.question.take() {
+            Some(Question::Search(_)) => self.catalogue.find_text(""),
+            // One has come from the coach for this alone.
+            Some(Question::Name(..)) => self.pages.clear(),
+            _ => {}
         }
     }
 

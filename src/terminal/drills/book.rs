@@ -83,3 +83,37 @@ fn has(session: &Session, name: &str) -> bool {
 fn names(session: &Session) -> Vec<String> {
     session.exercises.iter().map(|exercise| exercise.name.clone()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        coach::Skill,
+        drills::{Goal, Library, Venue},
+    };
+
+    fn session(id: &str, goal: Goal, results: &str) -> Session {
+        let exercise = Library::bundled().unwrap().exercises()[0].clone();
+        let mut session = Session::new(goal, Venue::Table, vec![exercise], Skill::CLUB, 1);
+        session.id = id.to_owned();
+        results.chars().for_each(|result| session.log(result == 'x').unwrap());
+        session
+    }
+
+    #[test]
+    fn a_session_takes_its_own_place_and_one_without_attempts_is_none() {
+        let first = session("1", Goal::Free, "x-");
+        let name = first.exercises[0].name.clone();
+        let mut book = Book::new(vec![first, session("2", Goal::Free, "")], Vec::new());
+        let score = |book: &Book| book.score_of(&name).map(|record| (record.made, record.tried));
+        assert_eq!((book.sessions().len(), score(&book)), (1, Some((1, 2))));
+        book.put(&session("1", Goal::Free, "x-xx"));
+        assert_eq!((book.sessions().len(), score(&book)), (1, Some((3, 4))));
+        // Strokes of a game are no repetitions of the exercise.
+        book.put(&session("3", Goal::Game { innings: 9 }, "xxx"));
+        assert_eq!((book.sessions().len(), score(&book)), (2, Some((3, 4))));
+        assert_eq!((book.sessions_of(Some(&name)).len(), book.sessions_of(None).len()), (1, 2));
+        book.put(&session("1", Goal::Free, ""));
+        assert_eq!((book.sessions().len(), score(&book)), (1, Some((0, 0))));
+    }
+}

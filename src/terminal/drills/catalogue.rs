@@ -86,6 +86,12 @@ impl Catalogue {
         });
     }
 
+    /// Shows the user's own positions alone, and marks the one called `name`.
+    pub fn show_own(&mut self, name: &str) {
+        self.filter = Filter { category: Some(Category::Own), ..Filter::default() };
+        self.mark_named(name);
+    }
+
     /// Shows one grade alone; the same grade again shows all.
     pub fn choose_grade(&mut self, grade: u8) {
         self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });

@@ -46,6 +46,8 @@ pub struct Position {
     pub rule: Rule,
     /// Who plays.
     pub skill: Skill,
+    /// Whether what comes next counts too, as in a game.
+    pub plan: bool,
     /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
     pub own: Option<CueInputs>,
     /// Set when nobody waits for the answer any more.

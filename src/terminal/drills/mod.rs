@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
-    drills::{Exercise, Goal, Library},
+    drills::{Category, Exercise, Goal, Library},
     game::Rule,
     physics::CueInputs,
     storage::Places,
@@ -40,7 +40,7 @@ pub use errand::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught}
 pub use question::Question;
 pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
-pub use turn::{Stage, Turn, Watched};
+pub use turn::{Lesson, Stage, Turn, Watched};
 
 /// A page of the drill screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,7 +157,7 @@ impl DrillScreen {
         let position = Exercise {
             name: String::new(),
             title: String::new(),
-            category: crate::drills::Category::Own,
+            category: Category::Own,
             grade: 0,
             rule,
             table: table.name.clone(),
@@ -169,7 +169,10 @@ impl DrillScreen {
         };
         let effect = self.open(skill);
         match position.table() {
-            Ok(known) if known == table => self.question = Some(Question::Name(String::new(), Box::new(position))),
+            Ok(known) if known == table => {
+                self.catalogue.show_own("");
+                self.question = Some(Question::Name(String::new(), Box::new(position)));
+            }
             _ => {
                 let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
                 self.message = Some(Message::warning(words));
@@ -245,7 +248,7 @@ impl DrillScreen {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match when {
             DrillWhen::Here => None,
-            DrillWhen::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; Esc lists all"),
+            DrillWhen::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
             DrillWhen::MarkedOwn => refuse(!self.catalogue.is_own(), "bundled exercises stay; only your own go"),
             DrillWhen::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillWhen::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),

@@ -25,7 +25,9 @@ impl DrillScreen {
                 match (played, &mut self.turn) {
                     (Ok(outcome), turn) => {
                         self.book.put(&outcome.session);
-                        turn.iter_mut().for_each(|turn| turn.played((*outcome).clone()));
+                        if let Some(turn) = turn {
+                            turn.played(*outcome);
+                        }
                     }
                     (Err(sentence), Some(turn)) => {
                         turn.stage = Stage::Aiming;
@@ -42,7 +44,7 @@ impl DrillScreen {
             }
             DrillReport::Saved(session, saved) => return self.saved(&session, saved),
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
-                Ok(true) => self.position_saved(*exercise),
+                Ok(true) => self.position_saved(&exercise),
                 Ok(false) => self.question = Some(Question::Replace(exercise)),
                 Err(sentence) => {
                     self.message = Some(Message::warning(format!("{} is not saved: {sentence}", exercise.name)));
@@ -128,12 +130,11 @@ impl DrillScreen {
         }
     }
 
-    fn position_saved(&mut self, exercise: Exercise) {
+    fn position_saved(&mut self, exercise: &Exercise) {
         let own = self.own().filter(|own| own.name != exercise.name).cloned();
         let own = own.chain([exercise.clone()]).collect();
         self.take_own(own);
-        self.catalogue.show_all();
-        self.catalogue.mark_named(&exercise.name);
+        self.catalogue.show_own(&exercise.name);
         self.message = Some(Message::good(format!("saved as {}", exercise.name)));
     }
 }

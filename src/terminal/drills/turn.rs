@@ -31,6 +31,17 @@ pub enum Stage {
     Watching(Box<Watched>),
 }
 
+/// The stroke that is taught, as far as it is known.
+#[derive(Debug)]
+pub enum Lesson {
+    /// The coach is still thinking.
+    Pending,
+    /// It has found no shot that makes the point.
+    Missing,
+    /// This one.
+    Known(Box<Taught>),
+}
+
 /// A stroke that was played.
 #[derive(Debug)]
 pub struct Watched {
@@ -61,8 +72,8 @@ pub struct Turn {
     pub stroke: CueInputs,
     /// What is going on.
     pub stage: Stage,
-    /// The stroke that is taught, as soon as it is known; `None` inside where the coach has found none.
-    pub taught: Option<Option<Taught>>,
+    /// The stroke that is taught.
+    pub lesson: Lesson,
     /// Whether it is shown.
     pub shows_hint: bool,
     /// Whether it was shown since the balls were placed.
@@ -89,7 +100,7 @@ impl Turn {
             table,
             layout,
             stage: Stage::Aiming,
-            taught: None,
+            lesson: Lesson::Pending,
             shows_hint: false,
             is_helped: false,
             ahead: None,
@@ -128,15 +139,15 @@ impl Turn {
     }
 
     /// The stroke that is taught, if it is known and there is one.
-    pub fn lesson(&self) -> Option<&Taught> {
-        self.taught.as_ref()?.as_ref()
+    pub const fn taught(&self) -> Option<&Taught> {
+        if let Lesson::Known(taught) = &self.lesson { Some(taught) } else { None }
     }
 
     /// The shot on the table: the one that is watched, or the one that is taught while it is shown.
     pub fn shot(&self) -> Option<&Shot> {
         match self.watched() {
             Some(watched) if !self.shows_hint => watched.outcome.shot.as_deref(),
-            _ => self.lesson().filter(|_| self.shows_hint).map(|taught| taught.shot.as_ref()),
+            _ => self.taught().filter(|_| self.shows_hint).map(|taught| taught.shot.as_ref()),
         }
     }
 
@@ -165,7 +176,7 @@ impl Turn {
     /// Asks for the stroke that is taught in this position. Nobody waits for the one before any more.
     pub(super) fn ask(&mut self) -> Vec<Errand> {
         self.stop_asking();
-        self.taught = None;
+        self.lesson = Lesson::Pending;
         self.position += 1;
         let is_exact = self.layout == self.exercise.layout;
         vec![Errand::Advise(Box::new(Position {
@@ -174,7 +185,8 @@ impl Turn {
             layout: self.layout,
             rule: self.exercise.rule,
             skill: self.session.skill,
-            own: self.exercise.shot.filter(|_| is_exact),
+            plan: self.session.is_game(),
+            own: self.exercise.shot.filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
     }
@@ -188,7 +200,7 @@ impl Turn {
     /// The answer to question `id`; late ones are dropped.
     pub(super) fn advised(&mut self, id: u64, taught: Option<Taught>) {
         if id == self.position {
-            self.taught = Some(taught);
+            self.lesson = taught.map_or(Lesson::Missing, |taught| Lesson::Known(Box::new(taught)));
         }
     }
 
@@ -260,11 +272,11 @@ impl Turn {
 
     /// Begins another session of the same exercises, and asks for what is taught where that may be another stroke.
     pub(super) fn begin(&mut self, session: Session) -> Vec<Errand> {
-        let is_other_player = session.skill != self.session.skill;
+        let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
         self.session = session;
         self.ahead = None;
         let is_moved = self.place_next();
-        if is_moved || is_other_player { self.ask() } else { Vec::new() }
+        if is_moved || asks_otherwise { self.ask() } else { Vec::new() }
     }
 
     /// Places the balls for the next attempt of the session; whether they lie elsewhere now.

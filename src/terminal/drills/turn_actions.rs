@@ -1,6 +1,6 @@
 //! What each key does to the page of an exercise, and when it may be used.
 
-use super::{DrillScreen, Page, Stage, Turn, aiming};
+use super::{DrillScreen, Lesson, Page, Stage, Turn, aiming};
 use crate::{
     coach::Skill,
     drills::{Goal, Session, Venue},
@@ -34,8 +34,8 @@ impl Turn {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }
             (_, When::Advised) => refuse(self.is_exam(), "an exam gives no hints")
-                .or(refuse(self.taught.is_none(), "the coach is still thinking"))
-                .or(refuse(self.lesson().is_none(), "the coach has found no shot that makes the point")),
+                .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
+                .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
             (_, When::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
             _ => None,
         }
@@ -184,8 +184,8 @@ impl DrillScreen {
                 if let Some(note) = session.attempts.last_mut() {
                     note.helped = turn.is_helped;
                     // What was to be played tells how good whoever made it is.
-                    note.advised = turn.lesson().map(|taught| taught.advice.cue);
-                    note.advised_chance = turn.lesson().map(|taught| taught.advice.chance.rate);
+                    note.advised = turn.taught().map(|taught| taught.advice.cue);
+                    note.advised_chance = turn.taught().map(|taught| taught.advice.chance.rate);
                 }
                 errands.insert(0, turn.save(session));
             }

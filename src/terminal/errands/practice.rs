@@ -13,9 +13,9 @@ use std::{
 };
 
 use crate::{
-    coach::{Coach, Skill},
+    coach::{Coach, Request, Skill},
     drills::{
-        Advice, Session, advise, chance,
+        Advice, Session, advise_on, chance,
         estimate::{Estimate, estimate},
         store::{Store, StoreError},
     },
@@ -108,12 +108,20 @@ impl Clerk {
 
     fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
         let Position { table, layout, rule, skill, .. } = position;
-        let advice = match position.own {
-            Some(cue) => Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) }),
-            None => {
-                let coach = self.coach(table)?;
-                advise(coach, *skill, *rule, layout, BUDGET, 0).map_err(|error| error.to_string())?
-            }
+        let advice = if let Some(cue) = position.own {
+            Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) })
+        } else {
+            let cancel = Arc::clone(&position.cancel);
+            let request = Request {
+                rule: *rule,
+                skill: *skill,
+                plan: position.plan,
+                budget: BUDGET,
+                cancel,
+                ..Request::default()
+            };
+            let coach = self.coach(table)?;
+            advise_on(coach, layout, &request).map_err(|error| error.to_string())?
         };
         self.taught = advice.map(|advice| (position.id, advice));
         let taught = advice.map(|advice| {

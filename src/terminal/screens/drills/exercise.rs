@@ -6,7 +6,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 use super::{draw_header, panels, panes::Panes, score};
 use crate::terminal::{
     app::App,
-    drills::{Sight, Turn},
+    drills::{Lesson, Sight, Turn},
     look::Look,
     status::Message,
     theme::Theme,
@@ -64,10 +64,11 @@ fn about(turn: &Turn, look: Look) -> String {
 fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
     let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke.phi));
     let dot = look.pick('·', '.');
+    let sign = cue_sign(ahead, look);
     let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };
     let steps =
         |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
-    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, look.pick('─', '-')));
+    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, sign));
     let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
     let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();
     // The ball at the end of the line is drawn over it.
@@ -77,6 +78,14 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
     cue.filter(on_table).chain(line).chain([ghost]).collect()
 }
 
+/// The sign of a line in this direction: of the four that there are, the one whose slope is nearest on the screen.
+fn cue_sign(direction: DVec2, look: Look) -> char {
+    let signs = look.pick(['─', '╱', '│', '╲'], ['-', '/', '|', '\\']);
+    // A row is as high as two columns are wide.
+    let eighths = (direction * DVec2::new(1.0, 0.5)).to_angle() / std::f64::consts::FRAC_PI_4;
+    signs[(eighths.round() as i32).rem_euclid(4) as usize]
+}
+
 fn standing(turn: &Turn) -> Message {
     if turn.is_waiting() {
         return Message::plain("the stroke is being played");
@@ -84,11 +93,14 @@ fn standing(turn: &Turn) -> Message {
     if let Some(verdict) = turn.verdict() {
         return verdict;
     }
-    Message::plain(match (turn.watched().is_some(), &turn.taught) {
+    Message::plain(match (turn.watched().is_some(), &turn.lesson) {
         (true, _) => "the shot is on its way; Enter goes to its end",
-        (false, None) => "set the stroke and play it; the coach is still thinking",
-        (false, Some(None)) => "set the stroke and play it; the coach has found no shot here",
-        (false, Some(Some(_))) if turn.shows_hint => "this is the shot that is taught; the attempt counts as helped",
-        (false, Some(Some(_))) => "set the stroke and play it",
+        (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
+        (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
+        (false, Lesson::Known(taught)) if turn.shows_hint && taught.is_own => {
+            "this is the shot that is taught; the attempt counts as helped"
+        }
+        (false, Lesson::Known(_)) if turn.shows_hint => "this is the coach's shot; the attempt counts as helped",
+        (false, Lesson::Known(_)) => "set the stroke and play it",
     })
 }

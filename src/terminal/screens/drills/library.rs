@@ -17,8 +17,8 @@ use crate::{
     },
 };
 
-/// Columns of the marked exercise, of a hundred, and at least.
-const PREVIEW: (u16, u16) = (44, 35);
+/// Columns of the list, of a hundred, and at most: longer rows are hard to read across.
+const LIST: (u16, u16) = (56, 66);
 /// Columns at which grade, points and best run end, from the list's right edge.
 const GRADE_END: u16 = 15;
 const MADE_END: u16 = 7;
@@ -34,10 +34,9 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
         _ => format!("{sessions} sessions so far"),
     };
     draw_header(app, "practice", &more, header, buffer);
-    let preview = (area.width * PREVIEW.0 / 100).max(PREVIEW.1);
-    let list = Rect { width: area.width - preview - 1, ..area };
+    let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
     draw_list(app, list, buffer);
-    let preview = Rect { x: list.right() + 1, width: preview, ..area };
+    let preview = Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area };
     match drills.catalogue.marked() {
         Some(exercise) => draw_exercise(app, exercise, preview, buffer),
         None => draw_nothing(app, preview, buffer),
@@ -105,10 +104,7 @@ fn filter_words(app: &App, found: usize) -> String {
         filter.text.as_ref().map(|text| format!("\"{text}\"")),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
-    match parts.is_empty() {
-        true => format!("All {found}"),
-        false => format!("{found}: {}", parts.join(", ")),
-    }
+    if parts.is_empty() { format!("All {found}") } else { format!("{found}: {}", parts.join(", ")) }
 }
 
 fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer: &mut Buffer) {
@@ -180,10 +176,10 @@ fn draw_nothing(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look, filter) = (app.theme(), app.look(), &app.drills().catalogue.filter);
     let inner = draw_title(&Line::default(), area, theme, look, buffer);
     let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
-        "You have saved no position yet. On the coach's table, S saves the balls as they lie; here, a adds a position from \
+        "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \
          a code that somebody has sent you."
     } else {
-        "No exercise is like that. Esc lists all."
+        "No exercise is like that. 0 lists all."
     };
     let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
     write_paragraphs(&[(words.to_owned(), theme.faint())], text, look, buffer);

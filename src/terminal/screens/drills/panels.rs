@@ -12,7 +12,7 @@ use crate::{
     physics::CueInputs,
     terminal::{
         app::App,
-        drills::{Meets, Sight, Turn, Watched},
+        drills::{Lesson, Meets, Sight, Taught, Turn, Watched},
         look::Look,
         widgets::draw_title,
         words::{BALL_NAMES, fixed, rail_name},
@@ -69,8 +69,12 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
         if let Some(sight) = turn.sight() {
             paragraphs.push((sight_words(&sight), theme.accent()));
         }
-        if !turn.exercise.point.is_empty() {
-            paragraphs.push((turn.exercise.point.clone(), theme.text()));
+        // In a game the balls have gone elsewhere, and what was to be learnt with them.
+        let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
+        match turn.taught() {
+            Some(taught) if turn.shows_hint => paragraphs.push((hint(turn, taught, look), theme.text())),
+            _ if is_elsewhere || turn.exercise.point.is_empty() => {}
+            _ => paragraphs.push((turn.exercise.point.clone(), theme.text())),
         }
     }
     write_paragraphs(&paragraphs, text, look, buffer);
@@ -81,12 +85,9 @@ fn sight_words(sight: &Sight) -> String {
     let way = fixed(100.0 * sight.way, 0);
     match sight.meets {
         Meets::Ball(hit) => {
-            let side = match hit.left {
-                // Head-on has no side.
-                _ if hit.fullness > FULL => "",
-                true => ", left side",
-                false => ", right side",
-            };
+            // Head-on has no side.
+            let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
+            let side = sides[usize::from(hit.left)];
             format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(rail, diamond) => {
@@ -95,28 +96,42 @@ fn sight_words(sight: &Sight) -> String {
     }
 }
 
+/// Whose shot it is that is taught.
+const fn teacher(taught: &Taught) -> &'static str {
+    if taught.is_own { "taught" } else { "coach" }
+}
+
+/// What a player has to change to get from one stroke to another, or `none` where nobody could tell them apart.
+fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, look: Look) -> String {
+    let words = changes(&turn.table, from, to).join(", ");
+    match words.as_str() {
+        "" => none.to_owned(),
+        _ if look.unicode => words,
+        _ => words.replace('°', " deg"),
+    }
+}
+
+/// How often the stroke is made that is taught, and how to set it.
+fn hint(turn: &Turn, taught: &Taught, look: Look) -> String {
+    let advice = &taught.advice;
+    let changes = told(turn, [&turn.stroke, &advice.cue], "as it is set", look);
+    format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
+}
+
 /// Both chances, what would make the stroke the one that is taught, and what the player's hand has added to it.
 fn compared(turn: &Turn, watched: &Watched, look: Look) -> Vec<String> {
-    let told = |from: &CueInputs, to: &CueInputs, none: &str| {
-        let words = changes(&turn.table, from, to).join(", ");
-        match words.is_empty() {
-            true => none.to_owned(),
-            false if look.unicode => words,
-            false => words.replace('°', " deg"),
-        }
-    };
     let own = watched.chance.map_or_else(|| look.pick("…", "...").to_owned(), percent);
-    let mut lines = match turn.lesson() {
-        Some(taught) => {
-            let whose = if taught.is_own { "taught" } else { "coach" };
+    let mut lines = match &turn.lesson {
+        Lesson::Known(taught) => {
+            let whose = teacher(taught);
             let advice = &taught.advice;
-            let changes = told(&watched.meant, &advice.cue, "no change worth telling");
+            let changes = told(turn, [&watched.meant, &advice.cue], "no change worth telling", look);
             vec![format!("makes: yours {own}, {whose} {}", percent(advice.chance.rate)), format!("{whose}: {changes}")]
         }
-        None if turn.taught.is_none() => vec![format!("makes: yours {own}, the coach is still thinking")],
-        None => vec![format!("makes: yours {own}; the coach has found no shot")],
+        Lesson::Pending => vec![format!("makes: yours {own}, the coach is still thinking")],
+        Lesson::Missing => vec![format!("makes: yours {own}; the coach has found no shot")],
     };
-    let added = told(&watched.meant, &watched.outcome.played.stroke, "nothing worth telling");
-    lines.push(format!("your hand added: {added}"));
+    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", look);
+    lines.push(format!("your hand: {added}"));
     lines
 }

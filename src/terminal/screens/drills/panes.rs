@@ -9,7 +9,7 @@ const BELOW: u16 = 8;
 /// The same where there is a column beside it: a title and four lines.
 const BELOW_BESIDE: u16 = 5;
 /// Columns beside the table: at least, and at most.
-const BESIDE: (u16, u16) = (20, 36);
+const BESIDE: (u16, u16) = (22, 36);
 /// Columns of the stroke and the tip where all panels stand side by side.
 const STROKE_WIDTH: u16 = 24;
 const TIP_WIDTH: u16 = 16;

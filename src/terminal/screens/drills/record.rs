@@ -21,7 +21,7 @@ use crate::{
         chart::{Chart, Curve, Whose, draw_chart},
         drills::{Estimate, record_of},
         status::Message,
-        widgets::{draw_title, write_right},
+        widgets::{cut, draw_title, wrap, write_right},
         words::chance_words,
     },
 };
@@ -65,7 +65,7 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
         );
     }
     Message::plain(match &drills.records.estimate {
-        Estimate::Known(..) => "w takes the estimated skill as yours: then strokes are played and judged with it",
+        Estimate::Known(..) => "w takes the estimated skill as your own",
         Estimate::Working => "the skill is being estimated",
         _ => "",
     })
@@ -142,7 +142,8 @@ fn draw_sessions(app: &App, sessions: &[&Session], scope: Option<&str>, area: Re
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
         put(buffer, ENDS[3].0, &average, theme.text());
         let room = usize::from(inner.width.saturating_sub(WHAT));
-        buffer.set_stringn(inner.x + WHAT, y, what(session, scope), room, theme.faint());
+        let what = cut(wrap(&what(session, scope), room), 1, room, look).swap_remove(0);
+        buffer.set_stringn(inner.x + WHAT, y, what, room, theme.faint());
     }
 }
 
@@ -165,6 +166,6 @@ fn what(session: &Session, scope: Option<&str>) -> String {
     if scope.is_some() || session.goal == Goal::Exam {
         format!("{goal}{place}")
     } else {
-        format!("{goal}{place}: {title}")
+        format!("{title}: {goal}{place}")
     }
 }

@@ -17,9 +17,8 @@ use crate::{
 pub fn draw(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     let session = turn.told();
-    let venue = if session.venue == Venue::Table { " at a real table" } else { "" };
-    let title =
-        Line::from(vec![Span::styled(goal_words(session.goal), theme.text()), Span::styled(venue, theme.faint())]);
+    let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
+    let title = Line::from(Span::styled(format!("{place}{}", goal_words(session.goal)), theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let top = draw_marks(&session, text, theme, look, buffer);
@@ -39,12 +38,12 @@ pub fn draw(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
 
 fn goal_words(goal: Goal) -> String {
     match goal {
-        Goal::Free => "Free repetition".to_owned(),
-        Goal::Run(points) => format!("Run of {points}"),
-        Goal::Exam => "Exam".to_owned(),
-        Goal::Game { innings: 0 } => "Game".to_owned(),
-        Goal::Game { innings: 1 } => "Game of 1 inning".to_owned(),
-        Goal::Game { innings } => format!("Game of {innings} innings"),
+        Goal::Free => "free repetition".to_owned(),
+        Goal::Run(points) => format!("run of {points}"),
+        Goal::Exam => "exam".to_owned(),
+        Goal::Game { innings: 0 } => "game".to_owned(),
+        Goal::Game { innings: 1 } => "game of 1 inning".to_owned(),
+        Goal::Game { innings } => format!("game of {innings} innings"),
     }
 }
 
@@ -90,7 +89,8 @@ fn lines(session: &Session) -> Vec<String> {
     }
     let average = record.average.map_or(String::new(), |average| format!(", average {average:.2}"));
     if session.is_game() {
-        lines.push(format!("{made} points in {} innings{average}", record.innings));
+        let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
+        lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
         lines.push(format!("run {}, best {}", session.run(), record.high_run));
     } else {
         lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
