@@ -7,7 +7,7 @@ mod training_player;
 
 use carom::{
     table::Table,
-    terminal::{App, Mapping},
+    terminal::{App, Mapping, Report},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -121,7 +121,7 @@ fn the_wheel_over_the_table_changes_the_speed() {
 fn a_click_on_a_shot_of_the_list_shows_it() {
     for (look, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
         let player = at_the_table(Player::with(look).press("Enter").answer().press(views));
-        let chosen = |player: &Player| player.app.coach().advised().map(carom::terminal::Advised::chosen);
+        let chosen = |player: &Player| player.app.coach().advised().map(|advised| advised.chosen());
         let text = player.text(120, 40);
         let row = text.lines().position(|line| line.contains("62%")).unwrap() as u16;
         let player = player.point(PRESS, (5, row));
@@ -141,7 +141,7 @@ fn the_wheel_scrolls_the_help_and_moves_the_mark_of_the_commands() {
 
 #[test]
 fn the_mark_of_the_library_follows_wheel_and_click() {
-    let mut player = drill_player::Player::new();
+    let mut player = drill_player::Player::with(drill_player::TRUE_COLOUR, &[], &[]);
     let text = player.text(120, 40);
     let marked = |app: &App| app.drills().catalogue.mark();
     assert_eq!(marked(&player.app), 0);
@@ -157,7 +157,7 @@ fn the_mark_of_the_library_follows_wheel_and_click() {
 
 #[test]
 fn the_mark_of_the_runs_follows_wheel_and_click() {
-    let mut player = training_player::Player::new().report(training_player::runs());
+    let mut player = training_player::Player::new().report(Report::Runs(Ok(training_player::summaries().into())));
     let text = player.text(120, 40);
     let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
     let (first, second) = (row(training_player::NAME), row(training_player::OTHER));
