@@ -3,6 +3,7 @@
 use std::{
     io::{Read, Write},
     num::NonZero,
+    path::Path,
     process::Command,
     sync::mpsc::{Receiver, RecvTimeoutError, channel},
     thread,
@@ -11,6 +12,7 @@ use std::{
 
 use carom::learning::run::list::{Stage, runs_in};
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use tempfile::TempDir;
 
 /// Longest time that a test waits for a picture, s; a loaded machine may take long to start a process.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -25,6 +27,8 @@ struct Session {
     writer: Box<dyn Write + Send>,
     output: Receiver<Vec<u8>>,
     screen: vt100::Parser,
+    /// Settings, the last session and the log: not those of whoever runs the tests.
+    home: Option<TempDir>,
     /// Bytes and writes seen so far.
     bytes: usize,
 }
@@ -34,7 +38,16 @@ impl Session {
         Self::start_command(CommandBuilder::new(env!("CARGO_BIN_EXE_carom")), width, height)
     }
 
-    fn start_command(mut command: CommandBuilder, width: u16, height: u16) -> Self {
+    fn start_command(command: CommandBuilder, width: u16, height: u16) -> Self {
+        let home = tempfile::tempdir().unwrap();
+        let mut session = Self::start_at(home.path(), command, width, height);
+        session.home = Some(home);
+        session
+    }
+
+    fn start_at(home: &Path, mut command: CommandBuilder, width: u16, height: u16) -> Self {
+        command.env("XDG_STATE_HOME", home.join("state"));
+        command.env("XDG_CONFIG_HOME", home.join("config"));
         let size = PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 };
         let pair = native_pty_system().openpty(size).unwrap();
         for (name, value) in [("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LC_ALL", "C.UTF-8")] {
@@ -55,7 +68,7 @@ impl Session {
         });
         let writer = pair.master.take_writer().unwrap();
         let screen = vt100::Parser::new(cells(height), cells(width), 0);
-        Self { master: pair.master, child, writer, output, screen, bytes: 0 }
+        Self { master: pair.master, child, writer, output, screen, home: None, bytes: 0 }
     }
 
     fn send(&mut self, keys: &str) {
@@ -193,6 +206,37 @@ fn signals_restore_the_terminal_and_still_end_the_program() {
         let status = session.assert_left_without_trace();
         assert!(!status.success(), "{name}: {status:?}");
     }
+}
+
+#[test]
+fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
+    let home = tempfile::tempdir().unwrap();
+    let start = || Session::start_at(home.path(), CommandBuilder::new(env!("CARGO_BIN_EXE_carom")), 80, 24);
+    let mut first = start();
+    first.wait_for("white at x -710.0 mm, y 0.0 mm");
+    first.send("\x1b[1;2B");
+    first.wait_for("white at x -710.0 mm, y -100.0 mm");
+    first.send("[");
+    first.wait_for("there is no");
+    first.signal("HUP");
+    first.assert_left_without_trace();
+    // Looking in without doing anything changes nothing.
+    for _ in 0..2 {
+        let mut second = start();
+        second.wait_for("c goes on from where the last session ended");
+        second.send("q");
+        assert!(second.assert_left_without_trace().success());
+    }
+    let mut third = start();
+    third.wait_for("c goes on");
+    third.send("c");
+    third.wait_for("this is where the last session ended");
+    third.send("\t\x1b[Z");
+    third.wait_for("white at x -710.0 mm, y -100.0 mm");
+    third.send("q");
+    assert!(third.assert_left_without_trace().success());
+    let log = std::fs::read_to_string(home.path().join("state/carom/carom.log")).unwrap();
+    assert!(log.contains("the screen opens") && log.contains("WARN there is no"), "{log}");
 }
 
 #[test]

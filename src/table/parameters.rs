@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn what_is_no_table_is_refused_with_its_line() {
         let message = Table::from_toml(&MATCH.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
-        assert!(message.contains("line 8") && message.contains("f64"), "{message}");
+        assert!(message.contains("line 9") && message.contains("f64"), "{message}");
         assert!(Table::from_toml("").unwrap_err().to_string().contains("missing field"));
     }
 

@@ -75,6 +75,13 @@ impl Mapping {
         })
     }
 
+    /// The same for the nearest cell of the bed; `None` only where there is no bed.
+    pub fn nearest_metres(&self, column: u16, row: u16) -> Option<DVec2> {
+        let Rect { x, y, width, height } = self.bed;
+        let nearest = |at: u16, from: u16, count: u16| at.clamp(from, from + count.saturating_sub(1));
+        self.to_metres(nearest(column, x, width), nearest(row, y, height))
+    }
+
     /// Columns across a ball at true scale.
     pub fn ball_columns(&self) -> f64 {
         2.0 * self.radius * self.scale().x

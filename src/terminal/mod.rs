@@ -11,6 +11,7 @@ mod chord;
 mod coach;
 mod drills;
 mod errands;
+mod finder;
 mod geometry;
 mod history;
 mod inbox;
@@ -55,9 +56,11 @@ pub use app::{App, Effect, Mode, Screen};
 pub use coach::View;
 pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
 pub use errands::Clerk;
+pub use finder::{Command, Finder};
 pub use geometry::Mapping;
 pub use keymap::{
-    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, Place, TrainingAction, TrainingWhen, When,
+    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, TrainingAction,
+    TrainingWhen, When,
 };
 pub use last::Last;
 pub use look::{Depth, Glyphs, Look};

@@ -51,7 +51,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
     info!(version = env!("CARGO_PKG_VERSION"), look = ?app.look(), "the screen opens");
     let (to_screen, news) = inbox::open()?;
-    let session = Session::start()?;
+    let session = Session::start(app.wants_mouse())?;
     let errands = Errands::new(to_screen.clone());
     let jobs = recommender::spawn(move |answer| {
         // A screen that is gone needs no answer.
@@ -175,6 +175,7 @@ impl Runner {
                 self.app.paste(&text);
                 None
             }
+            News::Input(Event::Mouse(mouse)) => self.app.mouse(&mouse),
             News::Answer(answer) => self.app.receive(answer),
             // A resize needs a picture, which follows anyway.
             News::Input(_) | News::Signal(SIGWINCH) => None,

@@ -13,6 +13,7 @@ use crossterm::{
     cursor::{Hide, Show},
     event::{DisableBracketedPaste, EnableBracketedPaste},
     execute,
+    style::Print,
     terminal::{
         EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
     },
@@ -28,22 +29,30 @@ use super::painter::Painter;
 /// cursor onto the report.
 static TAKEN: AtomicBool = AtomicBool::new(false);
 
+/// Has the mouse's buttons, wheel and drags reported, and no motion between (modes 1002 and 1006 of xterm). Crossterm's own
+/// command adds mode 1003, whose reports of every motion flood a slow link.
+const ENABLE_MOUSE: &str = "\x1b[?1002h\x1b[?1006h";
+/// Ends that; a terminal that never began it takes no notice.
+const DISABLE_MOUSE: &str = "\x1b[?1006l\x1b[?1002l";
+
 /// The terminal in raw mode with its alternate screen; dropping it gives the terminal back.
 pub struct Session {
     terminal: Terminal<Painter>,
     output: File,
+    /// Whether the mouse is reported.
+    mouse: bool,
 }
 
 impl Session {
-    /// Takes the terminal over.
+    /// Takes the terminal over, and the `mouse` where it is wanted.
     ///
     /// # Errors
     /// What the terminal answers.
-    pub fn start() -> io::Result<Self> {
+    pub fn start(mouse: bool) -> io::Result<Self> {
         let output = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         restore_on_panic();
         let terminal = Terminal::new(Painter::new(size))?;
-        let mut session = Self { terminal, output };
+        let mut session = Self { terminal, output, mouse };
         session.enter()?;
         Ok(session)
     }
@@ -55,7 +64,8 @@ impl Session {
     pub fn enter(&mut self) -> io::Result<()> {
         TAKEN.store(true, Ordering::SeqCst);
         enable_raw_mode()?;
-        execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
+        let mouse = if self.mouse { ENABLE_MOUSE } else { "" };
+        execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste, Print(mouse))?;
         self.terminal.backend_mut().forget();
         // The next picture has to be painted in full. `Terminal::clear` would ask the terminal for the cursor's place, and
         // the answer would have to get past the thread that reads keys.
@@ -71,7 +81,7 @@ impl Session {
         if !TAKEN.swap(false, Ordering::SeqCst) {
             return Ok(());
         }
-        let shown = execute!(self.output, DisableBracketedPaste, LeaveAlternateScreen, Show);
+        let shown = execute!(self.output, Print(DISABLE_MOUSE), DisableBracketedPaste, LeaveAlternateScreen, Show);
         disable_raw_mode().and(shown)
     }
 
@@ -130,7 +140,14 @@ fn restore_on_panic() {
         tracing::error!("{info}");
         if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
-            let _ = execute!(io::stdout(), EndSynchronizedUpdate, DisableBracketedPaste, LeaveAlternateScreen, Show);
+            let _ = execute!(
+                io::stdout(),
+                EndSynchronizedUpdate,
+                Print(DISABLE_MOUSE),
+                DisableBracketedPaste,
+                LeaveAlternateScreen,
+                Show
+            );
         }
         if thread::current().id() == screen {
             report(info);

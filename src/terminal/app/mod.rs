@@ -2,6 +2,8 @@
 //!
 //! What its screens share is here; each screen has a state of its own. [`view`] is what drawing reads.
 
+mod finding;
+mod mouse;
 mod view;
 
 use std::{
@@ -10,11 +12,12 @@ use std::{
 };
 
 use crossterm::event::{KeyEvent, KeyEventKind};
-use ratatui::Frame;
+use ratatui::{Frame, layout::Rect};
 
 use super::{
     coach::CoachScreen,
     drills::{Balls, DrillReport, DrillScreen, Errand},
+    finder::Finder,
     keymap::{self, Action, Place, When},
     last::Last,
     look::{Depth, Glyphs, Look},
@@ -86,6 +89,12 @@ pub struct App {
     help: Option<u16>,
     /// The first line of the help when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
     help_end: Cell<u16>,
+    /// The command palette while it is open.
+    finder: Option<Finder>,
+    /// Where the screen was drawn, to find what the mouse points at.
+    area: Cell<Rect>,
+    /// Whether the mouse is wanted.
+    mouse: bool,
     look: Look,
     /// The look with any palette that has colours.
     full_look: Look,
@@ -108,6 +117,9 @@ impl App {
             drills: DrillScreen::new(Places::of_this_user(), seed),
             help: None,
             help_end: Cell::new(u16::MAX),
+            finder: None,
+            area: Cell::default(),
+            mouse: true,
             look,
             full_look: look,
             theme: Theme::new(look.depth),
@@ -144,6 +156,7 @@ impl App {
     pub fn with_settings(mut self, settings: &Settings) -> Self {
         self.coach.take_settings(settings);
         self.keys = settings.keys.clone();
+        self.mouse = settings.mouse;
         self.choose_palette(settings.palette);
         self
     }
@@ -182,7 +195,12 @@ impl App {
         if key.kind == KeyEventKind::Release {
             return None;
         }
-        if self.help.is_none() {
+        if let Some(finder) = &mut self.finder {
+            if finder.take_key(key) {
+                *self.message_mut() = None;
+                return None;
+            }
+        } else if self.help.is_none() {
             let typed = match self.screen {
                 Screen::Coach => false,
                 Screen::Training => self.training.typed(key),
@@ -246,6 +264,7 @@ impl App {
                 let balls = Balls { table, layout, rule: self.coach.tutor.rule };
                 return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
             }
+            Action::Finder(action) => return self.find(action),
             Action::Coach(action) => return self.coach.update(action),
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
@@ -294,6 +313,11 @@ impl App {
 
     /// What is on the screen. The help is that of what lies below it.
     pub fn place(&self) -> Place {
+        if self.finder.is_some() { Place::Finder } else { self.place_below() }
+    }
+
+    /// The same without the command palette.
+    pub(super) fn place_below(&self) -> Place {
         match self.screen {
             Screen::Coach => Place::Coach,
             Screen::Training if self.help.is_some() => self.training.page().place(),
@@ -320,6 +344,7 @@ impl App {
             self.training.alone = false;
             self.screen = Screen::Coach;
             self.help = None;
+            self.finder = None;
         }
     }
 
@@ -330,7 +355,9 @@ impl App {
 
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
-        if self.screen == Screen::Drills && self.help.is_none() {
+        if let Some(finder) = &mut self.finder {
+            finder.take_text(text);
+        } else if self.screen == Screen::Drills && self.help.is_none() {
             self.drills.pasted(text);
         }
     }
@@ -360,6 +387,7 @@ impl App {
 
     /// Draws the screen.
     pub fn draw(&self, frame: &mut Frame) {
+        self.area.set(frame.area());
         screens::draw(self, frame.area(), frame.buffer_mut());
     }
 }

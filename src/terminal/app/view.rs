@@ -6,8 +6,8 @@ use super::{App, Mode, Screen};
 use crate::{
     table::{Layout, Table},
     terminal::{
-        coach::CoachScreen, drills::DrillScreen, look::Look, playback::Playback, settings::Keys, shot::Shot,
-        status::Message, theme::Theme, training::TrainingScreen,
+        coach::CoachScreen, drills::DrillScreen, finder::Finder, look::Look, playback::Playback, settings::Keys,
+        shot::Shot, status::Message, theme::Theme, training::TrainingScreen,
     },
 };
 
@@ -102,6 +102,11 @@ impl App {
     /// Drawing tells the help's first line when it is scrolled to its end.
     pub fn set_help_end(&self, line: u16) {
         self.help_end.set(line);
+    }
+
+    /// The command palette, while it is open.
+    pub const fn finder(&self) -> Option<&Finder> {
+        self.finder.as_ref()
     }
 
     /// What the terminal can show.

@@ -19,6 +19,7 @@ use crate::{
 impl CoachScreen {
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
+        self.drop_ball();
         let effect = self.act(action);
         // Whatever has changed, the closer look is at the shot that is shown now.
         let study = self.study();
@@ -48,8 +49,9 @@ impl CoachScreen {
             Action::NextSkill => self.next_skill(),
             Action::TurnPlan => self.turn_plan(),
             Action::NextView => self.view = self.view.next(),
-            Action::NextShot => self.choose(true),
-            Action::PreviousShot => self.choose(false),
+            Action::NextShot => self.choose(|advised| advised.turn(true)),
+            Action::PreviousShot => self.choose(|advised| advised.turn(false)),
+            Action::Show(shot) => self.choose(|advised| advised.show(shot)),
             Action::Resume => self.resume(),
             Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
             other => self.play(other),
@@ -109,6 +111,7 @@ impl CoachScreen {
 
     /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
     pub(super) fn place(&mut self, layout: Layout) {
+        self.drop_ball();
         self.balls.push(Position { layout, advised: None });
         self.rest();
     }

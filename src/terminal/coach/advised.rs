@@ -54,6 +54,11 @@ impl Advised {
         &mut self.choices[self.chosen]
     }
 
+    /// Shows the shot at this place, or the last one.
+    pub fn show(&mut self, shot: usize) {
+        self.chosen = shot.min(self.choices.len() - 1);
+    }
+
     /// Shows the next shot, or the one before; after the last comes the first.
     pub fn turn(&mut self, forward: bool) {
         let count = self.choices.len();

@@ -141,9 +141,9 @@ impl CoachScreen {
         Some(Effect::Study(Box::new(job)))
     }
 
-    pub(super) fn choose(&mut self, forward: bool) {
+    pub(super) fn choose(&mut self, choose: impl FnOnce(&mut Advised)) {
         if let Some(advised) = self.advised_mut() {
-            advised.turn(forward);
+            choose(advised);
             let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
             self.message = Some(news(&advised.choice().proposal, None, &advised.tutor).after(&words));
         }

@@ -1,17 +1,21 @@
 //! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
-//! [`actions`] is what each key does to it, [`asking`] how the coach is asked.
+//! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls.
 
 mod actions;
 mod advised;
 mod asking;
+mod dragging;
 
 use std::{sync::Arc, time::Duration};
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use self::asking::{Pending, Studying};
+use self::{
+    asking::{Pending, Studying},
+    dragging::Drag,
+};
 use super::{
     advice::{Proposal, Tutor},
     app::Mode,
@@ -87,6 +91,8 @@ pub struct CoachScreen {
     /// What the panels show.
     pub view: View,
     balls: History<Position>,
+    /// The selected ball is held by the mouse.
+    drag: Option<Drag>,
     /// Where the last session ended, until it is gone on with.
     before: Option<Last>,
     step: usize,
@@ -114,6 +120,7 @@ impl CoachScreen {
             tutor: Tutor::default(),
             view: View::default(),
             balls: History::new(Position { layout, advised: None }),
+            drag: None,
             before: None,
             step: FIRST_STEP,
             budget: Duration::from_millis(Settings::default().think_ms),

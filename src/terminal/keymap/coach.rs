@@ -66,6 +66,8 @@ pub enum CoachAction {
     NextShot,
     /// Shows the one before.
     PreviousShot,
+    /// Shows one of them by its place in the list; no key does it, but the mouse.
+    Show(usize),
     /// Asks the bundled policies again.
     Bundled,
     /// Goes on from where the last session ended.

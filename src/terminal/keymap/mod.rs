@@ -2,6 +2,7 @@
 
 mod coach;
 mod drills;
+mod finder;
 mod training;
 
 use crossterm::event::{
@@ -13,6 +14,7 @@ use super::chord::Chord;
 
 pub use coach::{CoachAction, CoachWhen};
 pub use drills::{DrillAction, DrillPlace, DrillWhen};
+pub use finder::FinderAction;
 pub use training::{TrainingAction, TrainingWhen};
 
 /// What a key does.
@@ -28,6 +30,8 @@ pub enum Action {
     CloseHelp,
     /// Scrolls the help by lines, down where positive.
     ScrollHelp(i16),
+    /// Something in the command palette, or opening it.
+    Finder(FinderAction),
     /// Draws the table with the next simpler set of characters.
     NextGlyphs,
     /// Shows the next of the themes.
@@ -80,6 +84,8 @@ pub enum Place {
     Name,
     /// One of the drill screens.
     Drill(DrillPlace),
+    /// The command palette, over any of them.
+    Finder,
 }
 
 /// Headings of the help, in its order.
@@ -205,6 +211,7 @@ const HELP: &[Binding] = &[
 #[rustfmt::skip]
 const PROGRAM: &[Binding] = &[
     entry(Program, When::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
+    finder::OPEN,
     entry(Program, When::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
     entry(Program, When::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
     entry(Program, When::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
@@ -229,9 +236,10 @@ pub fn bindings(place: Place) -> impl Iterator<Item = &'static Binding> {
         Place::Question => training::QUESTION,
         Place::Name => training::NAME,
         Place::Drill(place) => place.bindings(),
+        Place::Finder => finder::FINDER,
     };
     let (help, program) = match place {
-        Place::Question | Place::Name => (&[][..], LEAVE),
+        Place::Question | Place::Name | Place::Finder => (&[][..], LEAVE),
         Place::Drill(place) if place.takes_letters() => (&[][..], LEAVE),
         _ => (HELP, PROGRAM),
     };
@@ -261,8 +269,16 @@ pub fn find<'a>(
 mod tests {
     use super::*;
 
-    const PLACES: [Place; 7] =
-        [Place::Coach, Place::Runs, Place::Compare, Place::Form, Place::Watch, Place::Question, Place::Name];
+    const PLACES: [Place; 8] = [
+        Place::Coach,
+        Place::Runs,
+        Place::Compare,
+        Place::Form,
+        Place::Watch,
+        Place::Question,
+        Place::Name,
+        Place::Finder,
+    ];
 
     fn places() -> impl Iterator<Item = Place> {
         PLACES.into_iter().chain(DrillPlace::ALL.map(Place::Drill))

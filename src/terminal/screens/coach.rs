@@ -1,21 +1,25 @@
 //! The coach's screen: the table, what the coach recommends, and the shot as it plays.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+};
 
-use super::panes::Panes;
+use super::{panes::Panes, target::Target};
 use crate::{
     coach::{Mark, line_of_aim},
     table::BALLS,
     terminal::{
         app::{App, Mode},
         coach::{Advised, View},
+        geometry::Mapping,
         playback::passed,
         shot::Shot,
         status::Message,
         widgets::{
-            TableView, draw_aim_map, draw_balls, draw_chances, draw_events, draw_header, draw_hints, draw_legend,
-            draw_margins, draw_plan, draw_proposal, draw_shot, draw_status, draw_table, draw_tip, draw_tip_map,
-            plan_spots,
+            TableView, choice_at, draw_aim_map, draw_balls, draw_chances, draw_events, draw_header, draw_hints,
+            draw_legend, draw_margins, draw_plan, draw_proposal, draw_shot, draw_status, draw_table, draw_tip,
+            draw_tip_map, plan_spots,
         },
         words::{BALL_NAMES, event_words, fixed, millimetres, percent, rail_word, step_words},
     },
@@ -53,9 +57,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
 fn draw_panels(app: &App, panes: &Panes, buffer: &mut Buffer) {
     let (theme, look, table, shot) = (app.theme(), app.look(), app.table(), app.shot().map(AsRef::as_ref));
     let chosen = app.coach().view;
-    draw_info(app, chosen, panes.info, buffer);
-    let others = [View::Chances, View::Margins, View::Plan].into_iter().filter(|view| *view != chosen);
-    for (view, area) in others.zip(panes.more).filter(|(_, area)| !area.is_empty()) {
+    for (view, area) in views(chosen, panes) {
         draw_info(app, view, area, buffer);
     }
     let study = app.coach().shown().and_then(|advised| advised.choice().study.as_ref());
@@ -71,6 +73,29 @@ fn draw_panels(app: &App, panes: &Panes, buffer: &mut Buffer) {
     draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, theme, look, buffer);
     let time = app.watched().map(|_| app.playback().readout);
     draw_events(shot, time, panes.events, theme, look, buffer);
+}
+
+/// The chosen view and the others that there is room for, each with its panel.
+fn views(chosen: View, panes: &Panes) -> impl Iterator<Item = (View, Rect)> {
+    let others = [View::Chances, View::Margins, View::Plan].into_iter().filter(move |view| *view != chosen);
+    std::iter::once((chosen, panes.info)).chain(others.zip(panes.more).filter(|(_, area)| !area.is_empty()))
+}
+
+/// Where the table is drawn.
+pub fn table_mapping(app: &App, area: Rect) -> Mapping {
+    Mapping::fit(app.table(), Panes::new(app.table(), area).table)
+}
+
+/// What the mouse points at.
+pub fn target(app: &App, area: Rect, at: Position) -> Option<Target> {
+    let mapping = table_mapping(app, area);
+    if mapping.bed.contains(at) {
+        return Some(Target::Table(mapping));
+    }
+    let panes = Panes::new(app.table(), area);
+    let (_, panel) = views(app.coach().view, &panes).find(|(view, _)| *view == View::Chances)?;
+    let advised = app.coach().shown().filter(|_| panel.contains(at))?;
+    choice_at(advised, panel, at.y).map(Target::Shot)
 }
 
 /// Draws what one of the views tells.

@@ -2,14 +2,19 @@
 
 mod coach;
 mod drills;
+mod finder;
 mod help;
 mod panes;
+mod target;
 mod too_small;
 mod training;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::app::{App, Screen};
+
+pub use coach::table_mapping;
+pub use target::{Target, target};
 
 /// Columns and rows below which there is no room for the table and its panels.
 pub const SMALLEST: (u16, u16) = (80, 24);
@@ -26,6 +31,9 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
             Screen::Coach => coach::draw(app, area, buffer),
             Screen::Training => training::draw(app, area, buffer),
             Screen::Drills => drills::draw(app, area, buffer),
+        }
+        if let Some(finder) = app.finder() {
+            finder::draw(app, finder, area, buffer);
         }
     }
 }

@@ -114,6 +114,13 @@ pub const ENTRIES: &[Entry] = &[
         get: |settings| decimal(settings.speed),
         set: |settings, value| Some(settings.speed = one_of(value, &SPEEDS)?),
     },
+    Entry {
+        key: "mouse",
+        about: "Whether the mouse moves balls and lists; without it the terminal's own selection stays as it is.",
+        accepted: "true, false",
+        get: |settings| settings.mouse.to_string(),
+        set: |settings, value| Some(settings.mouse = value.as_bool()?),
+    },
 ];
 
 fn quoted(value: impl ToString) -> String {

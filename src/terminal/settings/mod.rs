@@ -45,6 +45,8 @@ pub struct Settings {
     pub step_mm: f64,
     /// Seconds of a shot in a second of the screen.
     pub speed: f64,
+    /// Whether the program takes the mouse.
+    pub mouse: bool,
     /// Keys that do what others do.
     pub keys: Keys,
 }
@@ -62,6 +64,7 @@ impl Default for Settings {
             think_ms: 1000,
             step_mm: 10.0,
             speed: 1.0,
+            mouse: true,
             keys: Keys::default(),
         }
     }

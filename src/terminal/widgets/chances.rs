@@ -39,9 +39,7 @@ pub fn draw_chances(
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let Some(advised) = advised else { return draw_nothing(&[empty], inner, theme, buffer) };
-    let (rows, count) = (usize::from(inner.height), advised.choices().len());
-    let first = advised.chosen().saturating_sub(rows / 2).min(count.saturating_sub(rows));
-    for (n, row) in (first..count).zip(inner.y..inner.bottom()) {
+    for (n, row) in in_view(advised, inner) {
         let is_chosen = n == advised.chosen();
         let style = if is_chosen { theme.accent() } else { theme.text() };
         let proposal = &advised.choices()[n].proposal;
@@ -54,6 +52,20 @@ pub fn draw_chances(
         let room = usize::from(inner.width.saturating_sub(WORDS));
         buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal), room, style);
     }
+}
+
+/// The place of the shot that the panel in `area` tells in this row of the screen.
+pub fn choice_at(advised: &Advised, area: Rect, row: u16) -> Option<usize> {
+    // The first row is the title's.
+    let inner = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+    in_view(advised, inner).find(|(_, y)| *y == row).map(|(n, _)| n)
+}
+
+/// The shots that have a row, and their rows.
+fn in_view(advised: &Advised, inner: Rect) -> impl Iterator<Item = (usize, u16)> {
+    let (rows, count) = (usize::from(inner.height), advised.choices().len());
+    let first = advised.chosen().saturating_sub(rows / 2).min(count.saturating_sub(rows));
+    (first..count).zip(inner.y..inner.bottom())
 }
 
 /// What sort of shot it is, or that it makes no point.

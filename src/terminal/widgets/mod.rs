@@ -23,7 +23,7 @@ use ratatui::{
 use super::{look::Look, theme::Theme};
 
 pub use balls::draw_balls;
-pub use chances::{draw_chances, sort_words};
+pub use chances::{choice_at, draw_chances, sort_words};
 pub use events::draw_events;
 pub use footer::{cut, draw_hints, draw_question, draw_status, wrap};
 pub use header::draw_header;
@@ -31,7 +31,7 @@ pub use maps::{draw_aim_map, draw_legend, draw_tip_map};
 pub use margins::draw_margins;
 pub use plan::{draw_plan, plan_spots};
 pub use shot::{draw_proposal, draw_shot};
-pub use table::{Spot, TableView, draw_table};
+pub use table::{Spot, TableView, ball_at, draw_table};
 pub use tip::{draw_tip, face_in};
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.

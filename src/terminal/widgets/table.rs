@@ -118,6 +118,17 @@ fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
     balls
 }
 
+/// The ball that is drawn in a cell of the screen, column and row; the nearest one where pictures share it.
+pub fn ball_at(balls: [DVec2; BALLS], mapping: &Mapping, glyphs: Glyphs, cell: (u16, u16)) -> Option<usize> {
+    let middle = mapping.to_metres(cell.0, cell.1)?;
+    let reach = Sprite::new(mapping, glyphs).reach(mapping, glyphs);
+    let half_cell = 0.5 / mapping.scale();
+    let drawn = apart(balls, 2.0 * reach);
+    let is_there = |ball: DVec2| ball.clamp(middle - half_cell, middle + half_cell).distance(ball) <= reach;
+    let found = (0..BALLS).filter(|&ball| is_there(drawn[ball]));
+    found.min_by(|&one, &other| drawn[one].distance(middle).total_cmp(&drawn[other].distance(middle)))
+}
+
 struct Scene<'a> {
     view: &'a TableView<'a>,
     mapping: Mapping,

@@ -2,7 +2,7 @@
 
 use ratatui::{
     buffer::Buffer,
-    layout::Rect,
+    layout::{Position, Rect},
     text::{Line, Span},
 };
 
@@ -12,6 +12,7 @@ use crate::{
     terminal::{
         app::App,
         geometry::Mapping,
+        screens::target::{self, Target},
         status::Message,
         widgets::{TableView, cut, draw_table, draw_title, wrap, write_right},
     },
@@ -34,14 +35,34 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
         _ => format!("{sessions} sessions so far"),
     };
     draw_header(app, "practice", &more, header, buffer);
-    let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
+    let [list, preview] = halves(area);
     draw_list(app, list, buffer);
-    let preview = Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area };
     match drills.catalogue.marked() {
         Some(exercise) => draw_exercise(app, exercise, preview, buffer),
         None => draw_nothing(app, preview, buffer),
     }
     standing(app)
+}
+
+/// The list's part of the page, and that of the marked exercise.
+fn halves(area: Rect) -> [Rect; 2] {
+    let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
+    [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
+}
+
+/// What the mouse points at.
+pub fn target(app: &App, area: Rect, at: Position) -> Option<Target> {
+    let catalogue = &app.drills().catalogue;
+    let [list, _] = halves(area);
+    // The first row is the title's.
+    let rows = list.y + 1..list.bottom();
+    let found = catalogue.found();
+    let shown = in_view(&found, catalogue.mark(), rows.len());
+    let line = rows.zip(shown).find(|(y, _)| *y == at.y).and_then(|(_, row)| match row {
+        Row::Exercise(n, _) => Some(n),
+        Row::Heading(_) => None,
+    });
+    list.contains(at).then(|| target::list(line, catalogue.mark()))
 }
 
 fn standing(app: &App) -> Message {
@@ -73,6 +94,19 @@ fn draw_list(app: &App, area: Rect, buffer: &mut Buffer) {
             write_right(buffer, area.x, end, area.y, label, theme.faint());
         }
     }
+    for (row, y) in in_view(&found, catalogue.mark(), usize::from(inner.height)).zip(inner.y..inner.bottom()) {
+        let area = Rect { y, height: 1, ..inner };
+        match row {
+            Row::Heading(category) => {
+                buffer.set_stringn(area.x + 1, y, category.title(), usize::from(area.width), theme.good());
+            }
+            Row::Exercise(n, exercise) => draw_row(app, exercise, n == catalogue.mark(), area, buffer),
+        }
+    }
+}
+
+/// The rows of the list from the first one that is shown on, so that the marked one is among the first `most`.
+fn in_view<'a>(found: &[&'a Exercise], mark: usize, most: usize) -> impl Iterator<Item = Row<'a>> {
     let mut rows = Vec::new();
     for (n, exercise) in found.iter().enumerate() {
         if n == 0 || found[n - 1].category != exercise.category {
@@ -80,18 +114,9 @@ fn draw_list(app: &App, area: Rect, buffer: &mut Buffer) {
         }
         rows.push(Row::Exercise(n, exercise));
     }
-    let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == catalogue.mark())).unwrap_or(0);
-    let most = usize::from(inner.height);
+    let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == mark)).unwrap_or(0);
     let first = marked.saturating_sub(most / 2).min(rows.len().saturating_sub(most));
-    for (row, y) in rows[first..].iter().zip(inner.y..inner.bottom()) {
-        let area = Rect { y, height: 1, ..inner };
-        match row {
-            Row::Heading(category) => {
-                buffer.set_stringn(area.x + 1, y, category.title(), usize::from(area.width), theme.good());
-            }
-            Row::Exercise(n, exercise) => draw_row(app, exercise, *n == catalogue.mark(), area, buffer),
-        }
-    }
+    rows.into_iter().skip(first)
 }
 
 /// How many exercises are listed, and which.

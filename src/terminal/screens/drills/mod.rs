@@ -1,7 +1,7 @@
 //! The drill screens: the library, the exercise that is practised, the result of an exam, and the records.
 
 mod exercise;
-mod library;
+pub mod library;
 mod panels;
 mod panes;
 mod record;

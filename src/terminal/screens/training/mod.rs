@@ -6,7 +6,7 @@ mod header;
 mod numbers;
 mod panes;
 mod replay;
-mod runs;
+pub mod runs;
 mod watch;
 
 use ratatui::{

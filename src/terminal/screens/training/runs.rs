@@ -2,7 +2,7 @@
 
 use ratatui::{
     buffer::Buffer,
-    layout::Rect,
+    layout::{Position, Rect},
     style::Style,
     text::{Line, Span},
 };
@@ -11,6 +11,7 @@ use crate::{
     learning::run::list::{Stage, Summary},
     terminal::{
         app::App,
+        screens::target::{self, Target},
         status::Message,
         training::Page,
         widgets::{draw_title, write_right},
@@ -83,10 +84,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         }
     };
     put(buffer, area.y + 1, theme.faint(), &|column| column.heading.to_owned());
-    let rows = area.height.saturating_sub(6);
-    let most = usize::from(rows);
-    let first = mark.saturating_sub(most / 2).min(runs.len().saturating_sub(most));
-    for (n, y) in (first..runs.len()).zip(area.y + 2..area.y + 2 + rows) {
+    for (n, y) in in_view(app, area) {
         let run = &runs[n];
         let style = match run.state {
             _ if n == mark => theme.accent(),
@@ -100,6 +98,22 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         put(buffer, y, style, &|column| (column.text)(run));
     }
     draw_marked(app, &runs[mark], mark, Rect { y: area.bottom() - 3, height: 3, ..area }, buffer);
+}
+
+/// The runs that have a row, by their place in the list, and their rows.
+fn in_view(app: &App, area: Rect) -> impl Iterator<Item = (usize, u16)> {
+    let list = &app.training().list;
+    // Above it are a blank row and the headings, below it what is told of the marked run.
+    let rows = area.height.saturating_sub(6);
+    let (most, count) = (usize::from(rows), list.runs().len());
+    let first = list.mark().saturating_sub(most / 2).min(count.saturating_sub(most));
+    (first..count).zip(area.y + 2..area.y + 2 + rows)
+}
+
+/// What the mouse points at.
+pub fn target(app: &App, area: Rect, at: Position) -> Option<Target> {
+    let run = in_view(app, area).find(|(_, y)| *y == at.y).map(|(n, _)| n);
+    area.contains(at).then(|| target::list(run, app.training().list.mark()))
 }
 
 /// The columns that fit into `room`.

@@ -1,0 +1,160 @@
+//! The command palette: everything that the keys do at a place, narrowed by typed words.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::{
+    chord::keys_text,
+    keymap::{Action, FinderAction, Place, When, bindings},
+    look::Look,
+    settings::Keys,
+};
+
+/// One thing that can be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// Its keys as they are written on the screen.
+    pub keys: String,
+    /// What it does.
+    pub description: &'static str,
+    /// Its heading in the help.
+    pub title: &'static str,
+    /// What it asks for.
+    pub action: Action,
+    /// When it may be used.
+    pub when: When,
+}
+
+impl Command {
+    /// Whether all `words`, in small letters, occur in what is known of it.
+    fn has(&self, words: &[String]) -> bool {
+        let text = format!("{} {} {}", self.description, self.title, self.keys).to_lowercase();
+        words.iter().all(|word| text.contains(word))
+    }
+}
+
+/// The commands at `place`, one for each thing that a binding does.
+pub fn commands(place: Place, keys: &Keys, look: Look) -> Vec<Command> {
+    let mut commands: Vec<Command> = Vec::new();
+    for binding in bindings(place).filter(|binding| binding.when != When::Help) {
+        let from = commands.len();
+        for (_, action) in binding.keys.iter().filter(|(_, action)| *action != Action::Finder(FinderAction::Open)) {
+            if commands[from..].iter().any(|known| known.action == *action) {
+                continue;
+            }
+            let chords = binding.keys.iter().filter(|(_, other)| other == action);
+            commands.push(Command {
+                keys: keys_text(chords.flat_map(|(chord, _)| keys.for_work_of(*chord)), look),
+                description: binding.description,
+                title: binding.section.title(),
+                action: *action,
+                when: binding.when,
+            });
+        }
+    }
+    commands
+}
+
+/// The palette while it is open: what is typed, and the mark among what is found.
+#[derive(Clone, Debug, Default)]
+pub struct Finder {
+    typed: String,
+    mark: usize,
+}
+
+impl Finder {
+    /// What is typed.
+    pub fn typed(&self) -> &str {
+        &self.typed
+    }
+
+    /// The commands that have all typed words, in their order.
+    pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
+        let words: Vec<String> = self.typed.split_whitespace().map(str::to_lowercase).collect();
+        commands.retain(|command| command.has(&words));
+        commands
+    }
+
+    /// Place of the mark among `count` that are found; the screen below may have changed since it was set.
+    pub fn mark(&self, count: usize) -> usize {
+        self.mark.min(count.saturating_sub(1))
+    }
+
+    /// Moves the mark among `count` commands by lines, down where positive.
+    pub fn move_mark(&mut self, lines: isize, count: usize) {
+        self.mark = self.mark(count).saturating_add_signed(lines).min(count.saturating_sub(1));
+    }
+
+    /// Takes a letter; `false` if the key is none.
+    pub fn take_key(&mut self, key: &KeyEvent) -> bool {
+        let KeyCode::Char(letter) = key.code else { return false };
+        let is_letter = (key.modifiers - KeyModifiers::SHIFT).is_empty();
+        if is_letter {
+            self.take_text(letter.encode_utf8(&mut [0; 4]));
+        }
+        is_letter
+    }
+
+    /// Takes text that was typed or pasted.
+    pub fn take_text(&mut self, text: &str) {
+        self.typed.extend(text.chars().filter(|letter| !letter.is_control()));
+        self.mark = 0;
+    }
+
+    /// Takes the last letter back.
+    pub fn erase(&mut self) {
+        self.typed.pop();
+        self.mark = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::{
+        keymap::CoachAction,
+        look::{Depth, Glyphs},
+    };
+
+    const LOOK: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+
+    fn found(typed: &str) -> Vec<Command> {
+        let mut finder = Finder::default();
+        finder.take_text(typed);
+        finder.found(commands(Place::Coach, &Keys::default(), LOOK))
+    }
+
+    #[test]
+    fn all_words_have_to_occur_in_any_order_and_case() {
+        let undo = found("BACK change");
+        assert_eq!(undo.len(), 1, "{undo:?}");
+        assert_eq!((undo[0].action, undo[0].keys.as_str()), (Action::Coach(CoachAction::Undo), "u"));
+        assert!(found("back nonsense").is_empty());
+        assert!(found("ctrl-r").iter().all(|command| command.keys.contains("Ctrl-r")));
+        assert!(found("placing").iter().all(|command| command.title == "Placing the balls"));
+    }
+
+    #[test]
+    fn each_thing_that_a_binding_does_has_a_line_with_its_keys() {
+        let keys: Vec<_> = found("by one step").into_iter().map(|command| command.keys).collect();
+        assert_eq!(keys, ["← h", "↓ j", "↑ k", "→ l"]);
+        assert!(
+            found("").iter().all(|command| !matches!(command.action, Action::Finder(_))),
+            "it does not list itself"
+        );
+    }
+
+    #[test]
+    fn the_mark_stays_among_what_is_found() {
+        let mut finder = Finder::default();
+        finder.move_mark(isize::MAX, 4);
+        assert_eq!(finder.mark(4), 3);
+        assert_eq!(finder.mark(2), 1);
+        finder.move_mark(-1, 2);
+        assert_eq!(finder.mark(9), 0);
+        finder.move_mark(5, 0);
+        assert_eq!(finder.mark(0), 0);
+        finder.move_mark(1, 3);
+        finder.take_text("x\n");
+        assert_eq!((finder.mark(3), finder.typed()), (0, "x"));
+    }
+}

@@ -1,0 +1,114 @@
+//! The command palette: a box over the screen with what can be done there.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::{Modifier, Style},
+    symbols::border,
+    text::{Line, Span},
+    widgets::{Block, Clear, Widget},
+};
+
+use crate::terminal::{
+    app::App,
+    finder::{Command, Finder},
+    status::Message,
+    widgets::{cut, draw_status, wrap, write_right},
+};
+
+/// Columns of the box at most, and beside it at least; its rows at most.
+const WIDTH: u16 = 100;
+const BESIDE: u16 = 3;
+const HEIGHT: u16 = 28;
+/// Rows of the box that are no commands: its frame, and what is typed.
+const FRAME: u16 = 3;
+/// Rows that stay free for the sentence on the marked command, and the keys.
+const BELOW: u16 = 3;
+/// Columns of the keys.
+const KEYS: u16 = 16;
+/// Columns of the row of what is typed that are the prompt's and the counts'.
+const COUNTS: usize = 16;
+/// The frame where there are only plain characters.
+const ASCII_FRAME: border::Set = border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+/// Draws the palette over the screen in `area`, which has the smallest size at least.
+pub fn draw(app: &App, finder: &Finder, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let all = app.commands();
+    let count = all.len();
+    let found = finder.found(all);
+    // What is typed does not change the height: a box that jumps cannot be read.
+    let height = (count as u16 + FRAME).min(HEIGHT).min(area.height - BELOW - 1);
+    let width = WIDTH.min(area.width - 2 * BESIDE);
+    let place = Rect::new(area.x + (area.width - width) / 2, area.y + 1, width, height);
+    Clear.render(place, buffer);
+    buffer.set_style(place, theme.text());
+    let frame =
+        Block::bordered().border_style(theme.faint()).title(Span::styled(" What can be done here ", theme.text()));
+    let frame = if look.unicode { frame } else { frame.border_set(ASCII_FRAME) };
+    let inner = frame.inner(place);
+    frame.render(place, buffer);
+    // Of what is typed the end is to be seen.
+    let typed = finder.typed();
+    let hidden = typed.chars().count().saturating_sub(usize::from(inner.width) - COUNTS);
+    let prompt = Line::from(vec![
+        Span::styled(" : ", theme.accent()),
+        Span::styled(typed.chars().skip(hidden).collect::<String>(), theme.text()),
+        Span::styled(" ", theme.text().add_modifier(Modifier::REVERSED)),
+    ]);
+    buffer.set_line(inner.x, inner.y, &prompt, inner.width);
+    let of = format!("{} of {count} ", found.len());
+    write_right(buffer, inner.x, inner.right(), inner.y, &of, theme.faint());
+
+    let rows = Rect { y: inner.y + 1, height: inner.height - 1, ..inner };
+    let (mark, most) = (finder.mark(found.len()), usize::from(rows.height));
+    let first = mark.saturating_sub(most / 2).min(found.len().saturating_sub(most));
+    for ((n, command), y) in found.iter().enumerate().skip(first).zip(rows.y..rows.bottom()) {
+        draw_command(app, command, n == mark, Rect { y, height: 1, ..rows }, buffer);
+    }
+    let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);
+    draw_status(&standing(app, found.get(mark)), status, theme, look, buffer);
+}
+
+/// Draws one command: its keys, what it does, and why it may not be used now.
+fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let refusal = app.refusal(command.when);
+    let (keys, words) = if refusal.is_some() { (theme.faint(), theme.faint()) } else { (theme.accent(), theme.text()) };
+    let text = sentence(command, refusal);
+    let room = usize::from(area.width.saturating_sub(KEYS + 4));
+    buffer.set_stringn(area.x + 2, area.y, &command.keys, usize::from(KEYS), keys);
+    buffer.set_stringn(area.x + KEYS + 3, area.y, cut(wrap(&text, room), 1, room, look).swap_remove(0), room, words);
+    if is_marked {
+        buffer.set_string(area.x, area.y, look.pick("▸", ">"), theme.accent());
+        buffer.set_style(area, Style::new().add_modifier(Modifier::REVERSED));
+    }
+}
+
+/// What a command does, and why not now.
+fn sentence(command: &Command, refusal: Option<&str>) -> String {
+    refusal.map_or_else(|| command.description.to_owned(), |reason| format!("{}: {reason}", command.description))
+}
+
+/// What the status line says: the marked command in full, or why it was refused.
+fn standing(app: &App, marked: Option<&Command>) -> Message {
+    if let Some(refused) = app.message().filter(|message| message.is_warning()) {
+        return refused.clone();
+    }
+    marked.map_or_else(
+        || Message::plain("nothing here is called like that"),
+        |command| {
+            let words = sentence(command, app.refusal(command.when));
+            Message::plain(words).after(command.title)
+        },
+    )
+}
