@@ -142,8 +142,12 @@ impl CoachScreen {
     /// What the next session may go on from; `None` while the balls lie as at the start.
     pub fn last(&self) -> Option<Last> {
         let Tutor { rule, skill, plan, .. } = self.tutor;
-        let is_begun = self.balls.can_undo() || self.balls.present().advised.is_some();
-        is_begun.then(|| Last::new(self.table.clone(), *self.layout(), rule, skill, plan))
+        self.is_begun().then(|| Last::new(self.table.clone(), *self.layout(), rule, skill, plan))
+    }
+
+    /// Whether anything has been done since the start.
+    fn is_begun(&self) -> bool {
+        self.balls.can_undo() || self.balls.present().advised.is_some()
     }
 
     /// Goes on from where the last session ended.
@@ -252,7 +256,9 @@ impl CoachScreen {
                 "there is no other shot to choose",
             ),
             CoachWhen::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
-            CoachWhen::Interrupted => refuse(self.before.is_none(), "there is no earlier session to go on with"),
+            CoachWhen::Interrupted => {
+                refuse(self.before.is_none() || self.is_begun(), "there is no earlier session to go on with")
+            }
             CoachWhen::Trained => refuse(self.tutor.policy.is_none(), "the bundled weights are asked already"),
             CoachWhen::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }
