@@ -40,7 +40,9 @@ fn words_narrow_it_and_enter_does_what_is_marked() {
 
 #[test]
 fn what_may_not_be_used_now_says_why_and_stays() {
-    let player = opened(TRUE_COLOUR).press("p l a y Space p a u s e Enter");
+    let player = opened(TRUE_COLOUR);
+    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
+    let player = player.press("p l a y Space p a u s e Enter");
     assert!(player.text(80, 24).contains("there is no shot yet; Enter asks the coach"));
     assert!(player.app.finder().is_some() && player.app.shot().is_none());
     let player = player.press("x x x x");
