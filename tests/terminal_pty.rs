@@ -243,10 +243,11 @@ fn a_user_may_keep_the_mouse() {
     let home = tempfile::tempdir().unwrap();
     std::fs::create_dir(home.path().join("carom")).unwrap();
     std::fs::write(home.path().join("carom/config.toml"), "mouse = false\n").unwrap();
-    let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_carom"));
-    command.env("XDG_CONFIG_HOME", home.path());
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "XDG_CONFIG_HOME=\"$1\" exec \"$0\"", env!("CARGO_BIN_EXE_carom")]);
+    command.arg(home.path());
     let mut session = Session::start_command(command, 80, 24);
-    session.wait_for("white at x -710.0 mm");
+    session.wait_for("placing balls");
     assert_eq!(session.screen.screen().mouse_protocol_mode(), vt100::MouseProtocolMode::None);
 }
 
