@@ -227,9 +227,9 @@ fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
     assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
     session.count(Duration::from_millis(200));
     // What comes at once is below the 1,024 bytes that the input library reads at a time.
-    let reports: String = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 16 + n % 2)).collect();
+    let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 16 + n % 2)).collect();
     let before = session.bytes;
-    session.send(&format!("\x1b[<0;34;16M{reports}\x1b[<32;44;16M\x1b[<0;44;16m"));
+    session.send(&format!("\x1b[<0;34;16M{}\x1b[<32;44;16M\x1b[<0;44;16m", reports.concat()));
     session.wait_for("white at x -447.0 mm, y 0.0 mm");
     session.count(Duration::from_millis(200));
     let drag = session.bytes - before;
