@@ -40,7 +40,9 @@ fn words_narrow_it_and_enter_does_what_is_marked() {
 
 #[test]
 fn what_may_not_be_used_now_says_why_and_stays() {
-    let player = opened(TRUE_COLOUR).press("p l a y Space p a u s e Enter");
+    let player = opened(TRUE_COLOUR);
+    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
+    let player = player.press("p l a y Space p a u s e Enter");
     assert!(player.text(80, 24).contains("there is no shot yet; Enter asks the coach"));
     assert!(player.app.finder().is_some() && player.app.shot().is_none());
     let player = player.press("x x x x");
@@ -80,7 +82,9 @@ fn the_mark_can_be_seen_without_colours_wherever_it_is() {
             assert_eq!(marked.count(), 1);
             player = player.press("Down");
         }
-        assert!(player.text(width, height).contains("quit"), "the last of them is in view");
+        let last = player.app.commands().pop().unwrap();
+        let start = format!("{:<17}{}", last.keys, &last.description[..20]);
+        assert!(player.text(width, height).contains(&start), "the last of them is in view: {start}");
     }
 }
 

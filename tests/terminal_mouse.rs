@@ -7,7 +7,7 @@ mod training_player;
 
 use carom::{
     table::Table,
-    terminal::{App, Mapping, Report},
+    terminal::{Advised, App, Mapping, Report},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -32,7 +32,7 @@ trait Hand: Sized {
     fn app(&mut self) -> &mut App;
 
     fn point(mut self, kind: MouseEventKind, cell: (u16, u16)) -> Self {
-        self.app().mouse(&event(kind, cell));
+        self.app().mouse(event(kind, cell));
         self
     }
 }
@@ -121,7 +121,7 @@ fn the_wheel_over_the_table_changes_the_speed() {
 fn a_click_on_a_shot_of_the_list_shows_it() {
     for (look, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
         let player = at_the_table(Player::with(look).press("Enter").answer().press(views));
-        let chosen = |player: &Player| player.app.coach().advised().map(|advised| advised.chosen());
+        let chosen = |player: &Player| player.app.coach().advised().map(Advised::chosen);
         let text = player.text(120, 40);
         let row = text.lines().position(|line| line.contains("62%")).unwrap() as u16;
         let player = player.point(PRESS, (5, row));
@@ -145,11 +145,11 @@ fn the_mark_of_the_library_follows_wheel_and_click() {
     let text = player.text(120, 40);
     let marked = |app: &App| app.drills().catalogue.mark();
     assert_eq!(marked(&player.app), 0);
-    player.app.mouse(&event(MouseEventKind::ScrollDown, (5, 10)));
-    player.app.mouse(&event(MouseEventKind::ScrollDown, (100, 10)));
+    player.app.mouse(event(MouseEventKind::ScrollDown, (5, 10)));
+    player.app.mouse(event(MouseEventKind::ScrollDown, (100, 10)));
     assert_eq!(marked(&player.app), 1, "only over the list");
     // The first category's heading is the second row of the page's part, and its exercises follow.
-    player.app.mouse(&event(PRESS, (5, 7)));
+    player.app.mouse(event(PRESS, (5, 7)));
     let title = player.app.drills().catalogue.marked().unwrap().title.clone();
     let row = text.lines().nth(7).unwrap();
     assert!(row.contains(title.split_whitespace().next().unwrap()), "{title}: {row}");
@@ -162,11 +162,11 @@ fn the_mark_of_the_runs_follows_wheel_and_click() {
     let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
     let (first, second) = (row(training_player::NAME), row(training_player::OTHER));
     assert_eq!(player.app.training().list.mark(), 0);
-    player.app.mouse(&event(PRESS, (5, second)));
+    player.app.mouse(event(PRESS, (5, second)));
     assert_eq!(player.app.training().list.mark(), usize::from(second - first));
-    player.app.mouse(&event(MouseEventKind::ScrollUp, (5, second)));
+    player.app.mouse(event(MouseEventKind::ScrollUp, (5, second)));
     assert_eq!(player.app.training().list.mark(), usize::from(second - first) - 1);
-    player.app.mouse(&event(PRESS, (5, 0)));
+    player.app.mouse(event(PRESS, (5, 0)));
     assert_eq!(player.app.training().list.mark(), usize::from(second - first) - 1);
 }
 

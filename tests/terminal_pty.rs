@@ -244,7 +244,10 @@ fn suspending_gives_the_terminal_back_and_continuing_repaints() {
     let mut session = Session::start(80, 24);
     session.wait_for("white at x -710.0 mm");
     session.send("\x1a");
-    session.wait_until("the shell's screen", |screen| !screen.alternate_screen() && !screen.hide_cursor());
+    session.wait_until("the shell's screen", |screen| {
+        let has_mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
+        !screen.alternate_screen() && !screen.hide_cursor() && !has_mouse
+    });
     // A signal that comes before the process has stopped continues nothing: as often as needed.
     let start = Instant::now();
     while !session.screen.screen().contents().contains("white at x -710.0 mm") {
@@ -257,6 +260,40 @@ fn suspending_gives_the_terminal_back_and_continuing_repaints() {
     session.wait_for("white at x -700.0 mm");
     session.send("\x03");
     assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
+    let mut session = Session::start(120, 40);
+    session.wait_for("white at x -710.0 mm, y 0.0 mm");
+    let screen = session.screen.screen();
+    assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::ButtonMotion, "not every motion");
+    assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
+    session.count(Duration::from_millis(200));
+    // What comes at once is below the 1,024 bytes that the input library reads at a time.
+    let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 16 + n % 2)).collect();
+    let before = session.bytes;
+    session.send(&format!("\x1b[<0;34;16M{}\x1b[<32;44;16M\x1b[<0;44;16m", reports.concat()));
+    session.wait_for("white at x -447.0 mm, y 0.0 mm");
+    session.count(Duration::from_millis(200));
+    let drag = session.bytes - before;
+    // A picture is about 300 bytes.
+    assert!(drag < 5_000, "{drag} bytes");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_user_may_keep_the_mouse() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::create_dir(home.path().join("carom")).unwrap();
+    std::fs::write(home.path().join("carom/config.toml"), "mouse = false\n").unwrap();
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "XDG_CONFIG_HOME=\"$1\" exec \"$0\"", env!("CARGO_BIN_EXE_carom")]);
+    command.arg(home.path());
+    let mut session = Session::start_command(command, 80, 24);
+    session.wait_for("placing balls");
+    assert_eq!(session.screen.screen().mouse_protocol_mode(), vt100::MouseProtocolMode::None);
 }
 
 #[test]

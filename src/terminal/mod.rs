@@ -53,7 +53,7 @@ use crate::{
 
 pub use advice::{Advice, Effort, Proposal, Study, Tutor};
 pub use app::{App, Effect, Mode, Screen};
-pub use coach::View;
+pub use coach::{Advised, View};
 pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
 pub use errands::Clerk;
 pub use finder::{Command, Finder};

@@ -175,7 +175,7 @@ impl Runner {
                 self.app.paste(&text);
                 None
             }
-            News::Input(Event::Mouse(mouse)) => self.app.mouse(&mouse),
+            News::Input(Event::Mouse(mouse)) => self.app.mouse(mouse),
             News::Answer(answer) => self.app.receive(answer),
             // A resize needs a picture, which follows anyway.
             News::Input(_) | News::Signal(SIGWINCH) => None,

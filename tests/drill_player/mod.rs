@@ -1,5 +1,7 @@
 //! Somebody at the drill screens, with a folder of their own, and exercises to practise.
 
+#![allow(dead_code, reason = "each test file uses a part of it")]
+
 use std::path::PathBuf;
 
 use carom::{

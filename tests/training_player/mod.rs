@@ -1,5 +1,7 @@
 //! Somebody at the training screen, and a run to watch.
 
+#![allow(dead_code, reason = "each test file uses a part of it")]
+
 use std::path::Path;
 
 use carom::{

@@ -32,8 +32,10 @@ impl App {
         None
     }
 
-    /// What can be done at the place below the command palette.
+    /// What can be done at the place below the command palette, what may be used now first.
     pub fn commands(&self) -> Vec<Command> {
-        commands(self.place_below(), &self.keys, self.look)
+        let mut commands = commands(self.place_below(), &self.keys, self.look);
+        commands.sort_by_key(|command| self.refusal(command.when).is_some());
+        commands
     }
 }

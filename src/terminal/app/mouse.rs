@@ -23,7 +23,7 @@ impl App {
     }
 
     /// The mouse was used somewhere on the screen that was drawn last.
-    pub fn mouse(&mut self, event: &MouseEvent) -> Option<Effect> {
+    pub fn mouse(&mut self, event: MouseEvent) -> Option<Effect> {
         match event.kind {
             Kind::Down(Left) => self.click(event),
             Kind::ScrollUp => self.wheel(event, -1),
@@ -40,7 +40,7 @@ impl App {
         }
     }
 
-    fn click(&mut self, event: &MouseEvent) -> Option<Effect> {
+    fn click(&mut self, event: MouseEvent) -> Option<Effect> {
         match self.target(event)? {
             Target::Table(mapping) => self.take_ball(&mapping, event),
             Target::Shot(shot) => self.attempt(When::Coach(CoachWhen::Choice), Action::Coach(CoachAction::Show(shot))),
@@ -49,7 +49,7 @@ impl App {
     }
 
     /// The wheel was turned by a notch, down where positive.
-    fn wheel(&mut self, event: &MouseEvent, notch: i8) -> Option<Effect> {
+    fn wheel(&mut self, event: MouseEvent, notch: i8) -> Option<Effect> {
         if self.finder.is_some() {
             return self.update(Action::Finder(FinderAction::Line(isize::from(notch))));
         }
@@ -66,13 +66,13 @@ impl App {
         }
     }
 
-    fn target(&self, event: &MouseEvent) -> Option<Target> {
+    fn target(&self, event: MouseEvent) -> Option<Target> {
         let is_covered = self.help.is_some() || self.finder.is_some();
         if is_covered { None } else { target(self, self.area.get(), (event.column, event.row).into()) }
     }
 
     /// Selects the ball that is drawn where the mouse is, and holds it.
-    fn take_ball(&mut self, mapping: &Mapping, event: &MouseEvent) -> Option<Effect> {
+    fn take_ball(&mut self, mapping: &Mapping, event: MouseEvent) -> Option<Effect> {
         let time = self.playback().time;
         let balls = self.watched().map_or(self.layout().balls, |shot| shot.recording.positions(time));
         let ball = ball_at(balls, mapping, self.look.glyphs, (event.column, event.row))?;

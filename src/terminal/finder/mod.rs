@@ -16,6 +16,8 @@ pub struct Command {
     pub keys: String,
     /// What it does.
     pub description: &'static str,
+    /// Its word in the hint line, or nothing.
+    pub hint: &'static str,
     /// Its heading in the help.
     pub title: &'static str,
     /// What it asks for.
@@ -27,7 +29,8 @@ pub struct Command {
 impl Command {
     /// Whether all `words`, in small letters, occur in what is known of it.
     fn has(&self, words: &[String]) -> bool {
-        let text = format!("{} {} {}", self.description, self.title, self.keys).to_lowercase();
+        let Self { keys, description, hint, title, .. } = self;
+        let text = format!("{description} {hint} {title} {keys}").to_lowercase();
         words.iter().all(|word| text.contains(word))
     }
 }
@@ -45,6 +48,7 @@ pub fn commands(place: Place, keys: &Keys, look: Look) -> Vec<Command> {
             commands.push(Command {
                 keys: keys_text(chords.flat_map(|(chord, _)| keys.for_work_of(*chord)), look),
                 description: binding.description,
+                hint: binding.hint.map_or("", |(word, _)| word),
                 title: binding.section.title(),
                 action: *action,
                 when: binding.when,
@@ -128,6 +132,7 @@ mod tests {
         let undo = found("BACK change");
         assert_eq!(undo.len(), 1, "{undo:?}");
         assert_eq!((undo[0].action, undo[0].keys.as_str()), (Action::Coach(CoachAction::Undo), "u"));
+        assert_eq!(found("undo"), undo, "the word of the hint line is known as well");
         assert!(found("back nonsense").is_empty());
         assert!(found("ctrl-r").iter().all(|command| command.keys.contains("Ctrl-r")));
         assert!(found("placing").iter().all(|command| command.title == "Placing the balls"));

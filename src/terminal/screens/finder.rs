@@ -3,7 +3,7 @@
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
-    style::{Modifier, Style},
+    style::Modifier,
     symbols::border,
     text::{Line, Span},
     widgets::{Block, Clear, Widget},
@@ -90,7 +90,7 @@ fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, buffe
     buffer.set_stringn(area.x + KEYS + 3, area.y, cut(wrap(&text, room), 1, room, look).swap_remove(0), room, words);
     if is_marked {
         buffer.set_string(area.x, area.y, look.pick("▸", ">"), theme.accent());
-        buffer.set_style(area, Style::new().add_modifier(Modifier::REVERSED));
+        buffer.set_style(area, words.add_modifier(Modifier::REVERSED));
     }
 }
 

@@ -37,5 +37,5 @@ pub fn target(app: &App, area: Rect, at: Position) -> Option<Target> {
 
 /// A list whose line `line` is where the mouse is, and whose mark is at the line `mark`.
 pub fn list(line: Option<usize>, mark: usize) -> Target {
-    Target::List(line.map(|line| line as isize - mark as isize))
+    Target::List(line.map(|line| line.cast_signed() - mark.cast_signed()))
 }
