@@ -43,7 +43,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Order::List => {
             for name in PRESETS {
                 let table = Table::preset(name).map_err(Failure::failed)?;
-                if args.json { json(&mut out, &table)? } else { writeln!(out, "{}", line(&table))? }
+                if args.json {
+                    json(&mut out, &table)?;
+                } else {
+                    writeln!(out, "{}", line(&table))?;
+                }
             }
         }
         Order::Show { table } => {
@@ -60,9 +64,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             let table = Table::from_toml(&text)
                 .map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))?;
             if args.json {
-                json(&mut out, &table)?
+                json(&mut out, &table)?;
             } else {
-                writeln!(out, "{} can be played on: {}", file.display(), line(&table))?
+                writeln!(out, "{} can be played on: {}", file.display(), line(&table))?;
             }
         }
     }

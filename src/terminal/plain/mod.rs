@@ -176,11 +176,10 @@ impl Conversation {
         });
         self.shots = std::iter::once(best).chain(others).collect();
         self.chosen = 0;
-        let mut text = self.describe();
-        if let Some(next) = advice.next_probability {
-            text.push_str(&format!("\nThe point after it is made about {:.0} percent of the time.", 100.0 * next));
-        }
-        text + &format!("\n{} other shots.", self.shots.len() - 1)
+        let next = advice.next_probability.map_or(String::new(), |next| {
+            format!("\nThe point after it is made about {:.0} percent of the time.", 100.0 * next)
+        });
+        format!("{}{next}\n{} other shots.", self.describe(), self.shots.len() - 1)
     }
 
     /// The shot that is spoken of.

@@ -35,30 +35,28 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>) -> String {
     let tip = [offset(cue.a, "left", "right"), offset(cue.b, "above", "below")];
     let tip = tip.into_iter().flatten().collect::<Vec<_>>().join(" and ");
     let tip = if tip.is_empty() { "Strike the centre.".to_owned() } else { format!("Strike {tip} the centre.") };
-    let mut text = format!(
-        "{tip}\nSpeed {} metres a second, cue raised {} degrees, direction {} degrees.",
+    let speed = format!(
+        "Speed {} metres a second, cue raised {} degrees, direction {} degrees.",
         fixed(cue.speed, 2),
         fixed(cue.theta.to_degrees(), 1),
         fixed(cue.phi.to_degrees(), 2)
     );
+    let mut lines = vec![tip, speed];
     if let Some(Aim { ahead, behind, hit }) = aim {
-        text.push_str(&format!(
-            "\nThe line of aim comes from the {} at {} and goes to the {} at {} diamonds.",
+        lines.push(format!(
+            "The line of aim comes from the {} at {} and goes to the {} at {} diamonds.",
             rail_name(behind.rail),
             fixed(behind.diamond, 2),
             rail_name(ahead.rail),
             fixed(ahead.diamond, 2)
         ));
-        if let Some(hit) = hit {
+        lines.extend(hit.map(|hit| {
             let side = if hit.left { "left" } else { "right" };
-            text.push_str(&format!(
-                "\nThe cue ball hits {} {} percent full on its {side} side.",
-                BALL_NAMES[hit.ball],
-                fixed(100.0 * hit.fullness, 0)
-            ));
-        }
+            let percent = fixed(100.0 * hit.fullness, 0);
+            format!("The cue ball hits {} {percent} percent full on its {side} side.", BALL_NAMES[hit.ball])
+        }));
     }
-    text
+    lines.join("\n")
 }
 
 /// What sort of shot, and how often the player makes it.

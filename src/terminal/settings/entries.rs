@@ -1,6 +1,6 @@
 //! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
 
-use toml::de::DeValue;
+use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::Settings;
 use crate::terminal::{
@@ -46,50 +46,71 @@ pub const ENTRIES: &[Entry] = &[
         key: "theme",
         about: "Colours of the screen.",
         accepted: "\"dark\", \"light\", \"high-contrast\", \"colour-blind\", \"mono\"",
-        get: |settings| quoted(settings.palette),
-        set: |settings, value| Some(settings.palette = value.as_str()?.parse().ok()?),
+        get: |settings| quoted(settings.palette.name()),
+        set: |settings, value| {
+            settings.palette = value.as_str()?.parse().ok()?;
+            Some(())
+        },
     },
     Entry {
         key: "colours",
         about: "How many colours the terminal has; auto looks at NO_COLOR, COLORTERM and TERM.",
         accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
         get: |settings| quoted(name(&DEPTHS, &settings.depth)),
-        set: |settings, value| Some(settings.depth = named(&DEPTHS, value.as_str()?)?),
+        set: |settings, value| {
+            settings.depth = named(&DEPTHS, value.as_str()?)?;
+            Some(())
+        },
     },
     Entry {
         key: "glyphs",
         about: "What the table is drawn with; auto looks at the locale. CAROM_GLYPHS overrides it.",
         accepted: "\"auto\", \"sextant\", \"half\", \"letters\"",
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
-        set: |settings, value| Some(settings.glyphs = named(&GLYPHS, value.as_str()?)?),
+        set: |settings, value| {
+            settings.glyphs = named(&GLYPHS, value.as_str()?)?;
+            Some(())
+        },
     },
     Entry {
         key: "table",
         about: "The table that is played on.",
         accepted: "\"match\", \"thesis\" or the path of a TOML file",
-        get: |settings| quoted(&settings.table),
-        set: |settings, value| Some(settings.table = value.as_str().filter(|name| !name.is_empty())?.to_owned()),
+        get: |settings| quoted(&*settings.table),
+        set: |settings, value| {
+            value.as_str().filter(|name| !name.is_empty())?.clone_into(&mut settings.table);
+            Some(())
+        },
     },
     Entry {
         key: "rule",
         about: "What counts as a point.",
         accepted: "\"straight\", \"one-cushion\", \"three-cushion\"",
-        get: |settings| quoted(settings.rule),
-        set: |settings, value| Some(settings.rule = value.as_str()?.parse().ok()?),
+        get: |settings| quoted(settings.rule.name()),
+        set: |settings, value| {
+            settings.rule = value.as_str()?.parse().ok()?;
+            Some(())
+        },
     },
     Entry {
         key: "skill",
         about: "Who plays: the errors that the coach reckons with.",
         accepted: "\"perfect\", \"expert\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"",
-        get: |settings| quoted(settings.skill),
-        set: |settings, value| Some(settings.skill = value.as_str()?.parse().ok()?),
+        get: |settings| quoted(settings.skill.to_string()),
+        set: |settings, value| {
+            settings.skill = value.as_str()?.parse().ok()?;
+            Some(())
+        },
     },
     Entry {
         key: "plan",
         about: "Whether the coach looks for shots that leave the next point easy.",
         accepted: "true, false",
         get: |settings| settings.plan.to_string(),
-        set: |settings, value| Some(settings.plan = value.as_bool()?),
+        set: |settings, value| {
+            settings.plan = value.as_bool()?;
+            Some(())
+        },
     },
     Entry {
         key: "think_ms",
@@ -97,7 +118,8 @@ pub const ENTRIES: &[Entry] = &[
         accepted: "10 to 60000",
         get: |settings| settings.think_ms.to_string(),
         set: |settings, value| {
-            Some(settings.think_ms = number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0)? as u64)
+            settings.think_ms = number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0)? as u64;
+            Some(())
         },
     },
     Entry {
@@ -105,26 +127,35 @@ pub const ENTRIES: &[Entry] = &[
         about: "How far an arrow key moves a ball, in millimetres.",
         accepted: "1, 5, 10, 50 or 100",
         get: |settings| decimal(settings.step_mm),
-        set: |settings, value| Some(settings.step_mm = one_of(value, &STEPS)?),
+        set: |settings, value| {
+            settings.step_mm = one_of(value, &STEPS)?;
+            Some(())
+        },
     },
     Entry {
         key: "speed",
         about: "How fast shots are played, 1 as on the table.",
         accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
         get: |settings| decimal(settings.speed),
-        set: |settings, value| Some(settings.speed = one_of(value, &SPEEDS)?),
+        set: |settings, value| {
+            settings.speed = one_of(value, &SPEEDS)?;
+            Some(())
+        },
     },
     Entry {
         key: "mouse",
         about: "Whether the mouse moves balls and lists; without it the terminal's own selection stays as it is.",
         accepted: "true, false",
         get: |settings| settings.mouse.to_string(),
-        set: |settings, value| Some(settings.mouse = value.as_bool()?),
+        set: |settings, value| {
+            settings.mouse = value.as_bool()?;
+            Some(())
+        },
     },
 ];
 
-fn quoted(value: impl ToString) -> String {
-    toml::Value::String(value.to_string()).to_string()
+fn quoted(value: impl Into<String>) -> String {
+    toml::Value::String(value.into()).to_string()
 }
 
 /// A number as TOML writes it: always with a point.
@@ -134,7 +165,7 @@ fn decimal(value: f64) -> String {
 
 /// A number, whole or not, in a range.
 fn number(value: &DeValue, least: f64, most: f64) -> Option<f64> {
-    let text = value.as_integer().map(|n| n.as_str()).or_else(|| value.as_float().map(|x| x.as_str()))?;
+    let text = value.as_integer().map(DeInteger::as_str).or_else(|| value.as_float().map(DeFloat::as_str))?;
     text.replace('_', "").parse().ok().filter(|number| (least..=most).contains(number))
 }
 

@@ -43,7 +43,8 @@ impl Keys {
     /// The lines of the file.
     pub fn document(&self) -> String {
         let quoted = |chord: &Chord| toml::Value::String(name(*chord)).to_string();
-        self.pairs.iter().map(|(pressed, meant)| format!("{} = {}\n", quoted(pressed), quoted(meant))).collect()
+        let line = |(pressed, meant): &(Chord, Chord)| format!("{} = {}\n", quoted(pressed), quoted(meant));
+        self.pairs.iter().map(line).collect::<Vec<_>>().concat()
     }
 }
 

@@ -5,6 +5,7 @@ mod keys;
 mod read;
 
 use std::{
+    fmt::Write,
     io,
     path::{Path, PathBuf},
 };
@@ -92,14 +93,16 @@ impl Settings {
             "# Everything that carom can be told once and for all. A key that is left out has its default.\n",
         );
         for entry in entries::ENTRIES {
-            text.push_str(&format!(
+            // Writing into a text never fails.
+            let _ = write!(
+                text,
                 "\n# {}\n# Accepted: {}. Default: {}.\n{} = {}\n",
                 entry.about,
                 entry.accepted,
                 (entry.get)(&Self::default()),
                 entry.key,
                 (entry.get)(self)
-            ));
+            );
         }
         text.push_str(keys::ABOUT);
         text.push_str(&self.keys.document());
