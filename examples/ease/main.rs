@@ -95,7 +95,7 @@ fn report(table: &Table, ease: Ease, samples: &[Sample]) {
         let mean = |value: &dyn Fn(&Sample) -> f64| 100.0 * fifth.iter().map(value).sum::<f64>() / fifth.len() as f64;
         println!(
             "  {:>27.2} {:>10.2} {:>38.2} {:>10.2}",
-            mean(&|sample| 1.0 - ease.probability(table, &sample.layout)),
+            mean(&|sample| 1.0 - ease.probability(table, &sample.layout, Skill::EXPERT)),
             mean(&|sample| sample.missed_by_expert),
             mean(&|sample| ease.missed(table, &sample.layout)),
             mean(&|sample| sample.missed),

@@ -84,7 +84,8 @@ pub struct Recommendation {
     /// How often the player makes it, from independent attempts that took no part in the choice; `None` where there is no
     /// such shot or time ran out before a single attempt. A perfect player always makes what makes the point.
     pub make_probability: Option<SuccessRate>,
-    /// Probability of the point after this one, where that was asked for.
+    /// Probability of the point after this one, an estimate, where that was asked for and the table is the one that the
+    /// estimate was fitted on.
     pub next_probability: Option<f64>,
     /// Other strokes that make the point, the best of each kind, the best first; none that is made less than half as often
     /// as the recommended one.

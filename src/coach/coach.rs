@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    Alternative, Improvement, Kind, Recommendation, Request, Skill,
+    Alternative, Ease, Improvement, Kind, Recommendation, Request, Skill,
     clock::Clock,
     crew, errors,
     first::{Attempt, Found},
@@ -149,7 +149,11 @@ impl Coach {
 /// heads of the other kinds.
 fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
     if pool.is_empty() {
-        return Recommendation { make_probability: None, ..first_point(found) };
+        // Nobody has tried any of them.
+        let mut answer = first_point(found);
+        answer.make_probability = None;
+        answer.alternatives.iter_mut().for_each(|shot| shot.make_probability = None);
+        return answer;
     }
     let best = pool[0];
     keep_one_of_each(&mut pool);
@@ -170,6 +174,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
+    let told_next = |next| (request.plan && Ease::is_known_on(task.table)).then_some(next);
     let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     Recommendation {
@@ -178,14 +183,14 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         source: best.shot.source,
         kind: Some(best.kind),
         make_probability: probability(0),
-        next_probability: request.plan.then_some(best.next),
+        next_probability: told_next(best.next),
         alternatives: (1..pool.len())
             .map(|index| Alternative {
                 cue: pool[index].shot.cue,
                 source: pool[index].shot.source,
                 kind: pool[index].kind,
                 make_probability: probability(index),
-                next_probability: request.plan.then_some(pool[index].next),
+                next_probability: told_next(pool[index].next),
             })
             .filter(is_worth)
             .collect(),

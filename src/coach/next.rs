@@ -22,7 +22,7 @@ pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> 
             return None;
         }
         if let Some(end) = end_of(task, &task.skill.stroke(task.table.radius, cue, errors)) {
-            sum += Ease::under(task.rule).probability(task.table, &end);
+            sum += Ease::under(task.rule).probability(task.table, &end, task.skill);
             made += 1;
         }
     }

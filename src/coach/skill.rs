@@ -89,6 +89,11 @@ impl Skill {
         }
     }
 
+    /// How many times an expert's errors, on average over the five.
+    pub fn scale(&self) -> f64 {
+        self.values().iter().zip(Self::EXPERT.values()).map(|(own, expert)| own / expert).sum::<f64>() / 5.0
+    }
+
     /// Whether there are no errors.
     pub fn is_perfect(&self) -> bool {
         *self == Self::PERFECT

@@ -76,7 +76,7 @@ pub enum TerminalError {
     /// Input or output is no terminal, or one that shows no pictures.
     #[error(
         "this is no terminal that can show the table; use the command line instead: \
-         carom recommend --layout \"-0.71,0 0.71,0 -0.71,0.1825\""
+         carom recommend --layout \"-0.71,0 0.71,0 -0.71,0.1825\", or carom --plain for the coach in lines"
     )]
     NoTerminal,
     /// The first layout is not possible.

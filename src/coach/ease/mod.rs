@@ -4,6 +4,7 @@ mod fit;
 
 pub use fit::Sample;
 
+use super::Skill;
 use crate::{
     game::Rule,
     table::{Layout, Table},
@@ -15,6 +16,9 @@ const NUMBERS: usize = 8;
 /// Where the weighted sum comes near nought or falls below it, the share goes to nought within about so much instead: no
 /// layout is quite safe, and of two very easy ones one is still the easier.
 const SOFTNESS: f64 = 0.02;
+
+/// Players who err less than so many times as much as an expert are taken to err as much.
+const SMALLEST_SCALE: f64 = 0.1;
 
 /// How easy layouts are under a rule: a weighted sum of some numbers about them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,9 +46,20 @@ impl Ease {
         Self { weights, power }
     }
 
-    /// Probability of the point from `layout`, for an expert who plays a good shot: a rough estimate for ranking.
-    pub fn probability(&self, table: &Table, layout: &Layout) -> f64 {
-        1.0 - self.missed(table, layout).powf(self.power)
+    /// Probability of the point from `layout`, for a player of this skill who plays a good shot: a rough estimate for ranking.
+    pub fn probability(&self, table: &Table, layout: &Layout, skill: Skill) -> f64 {
+        1.0 - self.missed(table, layout).powf(self.power_at(skill.scale()))
+    }
+
+    /// The power for `scale` times an expert's errors: 1 where the weights were fitted, `power` for an expert, and straight
+    /// between and beyond them if both are drawn on logarithmic axes.
+    fn power_at(&self, scale: f64) -> f64 {
+        self.power.powf((Self::SCALE / scale.max(SMALLEST_SCALE)).ln() / Self::SCALE.ln())
+    }
+
+    /// Whether the weights were fitted on this table: elsewhere they rank layouts, but nobody knows how often they are made.
+    pub fn is_known_on(table: &Table) -> bool {
+        *table == Table::default()
     }
 
     /// Share of misses from `layout` with [`Ease::SCALE`] times an expert's errors.
@@ -78,7 +93,8 @@ mod tests {
         let gathered = Layout::new([DVec2::new(0.0, 0.0), DVec2::new(0.1, 0.05), DVec2::new(0.15, -0.1)]);
         let scattered = Layout::new([DVec2::new(-1.2, 0.0), DVec2::new(0.2, 0.6), DVec2::new(1.3, -0.6)]);
         for rule in Rule::ALL {
-            let [easy, hard] = [&gathered, &scattered].map(|layout| Ease::under(rule).probability(&table, layout));
+            let [easy, hard] =
+                [&gathered, &scattered].map(|layout| Ease::under(rule).probability(&table, layout, Skill::EXPERT));
             assert!(hard + 0.05 < easy && easy < 1.0, "{rule}: {easy} {hard}");
         }
     }
@@ -88,8 +104,19 @@ mod tests {
         let table = Table::default();
         let [a, b, c] = [DVec2::new(-0.3, 0.2), DVec2::new(0.4, 0.1), DVec2::new(0.2, -0.5)];
         for rule in Rule::ALL {
-            let ease = |balls| Ease::under(rule).probability(&table, &Layout::new(balls));
+            let ease = |balls| Ease::under(rule).probability(&table, &Layout::new(balls), Skill::EXPERT);
             assert!((ease([a, b, c]) - ease([-a, -c, -b])).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn whoever_errs_more_misses_more() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let missed = |skill| 1.0 - Ease::under(Rule::ThreeCushion).probability(&table, &layout, skill);
+        let all = [Skill::PERFECT, Skill::EXPERT, Skill::CLUB, Skill::BEGINNER].map(missed);
+        assert!(all.is_sorted() && all[0] < 1e-9 && all[3] > 0.3 && all[3] < 1.0, "{all:?}");
+        let fitted = Ease::under(Rule::ThreeCushion).missed(&table, &layout);
+        assert!((missed(Skill::EXPERT.scaled(Ease::SCALE)) - fitted).abs() < 1e-12);
     }
 }

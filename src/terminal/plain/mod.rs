@@ -65,8 +65,9 @@ pub fn converse(
     let mut talk = Conversation { coach, request, balls: History::new(layout), shots: Vec::new(), chosen: 0, rng };
     write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
-    for line in input.lines() {
-        let answer = match line?.parse() {
+    // What is no UTF-8 is no order either, and is answered so.
+    for line in input.split(b'\n') {
+        let answer = match String::from_utf8_lossy(&line?).parse() {
             Ok(Order::Quit) => break,
             Ok(order) => talk.answer(order),
             Err(sentence) => sentence,

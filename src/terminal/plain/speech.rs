@@ -6,7 +6,7 @@ use crate::{
     physics::CueInputs,
     simulation::Recording,
     table::{Layout, Table},
-    terminal::words::{BALL_NAMES, event_words, fixed, rail_name},
+    terminal::words::{BALL_NAMES, event_words, fixed, percent, rail_name},
 };
 
 /// Where the balls lie.
@@ -65,9 +65,9 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> St
     match rate {
         Some(rate) => format!(
             "{kind}. Player {skill} makes it {} percent of the time, between {} and {}.",
-            fixed(100.0 * rate.rate, 0),
-            fixed(100.0 * rate.low, 0),
-            fixed(100.0 * rate.high, 0)
+            percent(rate.rate),
+            percent(rate.low),
+            percent(rate.high)
         ),
         None => format!("{kind}."),
     }

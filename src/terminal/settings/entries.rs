@@ -1,12 +1,17 @@
 //! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
 
+use std::path::Path;
+
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::Settings;
-use crate::terminal::{
-    coach::STEPS,
-    look::{Depth, Glyphs},
-    playback::SPEEDS,
+use crate::{
+    table::PRESETS,
+    terminal::{
+        coach::STEPS,
+        look::{Depth, Glyphs},
+        playback::SPEEDS,
+    },
 };
 
 /// One key of the file.
@@ -75,10 +80,13 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         key: "table",
         about: "The table that is played on.",
-        accepted: "\"match\", \"thesis\" or the path of a TOML file",
+        accepted: "\"match\", \"thesis\" or the path of a TOML file that is there",
         get: |settings| quoted(&*settings.table),
         set: |settings, value| {
-            value.as_str().filter(|name| !name.is_empty())?.clone_into(&mut settings.table);
+            value
+                .as_str()
+                .filter(|name| PRESETS.contains(name) || Path::new(name).is_file())?
+                .clone_into(&mut settings.table);
             Some(())
         },
     },
