@@ -41,10 +41,10 @@ const LEADERS: usize = 10;
 const OF_EACH_KIND: usize = 3;
 
 /// What the hardest stroke costs against the softest in a shot's score, and what the steepest cue costs: a player is not to
-/// strike with all force and a raised cue for the last percent. Where runs of hundreds of points are at stake, a percent is
-/// much: then it only decides between equals.
+/// strike with all force and a raised cue for the last percent. In a plan it only decides between equals: where runs of
+/// hundreds of points are at stake, layouts differ by less than a thousandth.
 const BURDEN: f64 = 0.01;
-const BURDEN_IN_A_PLAN: f64 = 0.001;
+const BURDEN_IN_A_PLAN: f64 = 0.0001;
 
 /// Shots of one piece of work: enough that handing it out costs nothing.
 const PIECE: usize = 32;

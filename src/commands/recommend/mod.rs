@@ -265,7 +265,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
         None => writeln!(out, "the networks' own shot, not simulated")?,
     }
     if let Some(next) = answer.next_probability {
-        writeln!(out, "after it the next point is made {:.1} % of the time", 100.0 * next)?;
+        writeln!(out, "after it the next point is made about {:.0} % of the time", 100.0 * next)?;
     }
     if let Some(margins) = &answer.margins {
         write!(out, "{margins}")?;
