@@ -5,7 +5,7 @@ mod keys;
 
 use carom::{
     coach::Skill,
-    drills::{Exercise, Goal, Venue, decode},
+    drills::{Exercise, Goal, Venue, decode, store::Store},
     game::Rule,
     table::Layout,
     terminal::{DrillPlace, DrillWhen, Place, When},
@@ -228,6 +228,25 @@ fn the_records() {
     let played = kept.app.drills().player.skill;
     assert_eq!(played.to_string(), skill.to_string());
     assert_eq!(kept.press("Esc Esc Esc").app.coach().tutor.skill, played, "the same player everywhere");
+}
+
+#[test]
+fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = Skill::CLUB.scaled(1.1);
+    Store::new(&drill_player::places(&folder)).keep_skill(own).unwrap();
+    let player = Player::at_coach(TRUE_COLOUR, folder).press("d");
+    player.says("player: own skill");
+    let back = player.press("Esc");
+    assert_eq!(back.app.coach().tutor.skill, Skill::EXPERT);
+    let again = back.press("d");
+    again.says("player: own skill");
+    let cycled = again.press("Esc S S S");
+    assert_eq!(cycled.app.coach().tutor.skill, own);
+    let perfect = cycled.press("S d");
+    perfect.says("player: perfect");
+    let chosen = perfect.press("p Esc");
+    assert_eq!(chosen.app.coach().tutor.skill, own);
 }
 
 #[test]
