@@ -267,7 +267,7 @@ pub const EXERCISE: &[Binding] = &[
         "a shorter or longer goal"),
     bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
-    bind(Position, W::Here, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
+    bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
     BACK,
