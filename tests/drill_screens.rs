@@ -179,7 +179,7 @@ fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
     let end = game.app.drills().turn.as_ref().unwrap().watched().unwrap().outcome.played.end;
     let next = game.press("Enter");
     assert!(at(&next) == end && end != opening);
-    next.says("game of 10 innings");
+    next.says("game, 10 innings");
     let shifted = Player::practising(TRUE_COLOUR).press("x Space Enter Enter");
     let moved = at(&shifted);
     for (from, to) in opening.balls.iter().zip(moved.balls) {

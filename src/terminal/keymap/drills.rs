@@ -107,6 +107,8 @@ pub enum DrillWhen {
     Counted,
     /// While a shot is watched.
     Watching,
+    /// While a shot is watched that has not come to its end.
+    Running,
     /// While a shot is watched that has come to its end.
     Ended,
     /// Where the shot that is taught is known.
@@ -228,8 +230,8 @@ pub const SEARCH: &[Binding] = &[
 /// An exercise.
 #[rustfmt::skip]
 pub const EXERCISE: &[Binding] = &[
-    bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)),
-        "to the end of the shot, then the next repetition, or the next exercise of an exam"),
+    bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
+    bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
     bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
         key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
