@@ -52,6 +52,9 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
     let player = player.better(SHOT, 940).answer();
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
     assert_eq!(player.app.frame_interval(), None);
+    // The errors that it was chosen by flatter it: no interval is told.
+    let text = player.press("v").text(120, 40);
+    assert!(text.contains("expert so far 89 %") && !text.contains("89 % ("), "{text}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod keys;
 
 use carom::{
     coach::Skill,
-    drills::{Exercise, Goal, Venue, decode},
+    drills::{Exercise, Goal, Venue, decode, store::Store},
     game::Rule,
     table::Layout,
     terminal::{DrillPlace, DrillWhen, Place, When},
@@ -179,7 +179,7 @@ fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
     let end = game.app.drills().turn.as_ref().unwrap().watched().unwrap().outcome.played.end;
     let next = game.press("Enter");
     assert!(at(&next) == end && end != opening);
-    next.says("game of 10 innings");
+    next.says("game, 10 innings");
     let shifted = Player::practising(TRUE_COLOUR).press("x Space Enter Enter");
     let moved = at(&shifted);
     for (from, to) in opening.balls.iter().zip(moved.balls) {
@@ -206,8 +206,9 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
     let left = player.press("Enter e Space Enter Enter Esc");
     left.says("leave the exam after 1 of 20 exercises?");
-    let stays = left.press("n");
-    assert_eq!(stays.app.place(), Place::Drill(DrillPlace::Exercise));
+    let stays = left.press("n c");
+    assert_eq!(stays.app.place(), Place::Drill(DrillPlace::Exercise), "the coach would give the answer");
+    stays.says("an exam is under way");
     assert_eq!(stays.press("Esc y").app.place(), Place::Drill(DrillPlace::Library));
 }
 
@@ -228,6 +229,25 @@ fn the_records() {
     let played = kept.app.drills().player.skill;
     assert_eq!(played.to_string(), skill.to_string());
     assert_eq!(kept.press("Esc Esc Esc").app.coach().tutor.skill, played, "the same player everywhere");
+}
+
+#[test]
+fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = Skill::CLUB.scaled(1.1);
+    Store::new(&drill_player::places(&folder)).keep_skill(own).unwrap();
+    let player = Player::at_coach(TRUE_COLOUR, folder).press("d");
+    player.says("player: own skill");
+    let back = player.press("Esc");
+    assert_eq!(back.app.coach().tutor.skill, Skill::EXPERT);
+    let again = back.press("d");
+    again.says("player: own skill");
+    let cycled = again.press("Esc S S S");
+    assert_eq!(cycled.app.coach().tutor.skill, own);
+    let perfect = cycled.press("S d");
+    perfect.says("player: perfect");
+    let chosen = perfect.press("p Esc");
+    assert_eq!(chosen.app.coach().tutor.skill, own);
 }
 
 #[test]

@@ -63,6 +63,8 @@ impl Chord {
             KeyCode::Right => look.pick("→", "Right").into(),
             KeyCode::Up => look.pick("↑", "Up").into(),
             KeyCode::Down => look.pick("↓", "Down").into(),
+            KeyCode::PageDown => "PgDn".into(),
+            KeyCode::PageUp => "PgUp".into(),
             KeyCode::BackTab => "Shift-Tab".into(),
             other => other.to_string(),
         }

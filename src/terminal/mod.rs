@@ -46,6 +46,7 @@ use std::{
 
 use crate::{
     coach::Coach,
+    drills::store::Store,
     learning::PolicyError,
     storage::Places,
     table::{Layout, LayoutError, Table},
@@ -100,9 +101,12 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Resul
         return Err(TerminalError::NoTerminal);
     }
     let places = Places::of_this_user();
+    // A file that cannot be read is named by the drill screens.
+    let own = Store::new(&places).own_skill().unwrap_or_default();
     let app = App::new(table, layout, detect(settings), seed())?
         .with_settings(settings)
         .with_last(Last::load(&places.last))
+        .with_own_skill(own.map(|own| own.skill))
         .with_complaints(&Settings::path(), complaints);
     Ok(runner::run(app, places)?)
 }

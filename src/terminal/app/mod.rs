@@ -29,6 +29,7 @@ use super::{
     training::{Keeping, Launch, Report, TrainingScreen, Wanted},
 };
 use crate::{
+    coach::Skill,
     learning::run::request::Request,
     storage::Places,
     table::{Layout, LayoutError, Table},
@@ -168,6 +169,13 @@ impl App {
         self
     }
 
+    /// The same program for a player whose own skill is known.
+    #[must_use]
+    pub const fn with_own_skill(mut self, own: Option<Skill>) -> Self {
+        self.coach.own = own;
+        self
+    }
+
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
     pub fn last(&self) -> Option<Last> {
         self.coach.last()
@@ -271,8 +279,8 @@ impl App {
                 let balls = self.drills.take_for_coach();
                 if balls.is_some() || self.drills.is_left() {
                     self.screen = Screen::Coach;
-                    // Whoever plays there is the same.
-                    self.coach.tutor.skill = self.drills.player.skill;
+                    // Whoever was chosen there plays here too.
+                    self.coach.tutor.skill = self.drills.player.at_coach;
                 }
                 if let Some(Balls { table, layout, rule }) = balls {
                     self.coach.take_position(&table, layout, rule);
@@ -350,7 +358,9 @@ impl App {
 
     /// Something has come of an errand of the drill screens; gives what is to be done next.
     pub fn receive_drill(&mut self, report: DrillReport) -> Vec<Errand> {
-        self.drills.receive(report)
+        let errands = self.drills.receive(report);
+        self.coach.own = self.drills.player.own.or(self.coach.own);
+        errands
     }
 
     /// Text was pasted.

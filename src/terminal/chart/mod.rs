@@ -61,6 +61,8 @@ pub struct Chart<'a> {
     pub selected: bool,
     /// Whether the last row has the labels of shots.
     pub with_shots: bool,
+    /// What a shot is called there.
+    pub unit: &'a str,
     /// A remark: in the title if there is room, and in place of the curve where there is nothing to show yet.
     pub note: Option<&'a str>,
 }
@@ -125,9 +127,6 @@ pub fn curve_mark(whose: Whose, theme: &Theme, look: Look) -> Span<'static> {
     grid::sample(layer, look, theme)
 }
 
-/// What the numbers along the lower axis count: an episode is a shot.
-const UNIT: &str = "shots";
-
 /// Draws `chart` into `area`: its title in the first row, the labels of values to the left of the plot, and those of shots
 /// in the last row if they are asked for.
 pub fn draw_chart(chart: &Chart, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
@@ -149,7 +148,7 @@ pub fn draw_chart(chart: &Chart, area: Rect, theme: &Theme, look: Look, buffer: 
     }
     let mut grid = Grid::new(plot, look, theme);
     if with_shots {
-        draw_shots(chart.shots, area, plot, &grid, theme, buffer);
+        draw_shots(chart, area, plot, &grid, theme, buffer);
     }
     let scale = chart.scale();
     if labelled {
@@ -210,9 +209,9 @@ fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, theme: &Theme
 }
 
 /// The labels of shots below the plot.
-fn draw_shots(shots: (f64, f64), area: Rect, plot: Rect, grid: &Grid, theme: &Theme, buffer: &mut Buffer) {
+fn draw_shots(chart: &Chart, area: Rect, plot: Rect, grid: &Grid, theme: &Theme, buffer: &mut Buffer) {
     let (mut free, mut first) = (area.x, None);
-    for tick in shot_ticks(shots, plot.width) {
+    for tick in shot_ticks(chart.shots, plot.width) {
         let column = plot.x + grid.column_of((tick.at * f64::from(grid.size().0 - 1)).round() as i32);
         let width = tick.label.len() as u16;
         let end = (column + 1 + width / 2).min(area.right());
@@ -224,8 +223,8 @@ fn draw_shots(shots: (f64, f64), area: Rect, plot: Rect, grid: &Grid, theme: &Th
         }
     }
     let unit = area.x + 1;
-    if first.is_some_and(|first| first > unit + UNIT.len() as u16) {
-        buffer.set_string(unit, plot.bottom(), UNIT, theme.faint());
+    if first.is_some_and(|first| first > unit + chart.unit.len() as u16) {
+        buffer.set_string(unit, plot.bottom(), chart.unit, theme.faint());
     }
 }
 

@@ -43,7 +43,17 @@ const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode:
 
 fn chart<'a>(title: &'a str, curves: &'a [Curve<'a>]) -> Chart<'a> {
     let shots = (0.0, 1000.0);
-    Chart { title, curves, shots, log: false, smoothing: 0.0, selected: false, with_shots: true, note: None }
+    Chart {
+        title,
+        curves,
+        shots,
+        log: false,
+        smoothing: 0.0,
+        selected: false,
+        with_shots: true,
+        unit: "shots",
+        note: None,
+    }
 }
 
 fn curve(points: &[Point], whose: Whose) -> Curve<'_> {

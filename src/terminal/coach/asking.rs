@@ -170,7 +170,8 @@ impl CoachScreen {
     }
 
     pub(super) fn next_skill(&mut self) {
-        let skill = after(&Skill::NAMED.map(|(_, skill)| skill), &self.tutor.skill);
+        let all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).chain(self.own).collect();
+        let skill = after(&all, &self.tutor.skill);
         let words = format!("the player: {}", skill_word(skill));
         self.ask_for(Tutor { skill, ..self.tutor.clone() }, &words);
     }

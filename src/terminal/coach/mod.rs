@@ -28,6 +28,7 @@ use super::{
     status::Message,
 };
 use crate::{
+    coach::Skill,
     game::Rule,
     table::{Layout, LayoutError, Table},
 };
@@ -88,6 +89,8 @@ pub struct CoachScreen {
     pub message: Option<Message>,
     /// Whose advice is asked, and for what.
     pub tutor: Tutor,
+    /// The user's own skill, where one is kept.
+    pub own: Option<Skill>,
     /// What the panels show.
     pub view: View,
     balls: History<Position>,
@@ -118,6 +121,7 @@ impl CoachScreen {
             playback: Playback::default(),
             message: None,
             tutor: Tutor::default(),
+            own: None,
             view: View::default(),
             balls: History::new(Position { layout, advised: None }),
             drag: None,

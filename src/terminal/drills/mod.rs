@@ -62,6 +62,8 @@ pub struct Player {
     pub skill: Skill,
     /// Those that the user has kept as the own ones.
     pub own: Option<Skill>,
+    /// Those of the coach's player, whom only a choice changes.
+    pub at_coach: Skill,
 }
 
 impl Player {
@@ -70,7 +72,12 @@ impl Player {
         let named = Skill::NAMED.iter().rev().map(|(_, skill)| *skill);
         let all: Vec<Skill> = named.chain(self.own).collect();
         let now = all.iter().position(|skill| *skill == self.skill);
-        self.skill = all[now.map_or(0, |now| (now + 1) % all.len())];
+        self.choose(all[now.map_or(0, |now| (now + 1) % all.len())]);
+    }
+
+    /// Plays with `skill` from now on, at the coach's table too.
+    const fn choose(&mut self, skill: Skill) {
+        (self.skill, self.at_coach) = (skill, skill);
     }
 }
 
@@ -129,7 +136,7 @@ impl DrillScreen {
             book: Book::default(),
             turn: None,
             records: Records::default(),
-            player: Player { skill: Skill::default(), own: None },
+            player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
             question: None,
             message: None,
             wishes: Wishes { goal: Goal::Free, shifted: false },
@@ -139,10 +146,13 @@ impl DrillScreen {
         }
     }
 
-    /// Opens the page that was open last, or the library, for a player of `skill`; what is on the disk is read again.
+    /// Opens the page that was open last, or the library, for the coach's player of `skill`; what is on the disk is read
+    /// again.
     pub fn open(&mut self, skill: Skill) -> Effect {
         self.message = None;
-        self.player.skill = skill;
+        if skill != self.player.at_coach {
+            self.player.choose(skill);
+        }
         if self.pages.is_empty() {
             self.pages.push(Page::Library);
         }

@@ -66,7 +66,7 @@ impl DrillScreen {
             }
             DrillReport::SkillKept(skill, kept) => {
                 self.player.own = Some(skill);
-                self.player.skill = skill;
+                self.player.choose(skill);
                 self.message = Some(Message::good("this is your skill now: you are the player \"own skill\""));
                 self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
             }

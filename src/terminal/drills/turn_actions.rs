@@ -24,11 +24,17 @@ impl Turn {
     pub(super) fn refusal(&self, when: When) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match (&self.stage, when) {
-            (Stage::Waiting, When::Aiming | When::Watching | When::Ended | When::Free | When::Counted) => {
-                Some("the stroke is being played")
-            }
+            (
+                Stage::Waiting,
+                When::Aiming | When::Watching | When::Running | When::Ended | When::Free | When::Counted,
+            ) => Some("the stroke is being played"),
             (_, When::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
-            (_, When::Watching | When::Ended) => refuse(self.watched().is_none(), "no shot is being watched"),
+            (_, When::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
+            (_, When::Running | When::Ended) => match self.watched() {
+                None => Some("no shot is being watched"),
+                Some(watched) if watched.is_settled => refuse(when == When::Running, "the shot is at its end"),
+                Some(_) => refuse(when == When::Ended, "the shot is on its way; Enter goes to its end"),
+            },
             (_, When::Free | When::Counted) if self.is_exam() => Some("an exam is under way; Esc leaves it"),
             (_, When::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")

@@ -107,6 +107,8 @@ pub enum DrillWhen {
     Counted,
     /// While a shot is watched.
     Watching,
+    /// While a shot is watched that has not come to its end.
+    Running,
     /// While a shot is watched that has come to its end.
     Ended,
     /// Where the shot that is taught is known.
@@ -228,8 +230,8 @@ pub const SEARCH: &[Binding] = &[
 /// An exercise.
 #[rustfmt::skip]
 pub const EXERCISE: &[Binding] = &[
-    bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)),
-        "to the end of the shot, then the next repetition, or the next exercise of an exam"),
+    bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
+    bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
     bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
         key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
@@ -267,7 +269,7 @@ pub const EXERCISE: &[Binding] = &[
         "a shorter or longer goal"),
     bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
-    bind(Position, W::Here, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
+    bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
     BACK,

@@ -99,12 +99,13 @@ fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
         lines.push(Line::styled(section.title(), theme.good()));
         for binding in own {
             let keys = keys_text(binding.keys.iter().flat_map(|(chord, _)| app.keys().for_work_of(*chord)), look);
-            let description = wrap(binding.description, width.saturating_sub(KEYS + 2));
-            for (n, words) in description.into_iter().enumerate() {
-                let keys = if n == 0 { keys.as_str() } else { "" };
+            let keys = wrap(&keys, KEYS - 1);
+            let words = wrap(binding.description, width.saturating_sub(KEYS + 2));
+            for n in 0..keys.len().max(words.len()) {
+                let line = |column: &[String]| column.get(n).cloned().unwrap_or_default();
                 lines.push(Line::from(vec![
-                    Span::styled(format!("  {keys:<KEYS$}"), theme.accent()),
-                    Span::styled(words, theme.text()),
+                    Span::styled(format!("  {:<KEYS$}", line(&keys)), theme.accent()),
+                    Span::styled(line(&words), theme.text()),
                 ]));
             }
         }

@@ -33,8 +33,14 @@ pub fn draw_chances(
     if let Some(advised) = advised {
         title.push(Span::styled(look.pick(" · ", " - "), theme.faint()));
         title.push(Span::styled(skill_word(advised.tutor.skill), theme.text()));
-        if let Some(made) = advised.choice().proposal.made {
-            title.push(Span::styled(format!(" {}", chance_words(&made)), theme.good()));
+        let proposal = &advised.choice().proposal;
+        if let Some(made) = proposal.made {
+            let (words, style) = if proposal.is_early {
+                (format!(" so far {} %", percent(made.rate)), theme.accent())
+            } else {
+                (format!(" {}", chance_words(&made)), theme.good())
+            };
+            title.push(Span::styled(words, style));
         }
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);

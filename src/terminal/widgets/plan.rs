@@ -59,7 +59,8 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme
 
 fn shot_words(proposal: &Proposal) -> String {
     let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
-    format!("{chance} % {}", sort_words(proposal))
+    let so_far = if proposal.is_early { "so far " } else { "" };
+    format!("{so_far}{chance} % {}", sort_words(proposal))
 }
 
 /// How near to the meant places the balls stop, in half of the attempts that make the point.

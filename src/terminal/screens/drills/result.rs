@@ -13,7 +13,7 @@ use crate::{
         app::App,
         drills::Turn,
         status::Message,
-        widgets::{draw_title, write_right},
+        widgets::{cut, draw_title, wrap, write_right},
     },
 };
 
@@ -35,7 +35,7 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
         buffer.set_string(inner.x + 4, y, sign, style);
         let chance = attempt.chance.map_or(String::new(), percent);
         let room = usize::from(inner.width.saturating_sub(6 + 7));
-        let title: String = exercise.title.chars().take(room).collect();
+        let title = cut(wrap(&exercise.title, room), 1, room, look).swap_remove(0);
         buffer.set_stringn(inner.x + 6, y, title, room, theme.text());
         write_right(buffer, inner.x, inner.right(), y, &chance, theme.faint());
     }

@@ -42,8 +42,8 @@ fn goal_words(goal: Goal) -> String {
         Goal::Run(points) => format!("run of {points}"),
         Goal::Exam => "exam".to_owned(),
         Goal::Game { innings: 0 } => "game".to_owned(),
-        Goal::Game { innings: 1 } => "game of 1 inning".to_owned(),
-        Goal::Game { innings } => format!("game of {innings} innings"),
+        Goal::Game { innings: 1 } => "game, 1 inning".to_owned(),
+        Goal::Game { innings } => format!("game, {innings} innings"),
     }
 }
 

@@ -49,6 +49,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
             smoothing: charts.smoothing(),
             selected: charts.is_selected(n),
             with_shots: is_last,
+            unit: "shots",
             note: missing(&watch.own.run, quantity),
         };
         draw_chart(&chart, place, app.theme(), app.look(), buffer);
