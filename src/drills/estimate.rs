@@ -61,6 +61,22 @@ pub struct Estimate {
     pub left_out: usize,
 }
 
+impl Estimate {
+    /// How many times an expert's errors with its 95 % interval, in so many decimals. Where the interval reaches an end of the
+    /// scales that are looked at, only its other end is known.
+    pub fn words(&self, decimals: usize) -> String {
+        let Self { scale: times, low, high, .. } = *self;
+        let of = "times an expert's";
+        if low <= scale(0.0) {
+            format!("at most {high:.decimals$} {of}")
+        } else if high >= scale(POWERS.1 - POWERS.0) {
+            format!("at least {low:.decimals$} {of}")
+        } else {
+            format!("{times:.decimals$} {of} ({low:.decimals$}-{high:.decimals$})")
+        }
+    }
+}
+
 /// Why there is no estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoEstimate {
@@ -187,7 +203,8 @@ fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> 
     };
     let last = (SCALES - 1) * FINER;
     let likelihood: Vec<f64> = (0..=last).map(likelihood).collect();
-    let best = (0..=last).max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
+    // Of equals the smallest: who has missed nothing may err as little as one likes.
+    let best = (0..=last).rev().max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
     let is_inside = |step: &usize| likelihood[*step] >= likelihood[best] - DEPTH;
     let (low, high) = ((0..best).find(is_inside).unwrap_or(best), (best..=last).rfind(is_inside).unwrap_or(best));
     // The ends lie between the last step within and the first one outside.
@@ -264,6 +281,22 @@ mod tests {
             // Of 100 intervals of 95 %, fewer than 88 hold the truth once in 700 times.
             assert!(covered >= 88, "{covered} of 100 at scale {scale}");
         }
+    }
+
+    #[test]
+    fn a_record_without_a_miss_bounds_the_errors_from_above_and_one_without_a_point_from_below() {
+        // Everybody makes it up to an expert's errors twice over, and nobody beyond eight times.
+        let curve = std::array::from_fn(|index| (1.15 - 0.05 * index as f64).clamp(0.01, 0.999));
+        let words = |made| {
+            let [low, scale, high] = fit(&[curve], &[(made, 100)]).unwrap();
+            let (skill, attempts, shots, left_out) = (Skill::EXPERT, 100, 1, 0);
+            Estimate { skill, scale, low, high, attempts, made, shots, left_out }
+        };
+        let (all, none, some) = (words(100), words(0), words(70));
+        assert_eq!(all.scale, 0.25, "{all:?}");
+        assert!(all.words(1).starts_with("at most ") && all.high < 1.0, "{all:?}");
+        assert!(none.words(1).starts_with("at least ") && none.scale > 4.0, "{none:?}");
+        assert!(some.words(1).contains("(") && some.low < some.scale && some.scale < some.high, "{some:?}");
     }
 
     #[test]
