@@ -1,7 +1,7 @@
 //! A player's skill from results at a real table.
 //!
 //! The player is taken to err like an expert, only so many times as much in all five inputs, and to play the shot that the
-//! coach advised or the exercise teaches. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
+//! exercise teaches or a hint has shown. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
 //! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
 //! are its interval (likelihood ratio, Wilks 1938).
 
@@ -82,8 +82,8 @@ impl Estimate {
 pub enum NoEstimate {
     /// Too few attempts.
     #[error(
-        "there are {attempts} attempts at a real table whose shot is known; an estimate needs {FEWEST} (carom drill log \
-         takes them)"
+        "there are {attempts} attempts at a real table whose shot is known; an estimate needs {FEWEST}, at exercises that teach \
+         a shot or with the coach's hint shown, and none of games"
     )]
     TooFew {
         /// Attempts there are.
@@ -139,15 +139,18 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
     let (mut shots, mut left_out) = (Vec::<Shot>::new(), 0);
     for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
         for attempt in &session.attempts {
-            let exercise = session.exercise_of(attempt).and_then(|exercise| Some((exercise, exercise.table().ok()?)));
+            // In a game at a real table nobody knows where the balls have gone.
+            let exercise = session.exercise_of(attempt).filter(|_| !session.is_game());
+            let exercise = exercise.and_then(|exercise| Some((exercise, exercise.table().ok()?)));
             let Some((exercise, table)) = exercise else {
                 left_out += 1;
                 continue;
             };
-            // The exercise's own shot is for its own layout, and for the first stroke of a game.
-            let own = exercise.shot.filter(|_| attempt.layout.is_none() && !session.is_game());
+            // The exercise's own shot is for its own layout; the coach's says something only where the player saw it.
+            let own = exercise.shot.filter(|_| attempt.layout.is_none());
+            let shown = attempt.advised.filter(|_| attempt.helped);
             let layout = attempt.layout.unwrap_or(exercise.layout);
-            let Some(cue) = attempt.advised.or(own).filter(|_| layout.validate(&table).is_ok()) else {
+            let Some(cue) = shown.or(own).filter(|_| layout.validate(&table).is_ok()) else {
                 left_out += 1;
                 continue;
             };
@@ -312,6 +315,13 @@ mod tests {
         one.shot = Some(away);
         assert_eq!(estimate(&session(&one, 19)), Err(NoEstimate::TooFew { attempts: 19 }));
         assert_eq!(estimate(&session(&one, 20)), Err(NoEstimate::Uninformative { attempts: 20 }));
+        let mut shots = session(&Exercise { shot: None, ..one.clone() }, 50);
+        shots[0].attempts.iter_mut().for_each(|attempt| attempt.advised = one.shot);
+        assert_eq!(estimate(&shots), Err(NoEstimate::TooFew { attempts: 0 }), "nobody saw the coach's shot");
+        shots[0].attempts.iter_mut().for_each(|attempt| attempt.helped = true);
+        assert_eq!(estimate(&shots), Err(NoEstimate::Uninformative { attempts: 50 }), "a hint showed it");
+        shots[0].goal = Goal::Game { innings: 0 };
+        assert_eq!(estimate(&shots), Err(NoEstimate::TooFew { attempts: 0 }), "the balls have moved");
         let mut played = session(&one, 50);
         played[0].venue = Venue::Program;
         assert_eq!(estimate(&played), Err(NoEstimate::TooFew { attempts: 0 }), "the program's errors are known");
