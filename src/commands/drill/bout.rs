@@ -180,7 +180,11 @@ impl<'a> Bout<'a> {
             attempt.advised = advice.map(|advice| advice.cue);
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
         }
-        self.store.save(&self.session).map_err(Failure::failed)?;
+        if let Err(error) = self.store.save(&self.session) {
+            // The score tells what is kept.
+            self.session.undo();
+            return Err(Failure::failed(error));
+        }
 
         let whose = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
