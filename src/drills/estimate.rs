@@ -1,7 +1,7 @@
 //! A player's skill from results at a real table.
 //!
 //! The player is taken to err like an expert, only so many times as much in all five inputs, and to play the shot that the
-//! coach advised or the exercise teaches. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
+//! exercise teaches or a hint has shown. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
 //! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
 //! are its interval (likelihood ratio, Wilks 1938).
 
@@ -61,13 +61,29 @@ pub struct Estimate {
     pub left_out: usize,
 }
 
+impl Estimate {
+    /// How many times an expert's errors with its 95 % interval, in so many decimals. Where the interval reaches an end of the
+    /// scales that are looked at, only its other end is known.
+    pub fn words(&self, decimals: usize) -> String {
+        let Self { scale: times, low, high, .. } = *self;
+        let of = "times an expert's";
+        if low <= scale(0.0) {
+            format!("at most {high:.decimals$} {of}")
+        } else if high >= scale(POWERS.1 - POWERS.0) {
+            format!("at least {low:.decimals$} {of}")
+        } else {
+            format!("{times:.decimals$} {of} ({low:.decimals$}-{high:.decimals$})")
+        }
+    }
+}
+
 /// Why there is no estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoEstimate {
     /// Too few attempts.
     #[error(
-        "there are {attempts} attempts at a real table whose shot is known; an estimate needs {FEWEST} (carom drill log \
-         takes them)"
+        "there are {attempts} attempts at a real table whose shot is known; an estimate needs {FEWEST}, at exercises that teach \
+         a shot or with the coach's hint shown, and none of games"
     )]
     TooFew {
         /// Attempts there are.
@@ -123,15 +139,18 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
     let (mut shots, mut left_out) = (Vec::<Shot>::new(), 0);
     for session in sessions.iter().filter(|session| session.venue == Venue::Table) {
         for attempt in &session.attempts {
-            let exercise = session.exercise_of(attempt).and_then(|exercise| Some((exercise, exercise.table().ok()?)));
+            // In a game at a real table nobody knows where the balls have gone.
+            let exercise = session.exercise_of(attempt).filter(|_| !session.is_game());
+            let exercise = exercise.and_then(|exercise| Some((exercise, exercise.table().ok()?)));
             let Some((exercise, table)) = exercise else {
                 left_out += 1;
                 continue;
             };
-            // The exercise's own shot is for its own layout, and for the first stroke of a game.
-            let own = exercise.shot.filter(|_| attempt.layout.is_none() && !session.is_game());
+            // The exercise's own shot is for its own layout; the coach's says something only where the player saw it.
+            let own = exercise.shot.filter(|_| attempt.layout.is_none());
+            let shown = attempt.advised.filter(|_| attempt.helped);
             let layout = attempt.layout.unwrap_or(exercise.layout);
-            let Some(cue) = attempt.advised.or(own).filter(|_| layout.validate(&table).is_ok()) else {
+            let Some(cue) = shown.or(own).filter(|_| layout.validate(&table).is_ok()) else {
                 left_out += 1;
                 continue;
             };
@@ -187,7 +206,8 @@ fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> 
     };
     let last = (SCALES - 1) * FINER;
     let likelihood: Vec<f64> = (0..=last).map(likelihood).collect();
-    let best = (0..=last).max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
+    // Of equals the smallest: who has missed nothing may err as little as one likes.
+    let best = (0..=last).rev().max_by(|x, y| likelihood[*x].total_cmp(&likelihood[*y]))?;
     let is_inside = |step: &usize| likelihood[*step] >= likelihood[best] - DEPTH;
     let (low, high) = ((0..best).find(is_inside).unwrap_or(best), (best..=last).rfind(is_inside).unwrap_or(best));
     // The ends lie between the last step within and the first one outside.
@@ -267,6 +287,22 @@ mod tests {
     }
 
     #[test]
+    fn a_record_without_a_miss_bounds_the_errors_from_above_and_one_without_a_point_from_below() {
+        // Everybody makes it up to an expert's errors twice over, and nobody beyond eight times.
+        let curve = std::array::from_fn(|index| (1.15 - 0.05 * index as f64).clamp(0.01, 0.999));
+        let words = |made| {
+            let [low, scale, high] = fit(&[curve], &[(made, 100)]).unwrap();
+            let (skill, attempts, shots, left_out) = (Skill::EXPERT, 100, 1, 0);
+            Estimate { skill, scale, low, high, attempts, made, shots, left_out }
+        };
+        let (all, none, some) = (words(100), words(0), words(70));
+        assert_eq!(all.scale, 0.25, "{all:?}");
+        assert!(all.words(1).starts_with("at most ") && all.high < 1.0, "{all:?}");
+        assert!(none.words(1).starts_with("at least ") && none.scale > 4.0, "{none:?}");
+        assert!(some.words(1).contains("(") && some.low < some.scale && some.scale < some.high, "{some:?}");
+    }
+
+    #[test]
     fn too_little_is_said_to_be_too_little() {
         let mut one = exercise("one");
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 2.0, speed: 0.1 };
@@ -279,6 +315,13 @@ mod tests {
         one.shot = Some(away);
         assert_eq!(estimate(&session(&one, 19)), Err(NoEstimate::TooFew { attempts: 19 }));
         assert_eq!(estimate(&session(&one, 20)), Err(NoEstimate::Uninformative { attempts: 20 }));
+        let mut shots = session(&Exercise { shot: None, ..one.clone() }, 50);
+        shots[0].attempts.iter_mut().for_each(|attempt| attempt.advised = one.shot);
+        assert_eq!(estimate(&shots), Err(NoEstimate::TooFew { attempts: 0 }), "nobody saw the coach's shot");
+        shots[0].attempts.iter_mut().for_each(|attempt| attempt.helped = true);
+        assert_eq!(estimate(&shots), Err(NoEstimate::Uninformative { attempts: 50 }), "a hint showed it");
+        shots[0].goal = Goal::Game { innings: 0 };
+        assert_eq!(estimate(&shots), Err(NoEstimate::TooFew { attempts: 0 }), "the balls have moved");
         let mut played = session(&one, 50);
         played[0].venue = Venue::Program;
         assert_eq!(estimate(&played), Err(NoEstimate::TooFew { attempts: 0 }), "the program's errors are known");

@@ -135,8 +135,16 @@ pub(super) fn match_table() -> String {
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
     /// It can neither be called so on the command line nor in a file.
-    #[error("\"{0}\" is no name for an exercise; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
+    #[error("{0:?} is no name for an exercise; accepted are 1 to {LONGEST_NAME} letters, digits, '-', '_' and '.'")]
     Name(String),
+    /// Its words would move the cursor or turn the text round.
+    #[error("the {field} {text:?} has a character that cannot be shown; accepted is one line of text")]
+    Text {
+        /// Which words.
+        field: &'static str,
+        /// What they are.
+        text: String,
+    },
     /// Its table is none that is bundled.
     #[error(transparent)]
     Table(#[from] TableError),
@@ -168,7 +176,7 @@ impl Exercise {
         Ok(table)
     }
 
-    /// Checks all that others rely on: the name, the table, the layout and the shot.
+    /// Checks all that others rely on: the name, the words, the table, the layout and the shot.
     ///
     /// # Errors
     /// The first problem found.
@@ -176,11 +184,48 @@ impl Exercise {
         if !is_name(&self.name) {
             return Err(ExerciseError::Name(self.name.clone()));
         }
+        let words = [("title", &self.title), ("point", &self.point)].into_iter();
+        for (field, text) in words.chain(self.tags.iter().map(|tag| ("tag", tag))) {
+            if text.chars().any(is_command) {
+                return Err(ExerciseError::Text { field, text: text.clone() });
+            }
+        }
         let table = self.table()?;
         if let Some(shot) = &self.shot {
             shot.validate()?;
             shot.validate_tip(table.miscue_limit)?;
         }
         Ok(())
+    }
+}
+
+/// Whether a terminal takes this for a command and no letter: control characters, ends of lines, and marks that turn the
+/// direction of writing.
+fn is_command(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drills::session::tests::exercise;
+
+    #[test]
+    fn words_that_command_the_terminal_are_refused_and_told_harmlessly() {
+        for text in ["a\u{1b}[2Jb", "two\nlines", "turned \u{202e}round", "bell\u{7}", "\u{9b}31m"] {
+            let wrong = [
+                Exercise { title: text.to_owned(), ..exercise("one") },
+                Exercise { point: text.to_owned(), ..exercise("one") },
+                Exercise { tags: vec![text.to_owned()], ..exercise("one") },
+                exercise(text),
+            ];
+            for wrong in wrong {
+                let said = wrong.validate().unwrap_err().to_string();
+                assert!(!said.contains(is_command), "{said:?}");
+            }
+        }
+        let title = "日本語 🎱 é".to_owned();
+        Exercise { title, ..exercise("one") }.validate().unwrap();
     }
 }

@@ -14,6 +14,7 @@ mod session;
 mod shift;
 pub mod store;
 mod technique;
+mod validity;
 mod verdict;
 
 pub use code::{CodeError, decode, encode};
@@ -27,4 +28,5 @@ pub use session::{Attempt, Goal, Session, Venue};
 pub use shift::shifted;
 pub use store::Store;
 pub use technique::{GATHERED, PATTERNS, Pattern, Technique, flaws};
+pub use validity::SessionError;
 pub use verdict::{changes, verdict};

@@ -39,6 +39,7 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     let first = import();
     assert_eq!([&first["positions"], &first["sessions"], &first["known"]], [1, 2, 0]);
     assert_eq!((tried(there.path()), import()["known"].as_u64()), (3, Some(3)));
+    assert_eq!(drill(there.path(), &["export", "-"]).out, drill(there.path(), &["export"]).out);
     assert_eq!(drill(there.path(), &["export"]).out.trim(), fs::read_to_string(file).unwrap().trim());
     // Of what has grown there since, the longer is taken; a file of a newer version is refused whole.
     let text = fs::read_to_string(file).unwrap();

@@ -12,7 +12,7 @@ use crate::{
     },
 };
 
-/// Play a stroke at an exercise, with the player's errors, and compare it with the coach's.
+/// Play a stroke at an exercise, with the player's errors, and compare it with the exercise's own, or else the coach's.
 ///
 /// Every attempt is logged.
 #[derive(Debug, clap::Args)]

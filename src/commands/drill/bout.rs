@@ -33,7 +33,7 @@ pub struct Bout<'a> {
     store: &'a Store,
     session: Session,
     means: &'a Means,
-    /// Whether every stroke is compared with the coach's: that takes the coach's time.
+    /// Whether every stroke is compared with the one that is taught, or else with the coach's: that takes the coach's time.
     compares: bool,
     coaches: ByTable<Coach, MakeCoach>,
     /// The coach's shot in a layout: while nothing moves, it is looked for once.
@@ -75,7 +75,7 @@ struct Turn<'a> {
     end: Layout,
 }
 
-/// The coach's shot beside the player's.
+/// The shot that is taught, or the coach's, beside the player's.
 #[derive(Serialize)]
 struct Advised {
     #[serde(rename = "advised")]
@@ -84,6 +84,9 @@ struct Advised {
     chance: f64,
     #[serde(rename = "advised_interval")]
     interval: [f64; 2],
+    /// Whose shot it is: the exercise's own where the balls lie for it, else the coach's.
+    #[serde(rename = "advised_by")]
+    by: &'static str,
     /// What was meant less what is advised.
     difference: CueInputs,
     /// What to change, in words.
@@ -152,7 +155,14 @@ impl<'a> Bout<'a> {
         if let Stroke::Own(cue) = &stroke {
             check(table, cue).map_err(Failure::wrong_input)?;
         }
-        let advice = if helped || self.compares { self.advice(table, layout)? } else { None };
+        let own = if helped { None } else { self.own(layout) };
+        let advice = match own {
+            Some(cue) if self.compares => {
+                Some(Advice { cue, chance: chance(self.session.skill, rule, table, layout, &cue) })
+            }
+            _ if helped || self.compares => self.advice(table, layout)?,
+            _ => None,
+        };
         let meant = match (stroke, advice) {
             (Stroke::Own(cue), _) => cue,
             (Stroke::Coach, Some(advice)) => advice.cue,
@@ -170,8 +180,13 @@ impl<'a> Bout<'a> {
             attempt.advised = advice.map(|advice| advice.cue);
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
         }
-        self.store.save(&self.session).map_err(Failure::failed)?;
+        if let Err(error) = self.store.save(&self.session) {
+            // The score tells what is kept.
+            self.session.undo();
+            return Err(Failure::failed(error));
+        }
 
+        let whose = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
         let (verdict, run) = (played.verdict(rule), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
@@ -193,6 +208,7 @@ impl<'a> Bout<'a> {
                     chance: advice.chance.rate,
                     interval: [advice.chance.low, advice.chance.high],
                     difference: difference(&meant, &advice.cue),
+                    by: whose,
                     changes,
                 }),
                 end: played.end,
@@ -205,9 +221,15 @@ impl<'a> Bout<'a> {
         } else if let Some(advice) = advice {
             let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };
             let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
-            line(format_args!("   the coach's shot {shot} is made {share} of the time{changes}"))?;
+            line(format_args!("   the {whose}'s shot {shot} is made {share} of the time{changes}"))?;
         }
         Ok(())
+    }
+
+    /// The shot that the exercise teaches, where the balls lie for it.
+    fn own(&self, layout: &Layout) -> Option<CueInputs> {
+        let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
+        exercise.shot.filter(|_| !self.session.is_game())
     }
 
     fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {

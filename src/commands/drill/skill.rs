@@ -14,7 +14,8 @@ use crate::{
 
 /// Estimate the player's skill from the results at a real table.
 ///
-/// It is so many times an expert's errors, with the 95 % interval. The player is taken to have played the exercises' own
+/// It is so many times an expert's errors, with the 95 % interval; scales from 1/4 to 16 are looked at, and an interval that
+/// reaches one of these ends is open there. The player is taken to have played the exercises' own
 /// shots.
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -40,8 +41,8 @@ struct Answer {
 
 pub fn run(args: &Args) -> Result<(), Failure> {
     let desk = Desk::open()?;
-    let Estimate { skill, scale, low, high, attempts, made, shots, left_out } =
-        estimate(&desk.sessions()).map_err(Failure::failed)?;
+    let estimate = estimate(&desk.sessions()).map_err(Failure::failed)?;
+    let Estimate { skill, scale, low, high, attempts, made, shots, left_out } = estimate;
     if args.keep {
         desk.store.keep_skill(skill).map_err(Failure::failed)?;
     }
@@ -50,9 +51,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let kept = args.keep;
         return Ok(json_line(&Answer { skill, scale, interval, attempts, made, shots, left_out, kept })?);
     }
-    line(format_args!(
-        "{scale:.2} times an expert's errors (95 % interval {low:.2} to {high:.2}; club is 2, beginner 4)"
-    ))?;
+    line(format_args!("errors {} (95 % interval); club is 2, beginner 4", estimate.words(2)))?;
     line(format_args!("from {made} of {attempts} made at {shots} shots; as a skill: {skill}"))?;
     if left_out > 0 {
         tell(format_args!("note: {left_out} attempts have no part in it, for their shot is not known"));

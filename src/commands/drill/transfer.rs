@@ -21,7 +21,7 @@ use crate::{
 /// Write all sessions, positions and the skill of one's own as one JSON file.
 #[derive(Debug, clap::Args)]
 pub struct ExportArgs {
-    /// The file; without one, the standard output.
+    /// The file; without one, or for "-", the standard output.
     file: Option<PathBuf>,
 }
 
@@ -41,7 +41,7 @@ pub struct ImportArgs {
 pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     let (practice, notes) = Store::new(&Places::of_this_user()).export();
     note(&notes);
-    match &args.file {
+    match args.file.as_deref().filter(|file| *file != Path::new("-")) {
         None => json_line(&practice)?,
         Some(file) => {
             let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    super::{CodeError, ExerciseError, LibraryFileError},
+    super::{CodeError, ExerciseError, LibraryFileError, SessionError},
     MarkError,
 };
 
@@ -61,13 +61,13 @@ pub enum StoreError {
         /// What is in it.
         name: String,
     },
-    /// A session has an attempt at something else.
-    #[error("the session \"{session}\" has an attempt at \"{exercise}\", which is none of its exercises")]
-    Stray {
+    /// A session that cannot have been played.
+    #[error("the session \"{session}\": {error}")]
+    Session {
         /// The session.
         session: String,
-        /// What the attempt is at.
-        exercise: String,
+        /// Why.
+        error: SessionError,
     },
     /// An exercise cannot be played.
     #[error(transparent)]

@@ -171,7 +171,12 @@ fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
 fn read_session(path: &Path) -> Result<Session, StoreError> {
     let session: Session = read_marked(path)?;
     is_called(path, &session.id)?;
+    validate(&session)?;
     Ok(session)
+}
+
+fn validate(session: &Session) -> Result<(), StoreError> {
+    session.validate().map_err(|error| StoreError::Session { session: session.id.clone(), error })
 }
 
 fn read_position(path: &Path) -> Result<Exercise, StoreError> {

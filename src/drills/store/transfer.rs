@@ -1,10 +1,8 @@
 //! All of a player's practice as one JSON file, and back.
 
-use std::collections::BTreeSet;
-
 use serde::{Deserialize, Serialize};
 
-use super::{OwnSkill, Store, StoreError, file, position_text, read_position, read_session};
+use super::{OwnSkill, Store, StoreError, file, position_text, read_position, read_session, validate};
 use crate::drills::{Exercise, LibraryFile, LibraryFileError, Session};
 
 /// All of a player's practice. Its file is one of exercises that holds more, so that one takes the other's place.
@@ -103,13 +101,7 @@ impl Store {
 
     fn import_session(&self, session: &Session) -> Result<Taken, StoreError> {
         let path = file(&self.sessions, &session.id)?;
-        let names: BTreeSet<&str> = session.exercises.iter().map(|exercise| exercise.name.as_str()).collect();
-        for exercise in &session.exercises {
-            exercise.validate()?;
-        }
-        if let Some(stray) = session.attempts.iter().find(|attempt| !names.contains(attempt.exercise.as_str())) {
-            return Err(StoreError::Stray { session: session.id.clone(), exercise: stray.exercise.clone() });
-        }
+        validate(session)?;
         let here = if path.exists() { Some(read_session(&path)?) } else { None };
         let taken = match here {
             None => Taken::New,

@@ -1,6 +1,6 @@
 //! What each key does to the page of an exercise, and when it may be used.
 
-use super::{DrillScreen, Lesson, Page, Stage, Turn, aiming};
+use super::{DrillScreen, Lesson, Page, Stage, Turn, aiming, errand::Taught};
 use crate::{
     coach::Skill,
     drills::{Goal, Session, Venue},
@@ -189,9 +189,12 @@ impl DrillScreen {
             Ok(()) => {
                 if let Some(note) = session.attempts.last_mut() {
                     note.helped = turn.is_helped;
-                    // What was to be played tells how good whoever made it is.
-                    note.advised = turn.taught().map(|taught| taught.advice.cue);
-                    note.advised_chance = turn.taught().map(|taught| taught.advice.chance.rate);
+                    // What was to be played tells how good whoever made it is: the shot must have been taught, for where
+                    // the balls lie.
+                    let known = |taught: &&Taught| (taught.is_own || turn.is_helped) && !turn.session.is_game();
+                    let advice = turn.taught().filter(known).map(|taught| taught.advice);
+                    note.advised = advice.map(|advice| advice.cue);
+                    note.advised_chance = advice.map(|advice| advice.chance.rate);
                 }
                 errands.insert(0, turn.save(session));
             }

@@ -201,11 +201,9 @@ const UNKNOWN: &str = "it is not known where to write";
 /// The player's skill, and how sure that is.
 fn estimated(sessions: &[Session]) -> Result<(Skill, String), String> {
     let found = estimate(sessions).map_err(|error| error.to_string())?;
-    let Estimate { skill, scale, low, high, attempts, .. } = found;
-    let sentence = format!(
-        "your errors are {scale:.1} times an expert's ({low:.1}-{high:.1}), from {attempts} attempts at a real table; club is \
-         2, beginner 4"
-    );
+    let Estimate { skill, attempts, .. } = found;
+    let sentence =
+        format!("your errors are {}, from {attempts} attempts at a real table; club is 2, beginner 4", found.words(1));
     Ok((skill, sentence))
 }
 

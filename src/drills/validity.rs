@@ -1,0 +1,109 @@
+//! What a session must hold to be counted: whoever wrote its file, all that others rely on is checked.
+
+use super::{Attempt, Exercise, ExerciseError, Session};
+use crate::{physics::CueInputs, table::Table};
+
+/// The first second of the year 10000, Unix time: no session is as late, and dates have four digits for the year.
+const YEAR_10000: u64 = 253_402_300_800;
+
+/// Why a session is not taken in.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    /// One of its exercises cannot be played.
+    #[error("{name:?}: {error}")]
+    Exercise {
+        /// The exercise.
+        name: String,
+        /// Why.
+        error: ExerciseError,
+    },
+    /// It has an attempt at something else.
+    #[error("it has an attempt at {0:?}, which is none of its exercises")]
+    Stray(String),
+    /// A time that no date can be told for.
+    #[error("the time {0} is no date; accepted are seconds from 1970 to the year 9999")]
+    Time(u64),
+    /// An attempt that cannot have been made.
+    #[error("attempt {number}: {error}")]
+    Attempt {
+        /// Which, from 1 on.
+        number: usize,
+        /// Why.
+        error: ExerciseError,
+    },
+}
+
+impl Session {
+    /// Checks its exercises, its times, and the layouts and strokes of its attempts.
+    ///
+    /// # Errors
+    /// The first problem found.
+    pub fn validate(&self) -> Result<(), SessionError> {
+        for exercise in &self.exercises {
+            let refuse = |error| SessionError::Exercise { name: exercise.name.clone(), error };
+            exercise.validate().map_err(refuse)?;
+        }
+        let times = self.attempts.iter().map(|attempt| attempt.at).chain([self.started]);
+        if let Some(time) = times.into_iter().find(|time| *time >= YEAR_10000) {
+            return Err(SessionError::Time(time));
+        }
+        for (attempt, number) in self.attempts.iter().zip(1..) {
+            let exercise = self.exercise_of(attempt).ok_or_else(|| SessionError::Stray(attempt.exercise.clone()))?;
+            attempt.validate(exercise).map_err(|error| SessionError::Attempt { number, error })?;
+        }
+        Ok(())
+    }
+}
+
+impl Attempt {
+    fn validate(&self, exercise: &Exercise) -> Result<(), ExerciseError> {
+        if let Some(layout) = &self.layout {
+            layout.validate(&Table::preset(&exercise.table)?)?;
+        }
+        for cue in [self.meant, self.advised].iter().flatten() {
+            cue.validate()?;
+        }
+        if let Some(CueInputs { theta, phi, speed, .. }) = self.played {
+            // Errors carry the tip off the ball, and the rest a little beyond what can be meant.
+            CueInputs { a: 0.0, b: 0.0, theta, phi: 0.5 * phi, speed: 0.5 * speed }.validate()?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        drills::{Goal, session::tests::session},
+        table::Layout,
+    };
+    use glam::DVec2;
+
+    #[test]
+    fn what_nobody_can_have_played_is_refused_and_what_errors_make_of_a_stroke_is_not() {
+        let good = CueInputs { a: 0.0, b: 0.5, theta: 0.0, phi: 1.0, speed: 100.0 };
+        let changed = |change: &dyn Fn(&mut Session)| {
+            let mut session = session(Goal::Free, "x-");
+            change(&mut session);
+            session.validate()
+        };
+        changed(&|session| session.attempts[1].meant = Some(good)).unwrap();
+        changed(&|session| session.attempts[1].played = Some(CueInputs { b: 1.2, speed: 100.5, ..good })).unwrap();
+        let bad = CueInputs { theta: 1e9, ..good };
+        let refused: [&dyn Fn(&mut Session); 6] = [
+            &|session| session.started = u64::MAX,
+            &|session| session.attempts[1].at = YEAR_10000,
+            &|session| session.attempts[1].advised = Some(bad),
+            &|session| session.attempts[1].meant = Some(bad),
+            &|session| session.attempts[1].played = Some(bad),
+            &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
+        ];
+        for (change, says) in
+            refused.into_iter().zip(["time 18446", "time 253", "attempt 2", "theta", "theta", "balls"])
+        {
+            let error = changed(change).unwrap_err().to_string();
+            assert!(error.contains(says), "{error}");
+        }
+    }
+}
