@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(all.scale, 0.25, "{all:?}");
         assert!(all.words(1).starts_with("at most ") && all.high < 1.0, "{all:?}");
         assert!(none.words(1).starts_with("at least ") && none.scale > 4.0, "{none:?}");
-        assert!(some.words(1).contains("(") && some.low < some.scale && some.scale < some.high, "{some:?}");
+        assert!(some.words(1).contains('(') && some.low < some.scale && some.scale < some.high, "{some:?}");
     }
 
     #[test]

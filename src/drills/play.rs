@@ -147,6 +147,7 @@ impl Attempt {
             at: now(),
             made,
             helped: false,
+            by_coach: false,
             layout: None,
             meant: None,
             played: None,

@@ -10,7 +10,7 @@ pub struct Record {
     pub tried: usize,
     /// Points.
     pub made: usize,
-    /// Attempts with a hint or by the coach; they count among the others.
+    /// Attempts with help; they count among the others.
     pub helped: usize,
     /// Share of points with its 95 % interval.
     pub rate: SuccessRate,
@@ -25,9 +25,21 @@ pub struct Record {
 }
 
 impl Record {
-    /// Of the attempts in `sessions` that `counts` accepts. Those whose order nobody knows have no part in innings, average
+    /// Of the player's attempts in `sessions` that `counts` accepts; the coach's strokes are none. Those whose order nobody knows have no part in innings, average
     /// and runs.
     pub fn of<'a>(
+        sessions: impl IntoIterator<Item = &'a Session>,
+        counts: impl Fn(&Session, &Attempt) -> bool,
+    ) -> Self {
+        Self::of_all(sessions, |session, attempt| !attempt.by_coach && counts(session, attempt))
+    }
+
+    /// Of all that was played in a session, by whomever.
+    pub fn of_session(session: &Session) -> Self {
+        Self::of_all([session], |_, _| true)
+    }
+
+    fn of_all<'a>(
         sessions: impl IntoIterator<Item = &'a Session>,
         counts: impl Fn(&Session, &Attempt) -> bool,
     ) -> Self {
@@ -97,6 +109,19 @@ mod tests {
         let record = Record::of(&sessions, |_, _| true);
         assert_eq!((record.tried, record.made), (10, 6));
         assert_eq!((record.innings, record.average, record.high_run), (1, Some(1.0), 1));
+    }
+
+    #[test]
+    fn what_the_coach_played_counts_in_its_session_and_not_for_the_player() {
+        let mut sessions = [session(Goal::Run(2), "-xx")];
+        sessions[0].attempts[1].by_coach = true;
+        sessions[0].attempts[2].by_coach = true;
+        assert!(sessions[0].is_over());
+        let (mine, all) = (Record::of_exercise(&sessions, "first"), sessions[0].record());
+        assert_eq!(
+            [(mine.made, mine.tried, mine.high_run), (all.made, all.tried, all.high_run)],
+            [(0, 1, 0), (2, 3, 2)]
+        );
     }
 
     #[test]

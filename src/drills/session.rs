@@ -43,9 +43,12 @@ pub struct Attempt {
     pub at: u64,
     /// Whether it made the point.
     pub made: bool,
-    /// Whether the player had looked at a shot that makes it, or had the coach play. It counts all the same, and is told.
+    /// Whether the player had looked at a shot that makes it, or had the coach play. A hint counts all the same, and is told.
     #[serde(default, skip_serializing_if = "is_false")]
     pub helped: bool,
+    /// Whether the coach played it: then it is none of the player's record.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub by_coach: bool,
     /// Where the balls lay, m, if not where the exercise has them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<Layout>,
@@ -146,9 +149,9 @@ impl Session {
         self.exercises.iter().find(|exercise| exercise.name == attempt.exercise)
     }
 
-    /// Its score.
+    /// Its score, strokes of the coach included.
     pub fn record(&self) -> Record {
-        Record::of([self], |_, _| true)
+        Record::of_session(self)
     }
 
     /// Points in a row up to now.

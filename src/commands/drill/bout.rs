@@ -176,6 +176,7 @@ impl<'a> Bout<'a> {
         let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
         let share = chance(self.session.skill, rule, table, layout, &meant);
         if let Some(attempt) = self.session.attempts.last_mut() {
+            attempt.by_coach = helped;
             attempt.chance = Some(share.rate);
             attempt.advised = advice.map(|advice| advice.cue);
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);

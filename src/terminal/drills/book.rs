@@ -40,9 +40,12 @@ impl Book {
         self.sessions.clone().into()
     }
 
-    /// Those in which the exercise called `name` was repeated, or all.
+    /// Those in which the player repeated the exercise called `name`, or did anything.
     pub fn sessions_of(&self, name: Option<&str>) -> Vec<&Session> {
-        let is_of = |session: &&Session| name.is_none_or(|name| !session.is_game() && has(session, name));
+        let is_of = |session: &&Session| {
+            let is_wanted = |exercise: &str| name.is_none_or(|name| !session.is_game() && exercise == name);
+            session.attempts.iter().any(|attempt| !attempt.by_coach && is_wanted(&attempt.exercise))
+        };
         self.sessions.iter().filter(is_of).collect()
     }
 
@@ -74,10 +77,6 @@ impl Book {
 /// The score of one session's attempts, of the exercise called `name` or of all.
 pub fn record_of(session: &Session, name: Option<&str>) -> Record {
     Record::of([session], |_, attempt| name.is_none_or(|name| attempt.exercise == name))
-}
-
-fn has(session: &Session, name: &str) -> bool {
-    session.attempts.iter().any(|attempt| attempt.exercise == name)
 }
 
 fn names(session: &Session) -> Vec<String> {

@@ -177,13 +177,16 @@ impl DrillScreen {
 
     /// Notes an attempt at a real table.
     fn log(&mut self, made: bool) -> Option<Effect> {
-        let newest = self.turn.as_ref()?.newest();
+        let turn = self.turn.as_ref()?;
+        let (newest, was_helped, layout) = (turn.newest(), turn.is_helped, turn.layout);
         let mut errands = Vec::new();
         if newest.venue != Venue::Table || newest.is_over() {
             let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Table)) else { return None };
             errands.extend(asked);
         }
         let turn = self.turn.as_mut()?;
+        // A hint that was seen is known in the new session too.
+        turn.is_helped |= was_helped && turn.layout == layout;
         let mut session = turn.newest().clone();
         match session.log(made) {
             Ok(()) => {
