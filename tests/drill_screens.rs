@@ -234,9 +234,9 @@ fn the_records() {
 #[test]
 fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
     let folder = tempfile::tempdir().unwrap();
-    let own = Skill::CLUB.scaled(1.1);
-    Store::new(&drill_player::places(&folder)).keep_skill(own).unwrap();
+    Store::new(&drill_player::places(&folder)).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
     let player = Player::at_coach(TRUE_COLOUR, folder).press("d");
+    let own = player.store().own_skill().unwrap().unwrap().skill;
     player.says("player: own skill");
     let back = player.press("Esc");
     assert_eq!(back.app.coach().tutor.skill, Skill::EXPERT);

@@ -54,7 +54,7 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
         smoothing: 0.0,
         selected: false,
         with_shots: true,
-        unit: "attempts",
+        unit: "tries",
         note: points.is_empty().then_some("nothing is played yet"),
     };
     draw_chart(&chart_of, chart, theme, look, buffer);
