@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn all_words_have_to_occur_in_any_order_and_case() {
-        let undo = found("BACK change");
+        let undo = found("CHANGE back last");
         assert_eq!(undo.len(), 1, "{undo:?}");
         assert_eq!((undo[0].action, undo[0].keys.as_str()), (Action::Coach(CoachAction::Undo), "u"));
         assert_eq!(found("undo"), undo, "the word of the hint line is known as well");
