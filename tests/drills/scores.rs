@@ -108,7 +108,7 @@ fn a_game_goes_on_from_where_the_balls_stop_and_ends_after_its_innings() {
     assert_eq!([&result["made"], &result["innings"]], [points, 2]);
     assert_eq!(result["average"].as_f64().unwrap(), points as f64 / 2.0);
     let games = drill(folder.path(), &["history", "--games", "three-cushion", "--json"]).json();
-    assert_eq!((games.len(), &games[0]["tried"]), (1, &json!(made.len())));
+    assert!(games.is_empty(), "what the coach plays is none of the player's games");
 }
 
 #[test]
