@@ -1,0 +1,12 @@
+//! What is seen: keys and the mouse go through the real app, and its pictures are compared.
+
+mod advice;
+mod coach;
+mod coach_player;
+mod drill_player;
+mod drills;
+mod finder;
+mod keys;
+mod mouse;
+mod training;
+mod training_player;
