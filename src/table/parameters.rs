@@ -106,7 +106,7 @@ impl Table {
     /// [`TableError::Syntax`] or [`TableError::Value`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
         let table: Self = toml::from_str(text).map_err(|error| {
-            let line = error.span().map(|span| text[..span.start.min(text.len())].matches('\n').count() + 1);
+            let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1);
             let place = line.map_or(String::new(), |line| format!("line {line}: "));
             TableError::Syntax(place + error.message())
         })?;

@@ -24,8 +24,8 @@ use crate::{
 pub struct Args {
     /// The exercise.
     name: String,
-    /// What came of each attempt, in order: make or miss. Without any, they are read from the standard input, a word a line,
-    /// and each is safe on the disk when it is answered; "undo" takes the last one back.
+    /// What came of each attempt, in order: make or miss; "undo" takes the last one back, be it of an earlier call. Without
+    /// any, they are read from the standard input, a word a line, and each is safe on the disk when it is answered.
     #[arg(conflicts_with_all = ["made", "of"])]
     results: Vec<String>,
     /// Points, where nobody knows in which order: they tell nothing of runs.
@@ -67,7 +67,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let desk = Desk::open()?;
     let exercise = desk.exercise(&args.name)?.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { desk, session, json: args.json };
+    let mut log = Log { desk, session, name: args.name.clone(), json: args.json };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(
@@ -91,6 +91,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 struct Log {
     desk: Desk,
     session: Session,
+    /// The exercise's.
+    name: String,
     json: bool,
 }
 
@@ -99,11 +101,29 @@ impl Log {
         match word {
             Word::Make => self.session.log(true).map_err(Failure::failed),
             Word::Miss => self.session.log(false).map_err(Failure::failed),
-            Word::Undo => match self.session.undo() {
-                Some(_) => Ok(()),
-                None => Err(Failure::wrong_input("there is no attempt to take back")),
-            },
+            Word::Undo => self.undo(),
         }
+    }
+
+    /// Takes the last note back; where there is none in this session, that of the last session at a table, which then goes on.
+    fn undo(&mut self) -> Result<(), Failure> {
+        if self.session.attempts.is_empty() {
+            let is_noted = |earlier: &Session| {
+                (earlier.venue, earlier.goal) == (Venue::Table, Goal::Free)
+                    && earlier.attempts.last().is_some_and(|last| last.exercise == self.name)
+            };
+            let mut earlier = self.desk.sessions().into_iter().rev();
+            self.session =
+                earlier.find(is_noted).ok_or_else(|| Failure::wrong_input("there is no attempt to take back"))?;
+        }
+        if self.session.unordered {
+            // They were noted together, and nobody knows which came last.
+            self.session.attempts.clear();
+        } else {
+            self.session.undo();
+        }
+        // The next word may take back what stands in another session.
+        self.desk.store.save(&self.session).map_err(Failure::failed)
     }
 
     /// Saves the session and tells the score.
