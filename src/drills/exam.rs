@@ -71,6 +71,8 @@ pub struct Mark {
     pub made: usize,
     /// Points that each of the named players makes on average in the same attempts, with the exercises' own shots.
     pub expected: Par,
+    /// Standard deviations of their points: an exam is short, and luck counts.
+    pub spread: Par,
     /// Whose average is nearest: "beginner", "club" or "expert".
     pub nearest: &'static str,
 }
@@ -78,17 +80,21 @@ pub struct Mark {
 /// The mark of the attempts that there are; `None` before the first.
 pub fn mark(session: &Session) -> Option<Mark> {
     let attempts = &session.attempts;
-    let pars = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par);
-    let expected = pars.fold(Par { beginner: 0.0, club: 0.0, expert: 0.0 }, |sum, par| Par {
-        beginner: sum.beginner + par.beginner,
-        club: sum.club + par.club,
-        expert: sum.expert + par.expert,
-    });
+    let pars: Vec<Par> = attempts.iter().filter_map(|attempt| session.exercise_of(attempt)?.par).collect();
+    let sum = |of: fn(&Par) -> f64, term: fn(f64) -> f64| pars.iter().map(|par| term(of(par))).sum::<f64>();
+    let each = |term| Par {
+        beginner: sum(|par| par.beginner, term),
+        club: sum(|par| par.club, term),
+        expert: sum(|par| par.expert, term),
+    };
+    let expected = each(|share| share);
+    let Par { beginner, club, expert } = each(|share| share * (1.0 - share));
+    let spread = Par { beginner: beginner.sqrt(), club: club.sqrt(), expert: expert.sqrt() };
     let made = attempts.iter().filter(|attempt| attempt.made).count();
     let distance = |average: f64| (made as f64 - average).abs();
     let players = [("beginner", expected.beginner), ("club", expected.club), ("expert", expected.expert)];
     let (nearest, _) = players.into_iter().min_by(|x, y| distance(x.1).total_cmp(&distance(y.1)))?;
-    (!attempts.is_empty()).then_some(Mark { tried: attempts.len(), made, expected, nearest })
+    (!attempts.is_empty()).then_some(Mark { tried: attempts.len(), made, expected, spread, nearest })
 }
 
 #[cfg(test)]
@@ -154,6 +160,7 @@ mod tests {
             }
             let mark = mark(&session).unwrap();
             assert!((mark.expected.expert - 18.0).abs() < 1e-9);
+            assert!((mark.spread.club - 5.0_f64.sqrt()).abs() < 1e-9, "of 20 even chances");
             assert_eq!((mark.made, mark.nearest), (made, nearest));
         }
     }

@@ -110,6 +110,9 @@ struct Outcome {
     /// Of an exam.
     #[serde(skip_serializing_if = "Option::is_none")]
     expected: Option<Par>,
+    /// Standard deviations of the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spread: Option<Par>,
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest: Option<&'static str>,
 }
@@ -271,6 +274,7 @@ impl<'a> Bout<'a> {
                 over: session.is_over(),
                 score: record.into(),
                 expected: mark.map(|mark| mark.expected),
+                spread: mark.map(|mark| mark.spread),
                 nearest: mark.map(|mark| mark.nearest),
             })?);
         }
@@ -286,11 +290,11 @@ impl<'a> Bout<'a> {
     }
 }
 
-fn mark_words(Mark { tried, made, expected, nearest }: &Mark, of: usize) -> String {
+fn mark_words(Mark { tried, made, expected, spread, nearest }: &Mark, of: usize) -> String {
     let unfinished = if *tried < of { format!(" ({tried} of {of} played)") } else { String::new() };
     format!(
-        "score {made} of {tried}{unfinished}; on average a beginner makes {:.1}, a club player {:.1}, an expert {:.1}: \
-         nearest is {nearest}",
-        expected.beginner, expected.club, expected.expert
+        "score {made} of {tried}{unfinished}; a beginner makes {:.1} ± {:.1}, a club player {:.1} ± {:.1}, an expert {:.1} ± {:.1} \
+         (average and standard deviation): nearest is {nearest}",
+        expected.beginner, spread.beginner, expected.club, spread.club, expected.expert, spread.expert
     )
 }
