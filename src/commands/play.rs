@@ -5,7 +5,7 @@ use super::{
     drill::{Desk, Means, play, strokes},
 };
 use crate::{
-    drills::{Category, Exercise, Goal},
+    drills::{Exercise, Goal},
     game::Rule,
     table::{Layout, Table},
 };
@@ -49,19 +49,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
-    let game = Exercise {
-        name: GAME.to_owned(),
-        title: GAME.to_owned(),
-        category: Category::Own,
-        grade: 0,
-        rule: args.rule,
-        table: table.name,
-        layout,
-        point: String::new(),
-        tags: Vec::new(),
-        shot: None,
-        par: None,
-    };
+    let game = Exercise::own(GAME, args.rule, &table.name, layout);
     let session = args.means.session(Goal::Game { innings: args.innings }, vec![game]);
     let desk = Desk::open()?;
     play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)

@@ -1,6 +1,6 @@
 //! What a player meant beside what the coach would have played.
 
-use std::{f64::consts::PI, time::Duration};
+use std::f64::consts::PI;
 
 use crate::{
     coach::{Coach, Request, Skill, make_probability},
@@ -30,26 +30,11 @@ pub struct Advice {
     pub chance: SuccessRate,
 }
 
-/// What the coach would play for a player of `skill`, after looking for `budget`; `None` where it finds no point.
+/// What the coach would play; `None` where it finds no point.
 ///
 /// # Errors
 /// Where the layout is impossible.
-pub fn advise(
-    coach: &Coach,
-    skill: Skill,
-    rule: Rule,
-    layout: &Layout,
-    budget: Duration,
-    seed: u64,
-) -> Result<Option<Advice>, LayoutError> {
-    advise_on(coach, layout, &Request { rule, skill, budget, seed, ..Request::default() })
-}
-
-/// The same for any request.
-///
-/// # Errors
-/// Where the layout is impossible.
-pub fn advise_on(coach: &Coach, layout: &Layout, request: &Request) -> Result<Option<Advice>, LayoutError> {
+pub fn advise(coach: &Coach, layout: &Layout, request: &Request) -> Result<Option<Advice>, LayoutError> {
     let answer = coach.recommend(layout, request)?;
     let chance = |cue| chance(request.skill, request.rule, coach.table(), layout, &cue);
     Ok(answer.solved.then(|| Advice { cue: answer.cue, chance: chance(answer.cue) }))
@@ -69,6 +54,8 @@ pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     #[test]
@@ -88,10 +75,10 @@ mod tests {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::new(table.clone()).unwrap();
-        let request = (Skill::CLUB, Rule::StraightRail);
-        let advice = advise(&coach, request.0, request.1, &layout, Duration::from_secs(2), 0).unwrap().unwrap();
+        let request = Request { skill: Skill::CLUB, budget: Duration::from_secs(2), ..Request::default() };
+        let advice = advise(&coach, &layout, &request).unwrap().unwrap();
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: PI, speed: 0.3 };
-        assert_eq!(chance(request.0, request.1, &table, &layout, &away).rate, 0.0);
+        assert_eq!(chance(request.skill, request.rule, &table, &layout, &away).rate, 0.0);
         assert!(advice.chance.rate > 0.5, "{advice:?}");
     }
 }

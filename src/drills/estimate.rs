@@ -43,8 +43,8 @@ const DEPTH: f64 = 1.920_729;
 /// What the results say of a player.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// An expert's errors so many times.
-    pub skill: Skill,
+    /// An expert's errors so many times; `None` where the interval is open at one end, so that there is a bound alone.
+    pub skill: Option<Skill>,
     /// How many times.
     pub scale: f64,
     /// Lower end of its 95 % interval; at 1/4 it may lie lower.
@@ -67,14 +67,17 @@ impl Estimate {
     pub fn words(&self, decimals: usize) -> String {
         let Self { scale: times, low, high, .. } = *self;
         let of = "times an expert's";
-        if low <= scale(0.0) {
-            format!("at most {high:.decimals$} {of}")
-        } else if high >= scale(POWERS.1 - POWERS.0) {
-            format!("at least {low:.decimals$} {of}")
-        } else {
-            format!("{times:.decimals$} {of} ({low:.decimals$}-{high:.decimals$})")
+        match openings(low, high) {
+            [true, _] => format!("at most {high:.decimals$} {of}"),
+            [_, true] => format!("at least {low:.decimals$} {of}"),
+            _ => format!("{times:.decimals$} {of} ({low:.decimals$}-{high:.decimals$})"),
         }
     }
+}
+
+/// Whether an interval reaches the smallest and the largest of the scales that are looked at.
+fn openings(low: f64, high: f64) -> [bool; 2] {
+    [low <= scale(0.0), high >= scale(POWERS.1 - POWERS.0)]
 }
 
 /// Why there is no estimate.
@@ -123,7 +126,7 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let [low, scale, high] = fit(&curves, &counts).ok_or(NoEstimate::Uninformative { attempts })?;
     Ok(Estimate {
         // Nobody knows more digits of it.
-        skill: Skill::EXPERT.scaled((100.0 * scale).round() / 100.0),
+        skill: (openings(low, high) == [false; 2]).then(|| Skill::EXPERT.scaled((100.0 * scale).round() / 100.0)),
         scale,
         low,
         high,
@@ -267,6 +270,11 @@ mod tests {
         let found = estimate(&logged(&exercises, 2.0, 1)).unwrap();
         assert!(found.low <= 2.0 && 2.0 <= found.high && found.high / found.low < 2.0, "{found:?}");
         assert_eq!((found.attempts, found.shots, found.left_out), (400, 8, 0));
+        assert_eq!(found.skill, Some(Skill::EXPERT.scaled((100.0 * found.scale).round() / 100.0)));
+        let mut faultless = logged(&exercises, 1.0, 2);
+        faultless.iter_mut().flat_map(|session| &mut session.attempts).for_each(|attempt| attempt.made = true);
+        let bound = estimate(&faultless).unwrap();
+        assert_eq!(bound.skill, None, "who never misses is no better than the exercises can tell: {bound:?}");
         // All from the same curves: those are what takes time. The scales lie between the simulated ones.
         let curves: Vec<_> =
             shots(&logged(&exercises, 1.0, 0)).0.iter().map(|shot| shot.curve(&spread(STROKES, 0))).collect();
@@ -292,7 +300,7 @@ mod tests {
         let curve = std::array::from_fn(|index| (1.15 - 0.05 * index as f64).clamp(0.01, 0.999));
         let words = |made| {
             let [low, scale, high] = fit(&[curve], &[(made, 100)]).unwrap();
-            let (skill, attempts, shots, left_out) = (Skill::EXPERT, 100, 1, 0);
+            let (skill, attempts, shots, left_out) = (None, 100, 1, 0);
             Estimate { skill, scale, low, high, attempts, made, shots, left_out }
         };
         let (all, none, some) = (words(100), words(0), words(70));

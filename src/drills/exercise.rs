@@ -166,6 +166,23 @@ impl From<ShotError> for ExerciseError {
 }
 
 impl Exercise {
+    /// A position of the player's own that is called `name`, with nothing said about it yet, on the bundled `table`.
+    pub fn own(name: &str, rule: Rule, table: &str, layout: Layout) -> Self {
+        Self {
+            name: name.to_owned(),
+            title: name.to_owned(),
+            category: Category::Own,
+            grade: 0,
+            rule,
+            table: table.to_owned(),
+            layout,
+            point: String::new(),
+            tags: Vec::new(),
+            shot: None,
+            par: None,
+        }
+    }
+
     /// Its table.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ mod validity;
 mod verdict;
 
 pub use code::{CodeError, decode, encode};
-pub use compare::{Advice, advise, advise_on, chance, difference};
+pub use compare::{Advice, advise, chance, difference};
 pub use exercise::{Category, Exercise, ExerciseError, Par};
 pub use file::{LibraryFile, LibraryFileError};
 pub use library::{Filter, Library, LibraryError};

@@ -47,7 +47,13 @@ impl Record {
         let (mut innings, mut points, mut high_run) = (0, 0_usize, 0);
         for session in sessions {
             let mut run = 0;
-            for attempt in session.attempts.iter().filter(|attempt| counts(session, attempt)) {
+            for attempt in &session.attempts {
+                if !counts(session, attempt) {
+                    // Whoever else has played, or something else: no run goes on beyond it.
+                    innings += usize::from(run > 0);
+                    run = 0;
+                    continue;
+                }
                 tried += 1;
                 made += usize::from(attempt.made);
                 helped += usize::from(attempt.helped);
@@ -122,6 +128,14 @@ mod tests {
             [(mine.made, mine.tried, mine.high_run), (all.made, all.tried, all.high_run)],
             [(0, 1, 0), (2, 3, 2)]
         );
+    }
+
+    #[test]
+    fn a_run_ends_where_the_coach_plays() {
+        let mut sessions = [session(Goal::Free, "x-x")];
+        sessions[0].attempts[1].by_coach = true;
+        let record = Record::of_exercise(&sessions, "first");
+        assert_eq!((record.made, record.innings, record.high_run), (2, 2, 1));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A session of practice: what was to be done, every attempt at it, and what comes next.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
@@ -61,7 +61,7 @@ pub struct Attempt {
     /// How often the player makes what was meant, a share from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chance: Option<f64>,
-    /// What the coach would have played.
+    /// What was taught: the exercise's own shot where the balls lay for it, else the coach's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub advised: Option<CueInputs>,
     /// How often the player makes that, a share from 0 to 1.
@@ -104,11 +104,12 @@ pub struct Session {
 impl Session {
     /// A session that begins now. There must be an exercise.
     pub fn new(goal: Goal, venue: Venue, exercises: Vec<Exercise>, skill: Skill, seed: u64) -> Self {
-        let started = now();
-        let day = moment(UNIX_EPOCH + std::time::Duration::from_secs(started));
+        let since = since_epoch();
+        let started = since.as_secs();
+        let day = moment(UNIX_EPOCH + Duration::from_secs(started));
         let day = day.replace(['-', ':', 'Z'], "").replace('T', "-");
-        // Two programs that begin in the same second must not meet.
-        let id = format!("{day}-{:08x}", rand::random::<u32>());
+        // Sessions of one second are in order too, and two programs that begin in the same millisecond do not meet.
+        let id = format!("{day}-{:03}{:08x}", since.subsec_millis(), rand::random::<u32>());
         Self {
             id,
             started,
@@ -166,7 +167,11 @@ impl Session {
 
 /// Now, Unix time in seconds; 0 where the clock stands before 1970.
 pub(super) fn now() -> u64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
+    since_epoch().as_secs()
+}
+
+fn since_epoch() -> Duration {
+    SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default()
 }
 
 #[cfg(test)]

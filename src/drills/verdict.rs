@@ -1,6 +1,6 @@
 //! What came of a stroke, and how it differs from the one that is taught, in words a player uses.
 
-use super::Played;
+use super::{Played, difference};
 use crate::{
     game::{Rule, Tally},
     physics::CueInputs,
@@ -48,17 +48,18 @@ impl Played {
 /// What a player has to change to get from the stroke `from` to `to`, the most telling first; nothing where nobody could
 /// tell them apart.
 pub fn changes(table: &Table, from: &CueInputs, to: &CueInputs) -> Vec<String> {
-    let turn = 180.0 - (180.0 - (to.phi - from.phi).to_degrees()).rem_euclid(360.0);
+    let by = difference(to, from);
+    let turn = by.phi.to_degrees();
     if turn.abs() > ANOTHER_SHOT {
         return vec!["another shot: aimed elsewhere".to_owned()];
     }
     let millimetres = |radii: f64| 1000.0 * table.radius * radii;
     let differences = [
         (turn, SEEN.0, 2, "°", ["aim left", "aim right"]),
-        (millimetres(to.b - from.b), SEEN.1, 1, " mm", ["tip up", "tip down"]),
-        (millimetres(to.a - from.a), SEEN.1, 1, " mm", ["tip left", "tip right"]),
-        (to.speed - from.speed, SEEN.3, 1, " m/s", ["harder", "softer"]),
-        ((to.theta - from.theta).to_degrees(), SEEN.2, 0, "°", ["cue up", "cue down"]),
+        (millimetres(by.b), SEEN.1, 1, " mm", ["tip up", "tip down"]),
+        (millimetres(by.a), SEEN.1, 1, " mm", ["tip left", "tip right"]),
+        (by.speed, SEEN.3, 1, " m/s", ["harder", "softer"]),
+        (by.theta.to_degrees(), SEEN.2, 0, "°", ["cue up", "cue down"]),
     ];
     // A number that rounds to the smallest that counts does count.
     let told = differences.into_iter().filter(|(by, least, ..)| by.abs() > 0.999 * least);

@@ -1,7 +1,7 @@
 //! The table as data: geometry, balls, cloth, cushions and cue, read from TOML.
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 2] = ["match", "thesis"];
@@ -14,7 +14,7 @@ const THESIS: &str = include_str!("thesis.toml");
 /// The TOML keys are the letters of the thesis (its Table 1); `mu_b` may be left out, which means that a ball-ball
 /// contact never slips (thesis equation 17).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, remote = "Self")]
 pub struct Table {
     /// The name that `--table` and the JSON field `preset` take.
     pub name: String,
@@ -105,7 +105,7 @@ impl Table {
     /// # Errors
     /// [`TableError::Syntax`] or [`TableError::Value`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
-        let table: Self = toml::from_str(text).map_err(|error| {
+        let table = toml::Deserializer::parse(text).and_then(Self::deserialize).map_err(|error| {
             let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1);
             let place = line.map_or(String::new(), |line| format!("line {line}: "));
             TableError::Syntax(place + error.message())
@@ -172,6 +172,21 @@ impl Table {
     /// Distance between two neighbouring sights ("diamonds"), one eighth of the length, m.
     pub fn diamond(&self) -> f64 {
         self.length / 8.0
+    }
+}
+
+/// What is derived, of which serde's own traits are made here, since what is read has to be checked as well.
+impl Serialize for Table {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, serializer)
+    }
+}
+
+/// Wherever a table is read, from a run, a policy or the last session: with values that the equations do not allow a shot
+/// might never end.
+impl<'de> Deserialize<'de> for Table {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::deserialize(deserializer)?.validated().map_err(D::Error::custom)
     }
 }
 

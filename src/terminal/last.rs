@@ -76,6 +76,10 @@ mod tests {
         impossible.layout.balls[1] = impossible.layout.balls[0];
         impossible.save(&path).unwrap();
         assert_eq!(Last::load(&path), None);
+        let mut endless = Last::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
+        endless.table.sliding_friction = 0.0;
+        endless.save(&path).unwrap();
+        assert_eq!(Last::load(&path), None, "no shot would end on this table");
         std::fs::write(&path, "{").unwrap();
         assert_eq!(Last::load(&path), None);
     }

@@ -124,6 +124,15 @@ fn a_game_goes_on_from_where_the_balls_stop_and_ends_after_its_innings() {
 }
 
 #[test]
+fn a_coach_without_a_point_is_one_line_refused_and_no_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["play", "--table", "thesis", "--rule", "three-cushion", "--budget-ms", "0", "--innings", "1", "--json"];
+    let layout = ["--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5"];
+    let lines = fed(command(folder.path(), &[&args[..], &layout].concat()), "coach\n0,0,0,0,2\n").json();
+    assert_eq!([kinds(&lines, "refused").len(), kinds(&lines, "attempt").len()], [1, 1], "{lines:?}");
+}
+
+#[test]
 fn enough_results_tell_a_skill_that_every_command_takes() {
     let folder = folder();
     let early = drill(folder.path(), &["skill"]);
@@ -131,6 +140,12 @@ fn enough_results_tell_a_skill_that_every_command_takes() {
     let own = |args: &[&str]| carom(folder.path(), &[args, &["--skill", "own"]].concat());
     let none = own(&["recommend"]);
     assert!(none.code == Some(2) && none.err.contains("carom drill skill --keep"), "{}", none.err);
+    drill(folder.path(), &["log", "half-ball", "--made", "60", "--of", "60"]);
+    let bound = drill(folder.path(), &["skill", "--keep"]);
+    assert!(bound.code == Some(1) && bound.err.contains("at most"), "{}", bound.err);
+    assert!(drill(folder.path(), &["skill"]).out.contains("at most"));
+    assert_eq!(own(&["recommend"]).code, Some(2), "nothing was kept");
+    drill(folder.path(), &["log", "half-ball", "undo"]);
     drill(folder.path(), &["log", "mine", "--made", "12", "--of", "60"]);
     let answer = &drill(folder.path(), &["skill", "--keep", "--json"]).json()[0];
     let number = |value: &Value| value.as_f64().unwrap();

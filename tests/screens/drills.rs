@@ -1,12 +1,15 @@
 //! The drill screens as one sees them: keys go through the real app, files into a folder, and the pictures are compared.
 
-use crate::drill_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, exercise, session};
+use crate::{
+    drill_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, exercise, session},
+    keys::key,
+};
 use carom::{
     coach::Skill,
     drills::{Exercise, Goal, Venue, decode, store::Store},
     game::Rule,
     table::Layout,
-    terminal::{DrillPlace, DrillWhen, Place, When},
+    terminal::{DrillPlace, DrillReport, DrillWhen, Effect, Errand, Place, When},
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
@@ -383,4 +386,47 @@ proptest! {
         let sessions = player.store().sessions();
         prop_assert!(sessions.notes.is_empty(), "{:?}", sessions.notes);
     }
+}
+
+/// What a key asks for outside, as long as nobody has done it.
+fn asked(player: &mut Player, name: &str) -> Vec<Errand> {
+    match player.app.handle(&key(name)) {
+        Some(Effect::Drill(errands)) => errands,
+        other => panic!("{name} gives {other:?}"),
+    }
+}
+
+#[test]
+fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
+    let mut player = Player::practising(TRUE_COLOUR);
+    let noted = |player: &mut Player, name: &str| {
+        let saved = asked(player, name).into_iter().find_map(|errand| match errand {
+            Errand::Save(session) => Some(session),
+            _ => None,
+        });
+        saved.expect("a session is saved")
+    };
+    for session in ["m", "u", "n"].map(|name| noted(&mut player, name)) {
+        player.app.receive_drill(DrillReport::Saved(session, Ok(())));
+    }
+    let notes: Vec<bool> = noted(&mut player, "m").attempts.iter().map(|attempt| attempt.made).collect();
+    assert_eq!(notes, [false, true]);
+}
+
+#[test]
+fn no_two_questions_to_the_coach_have_the_same_number_and_they_are_about_whoever_plays() {
+    let mut player = Player::practising(TRUE_COLOUR);
+    let position = |errands: Vec<Errand>| {
+        let asked = errands.into_iter().find_map(|errand| match errand {
+            Errand::Advise(position) => Some((position.id, position.skill)),
+            _ => None,
+        });
+        asked.expect("the coach is asked")
+    };
+    let other = position(player.app.receive_drill(DrillReport::SkillKept(Skill::BEGINNER, Ok(()))));
+    assert_eq!(other.1, Skill::BEGINNER);
+    let mut player = player.press("Esc");
+    let again = position(asked(&mut player, "Enter"));
+    assert_eq!(again.1, Skill::BEGINNER);
+    assert_ne!(again.0, other.0);
 }

@@ -23,7 +23,7 @@ pub struct TryArgs {
     #[arg(long, allow_hyphen_values = true)]
     shot: String,
     /// Attempts at it.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000))]
     repeat: u32,
     /// Shift the balls by half a ball at every repetition but the first.
     #[arg(long)]

@@ -17,7 +17,7 @@ use crate::{
         recommend::coach_for,
     },
     drills::{
-        Advice, Exercise, Goal, Par, Session, Store, advise_on, chance, changes, check, difference,
+        Advice, Exercise, Goal, Par, Session, Store, advise, chance, changes, check, difference,
         exam::{Mark, mark},
     },
     learning::evaluation::SuccessRate,
@@ -151,9 +151,9 @@ impl<'a> Bout<'a> {
         Ok(())
     }
 
-    /// Plays one stroke; when its result is told, it is safe on the disk.
-    pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: Stroke) -> Result<(), Failure> {
-        let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(()) };
+    /// Plays one stroke; when its result is told, it is safe on the disk. `false` where the coach is to play and finds no point.
+    pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: Stroke) -> Result<bool, Failure> {
+        let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let helped = matches!(stroke, Stroke::Coach);
         if let Stroke::Own(cue) = &stroke {
             check(table, cue).map_err(Failure::wrong_input)?;
@@ -169,12 +169,7 @@ impl<'a> Bout<'a> {
         let meant = match (stroke, advice) {
             (Stroke::Own(cue), _) => cue,
             (Stroke::Coach, Some(advice)) => advice.cue,
-            (Stroke::Coach, None) => {
-                return Err(Failure::failed(format_args!(
-                    "the coach found no point in {} ms; a larger --budget-ms may do",
-                    self.means.budget_ms
-                )));
-            }
+            (Stroke::Coach, None) => return Ok(false),
         };
         let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
         let share = chance(self.session.skill, rule, table, layout, &meant);
@@ -217,7 +212,8 @@ impl<'a> Bout<'a> {
                 }),
                 end: played.end,
             };
-            return Ok(json_line(&turn)?);
+            json_line(&turn)?;
+            return Ok(true);
         }
         line(format_args!("{number}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
         if helped {
@@ -227,7 +223,13 @@ impl<'a> Bout<'a> {
             let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
             line(format_args!("   the {whose}'s shot {shot} is made {share} of the time{changes}"))?;
         }
-        Ok(())
+        Ok(true)
+    }
+
+    /// Why the coach has not played.
+    pub fn no_point(&self) -> Failure {
+        let budget = self.means.budget_ms;
+        Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may do"))
     }
 
     /// The shot that the exercise teaches, where the balls lie for it.
@@ -249,7 +251,7 @@ impl<'a> Bout<'a> {
         let budget = Duration::from_millis(self.means.budget_ms);
         let request = Request { rule, skill, plan, budget, seed, ..Request::default() };
         let coach = self.coaches.get(&table.name)?;
-        let advice = advise_on(coach, layout, &request).map_err(Failure::wrong_input)?;
+        let advice = advise(coach, layout, &request).map_err(Failure::wrong_input)?;
         self.advice = advice.map(|advice| (*layout, advice));
         Ok(advice)
     }

@@ -119,6 +119,7 @@ impl Log {
         if self.session.unordered {
             // They were noted together, and nobody knows which came last.
             self.session.attempts.clear();
+            self.session.unordered = false;
         } else {
             self.session.undo();
         }

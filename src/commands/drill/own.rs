@@ -3,7 +3,7 @@
 use super::{Desk, line, strokes::Stroke};
 use crate::{
     commands::Failure,
-    drills::{Category, Exercise, check, decode, encode, store::StoreError},
+    drills::{Exercise, check, decode, encode, store::StoreError},
     game::Rule,
     table::{Layout, Table},
 };
@@ -78,22 +78,10 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
         Some(Stroke::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
     };
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
-    keep(
-        &Exercise {
-            name: args.name.clone(),
-            title: args.title.clone().unwrap_or_else(|| args.name.clone()),
-            category: Category::Own,
-            grade: 0,
-            rule: args.rule,
-            layout: Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?,
-            table: table.name,
-            point: args.point.clone(),
-            tags: args.tags.clone(),
-            shot,
-            par: None,
-        },
-        args.replace,
-    )
+    let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
+    let position = Exercise::own(&args.name, args.rule, &table.name, layout);
+    let title = args.title.clone().unwrap_or(position.title);
+    keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)
 }
 
 pub fn share(args: &ShareArgs) -> Result<(), Failure> {
@@ -104,6 +92,9 @@ pub fn share(args: &ShareArgs) -> Result<(), Failure> {
 pub fn add(args: &AddArgs) -> Result<(), Failure> {
     let mut position = decode(&args.code.concat()).map_err(Failure::wrong_input)?;
     if let Some(name) = &args.name {
+        if position.title == position.name {
+            position.title.clone_from(name);
+        }
         position.name.clone_from(name);
     }
     keep(&position, args.replace)

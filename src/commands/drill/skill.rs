@@ -12,11 +12,14 @@ use crate::{
     drills::estimate::{Estimate, estimate},
 };
 
+/// What is said where the results give a bound alone.
+const NO_SKILL: &str = "that is a bound and no skill to keep: makes and misses at exercises of other grades tell more";
+
 /// Estimate the player's skill from the results at a real table.
 ///
 /// It is so many times an expert's errors, with the 95 % interval; scales from 1/4 to 16 are looked at, and an interval that
-/// reaches one of these ends is open there. The player is taken to have played the exercises' own
-/// shots.
+/// reaches one of these ends is open there. The player is taken to have played the exercises' own shots, or those that a
+/// hint has shown.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Keep the estimate: `--skill own` is then this player.
@@ -29,7 +32,9 @@ pub struct Args {
 
 #[derive(Serialize)]
 struct Answer {
-    skill: Skill,
+    /// Absent where there is a bound alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    skill: Option<Skill>,
     scale: f64,
     interval: [f64; 2],
     attempts: usize,
@@ -44,6 +49,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let estimate = estimate(&desk.sessions()).map_err(Failure::failed)?;
     let Estimate { skill, scale, low, high, attempts, made, shots, left_out } = estimate;
     if args.keep {
+        let skill = skill.ok_or_else(|| Failure::failed(format_args!("errors {}; {NO_SKILL}", estimate.words(2))))?;
         desk.store.keep_skill(skill).map_err(Failure::failed)?;
     }
     if args.json {
@@ -52,7 +58,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Ok(json_line(&Answer { skill, scale, interval, attempts, made, shots, left_out, kept })?);
     }
     line(format_args!("errors {} (95 % interval); club is 2, beginner 4", estimate.words(2)))?;
-    line(format_args!("from {made} of {attempts} made at {shots} shots; as a skill: {skill}"))?;
+    line(format_args!("from {made} of {attempts} made at {shots} shots"))?;
+    match skill {
+        Some(skill) => line(format_args!("as a skill: {skill}"))?,
+        None => line(NO_SKILL)?,
+    }
     if left_out > 0 {
         tell(format_args!("note: {left_out} attempts have no part in it, for their shot is not known"));
     }

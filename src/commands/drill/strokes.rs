@@ -95,19 +95,23 @@ pub fn play(store: &Store, session: Session, means: &Means, strokes: Strokes, mo
                 text.parse()
             }
         };
-        match stroke.and_then(|stroke| bout.stroke(&table, &layout, stroke)) {
-            // A line that is wrong does not end the session.
-            Err(failure) if failure.code() == 2 && matches!(strokes, Strokes::Input) => {
-                refused += 1;
-                bout.refuse(lines, &failure)?;
-            }
+        let is_line = matches!(strokes, Strokes::Input);
+        let (failure, is_refused) = match stroke.and_then(|stroke| bout.stroke(&table, &layout, stroke)) {
+            Ok(true) => continue,
+            Ok(false) => (bout.no_point(), is_line),
             Err(failure) => {
-                // What was played counts all the same.
-                bout.finish()?;
-                return Err(failure);
+                let is_refused = is_line && failure.code() == 2;
+                (failure, is_refused)
             }
-            Ok(()) => {}
+        };
+        // What cannot be played does not end a session that others go on with.
+        if !is_refused {
+            // What was played counts all the same.
+            bout.finish()?;
+            return Err(failure);
         }
+        refused += 1;
+        bout.refuse(lines, &failure)?;
     }
     bout.finish()?;
     if refused > 0 && !io::stdin().is_terminal() {

@@ -14,7 +14,7 @@ use self::{
     bytes::{Cut, Reader, Writer},
     crc::crc32,
 };
-use super::{Category, Exercise, ExerciseError, exercise::match_table};
+use super::{Exercise, ExerciseError, exercise::match_table};
 use crate::{game::Rule, physics::CueInputs, table::Layout};
 
 /// What a code begins with.
@@ -176,19 +176,7 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
     while !reader.is_at_end() {
         tags.push(reader.text()?);
     }
-    Ok(Exercise {
-        name,
-        title,
-        category: Category::Own,
-        grade: 0,
-        rule,
-        table,
-        layout: Layout::new(balls),
-        point: String::new(),
-        tags,
-        shot,
-        par: None,
-    })
+    Ok(Exercise { title, tags, shot, ..Exercise::own(&name, rule, &table, Layout::new(balls)) })
 }
 
 /// A coordinate in tenths of a millimetre; `None` where it is further out than they reach.

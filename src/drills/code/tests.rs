@@ -31,20 +31,10 @@ prop_compose! {
         tags in prop::collection::vec("\\PC{1,20}", 0..5),
         shot in prop::option::of((-0.35..0.35, -0.35..0.35, 0.0..1.5_f64, -10.0..10.0, 0.01..9.0)),
     ) -> Exercise {
-        Exercise {
-            // A name does not begin with a dot.
-            name: format!("x{name}"),
-            title,
-            category: Category::Own,
-            grade: 0,
-            rule,
-            table: match_table(),
-            layout: layout(seed, sort),
-            point: String::new(),
-            tags,
-            shot: shot.map(|(a, b, theta, phi, speed)| CueInputs { a, b, theta, phi, speed }),
-            par: None,
-        }
+        // A name does not begin with a dot.
+        let own = Exercise::own(&format!("x{name}"), rule, &match_table(), layout(seed, sort));
+        let shot = shot.map(|(a, b, theta, phi, speed)| CueInputs { a, b, theta, phi, speed });
+        Exercise { title, tags, shot, ..own }
     }
 }
 
@@ -103,19 +93,7 @@ proptest! {
 }
 
 fn plain(layout: Layout) -> Exercise {
-    Exercise {
-        name: "mine".to_owned(),
-        title: "mine".to_owned(),
-        category: Category::Own,
-        grade: 0,
-        rule: Rule::ThreeCushion,
-        table: match_table(),
-        layout,
-        point: String::new(),
-        tags: Vec::new(),
-        shot: None,
-        par: None,
-    }
+    Exercise::own("mine", Rule::ThreeCushion, &match_table(), layout)
 }
 
 #[test]

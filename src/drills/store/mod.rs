@@ -1,5 +1,6 @@
-//! Where practice is kept: one file a session and one file a position of the player's own, so that programs that run at the
-//! same time never write into the same file. What cannot be read is told in a sentence and left as it is.
+//! Where practice is kept: one file a session and one file a position of the player's own, so that sessions of programs that
+//! run at the same time are never in each other's way. Only a later correction or an import writes a session's file from
+//! elsewhere; whichever program writes last then counts. What cannot be read is told in a sentence and left as it is.
 
 mod error;
 mod marked;

@@ -104,8 +104,8 @@ impl DrillScreen {
     fn open_records(&mut self) -> Effect {
         self.pages.push(Page::Record);
         let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
-        self.records.open(name);
-        Effect::Drill(vec![Errand::Estimate(self.book.shared())])
+        let number = self.records.open(name);
+        Effect::Drill(vec![Errand::Estimate(number, self.book.shared())])
     }
 
     fn scroll_records(&mut self, lines: isize) {

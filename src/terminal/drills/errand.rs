@@ -27,8 +27,8 @@ pub enum Errand {
     SavePosition(Box<Exercise>, bool),
     /// Remove the position of this name.
     RemovePosition(String),
-    /// Estimate the player's skill from these sessions.
-    Estimate(Arc<[Session]>),
+    /// Estimate the player's skill from these sessions; the number tells the answer from those to earlier questions.
+    Estimate(u64, Arc<[Session]>),
     /// Keep the player's skill.
     KeepSkill(Skill),
 }
@@ -121,8 +121,9 @@ pub enum DrillReport {
     PositionSaved(Box<Exercise>, Result<bool, String>),
     /// Of [`Errand::RemovePosition`].
     PositionRemoved(String, Result<(), String>),
-    /// Of [`Errand::Estimate`]: the skill with a sentence on how sure that is, or why there is none.
-    Estimated(Result<(Skill, String), String>),
+    /// Of [`Errand::Estimate`], with its number: the skill, where it is more than a bound, with a sentence on how sure that is,
+    /// or why nothing is known.
+    Estimated(u64, Result<(Option<Skill>, String), String>),
     /// Of [`Errand::KeepSkill`].
     SkillKept(Skill, Result<(), String>),
 }

@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
-    drills::{Category, Exercise, Goal, Library},
+    drills::{Exercise, Goal, Library},
     game::Rule,
     physics::CueInputs,
     storage::Places,
@@ -150,13 +150,15 @@ impl DrillScreen {
     /// again.
     pub fn open(&mut self, skill: Skill) -> Effect {
         self.message = None;
+        let mut errands = vec![Errand::Load(self.places.clone())];
         if skill != self.player.at_coach {
             self.player.choose(skill);
+            errands.extend(self.change_player());
         }
         if self.pages.is_empty() {
             self.pages.push(Page::Library);
         }
-        Effect::Drill(vec![Errand::Load(self.places.clone())])
+        Effect::Drill(errands)
     }
 
     /// Opens the library and asks under which name the position on the coach's table is to be saved.
@@ -164,19 +166,7 @@ impl DrillScreen {
         let Balls { table, layout, rule } = balls;
         self.leave_turn();
         self.pages = vec![Page::Library];
-        let position = Exercise {
-            name: String::new(),
-            title: String::new(),
-            category: Category::Own,
-            grade: 0,
-            rule,
-            table: table.name.clone(),
-            layout,
-            point: String::new(),
-            tags: Vec::new(),
-            shot,
-            par: None,
-        };
+        let position = Exercise { shot, ..Exercise::own("", rule, &table.name, layout) };
         let effect = self.open(skill);
         match position.table() {
             Ok(known) if known == table => {
@@ -282,6 +272,11 @@ impl DrillScreen {
         }
         self.turn = None;
         self.pages.retain(|page| *page == Page::Library);
+    }
+
+    /// Who plays in the exercise that is open, or would in another: an exam stays with whom it was begun.
+    pub fn skill(&self) -> Skill {
+        self.turn.as_ref().map_or(self.player.skill, Turn::skill)
     }
 
     /// The clock of the shot that is watched.

@@ -10,8 +10,8 @@ pub enum Estimate {
     Unknown,
     /// It is being worked out.
     Working,
-    /// The skill, with a sentence on how sure that is.
-    Known(Skill, String),
+    /// The skill, where it is more than a bound, with a sentence on how sure that is.
+    Known(Option<Skill>, String),
     /// Why there is none.
     Missing(String),
 }
@@ -25,17 +25,28 @@ pub struct Records {
     shows_all: bool,
     /// The estimate of the player's skill.
     pub estimate: Estimate,
+    /// How many times it was asked for.
+    asked: u64,
     top: usize,
 }
 
 impl Records {
-    /// Opens the page with the record of `exercise`, or of all.
-    pub(super) fn open(&mut self, exercise: Option<String>) {
+    /// Opens the page with the record of `exercise`, or of all, and gives the number of the question for the player's skill.
+    pub(super) fn open(&mut self, exercise: Option<String>) -> u64 {
         self.exercise = exercise;
         self.shows_all = false;
         self.top = 0;
         if matches!(self.estimate, Estimate::Unknown | Estimate::Missing(_)) {
             self.estimate = Estimate::Working;
+        }
+        self.asked += 1;
+        self.asked
+    }
+
+    /// The answer to question `number`; one that took longer than a later one is dropped.
+    pub(super) fn estimated(&mut self, number: u64, estimate: Estimate) {
+        if number == self.asked {
+            self.estimate = estimate;
         }
     }
 
@@ -63,6 +74,6 @@ impl Records {
 
     /// The estimated skill.
     pub const fn skill(&self) -> Option<Skill> {
-        if let Estimate::Known(skill, _) = &self.estimate { Some(*skill) } else { None }
+        if let Estimate::Known(skill, _) = &self.estimate { *skill } else { None }
     }
 }

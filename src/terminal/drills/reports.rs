@@ -1,6 +1,6 @@
 //! What is done with what has come of errands.
 
-use super::{Book, DrillReport, DrillScreen, Errand, Estimate, Loaded, Question, Stage, Turn};
+use super::{Book, DrillReport, DrillScreen, Errand, Estimate, Loaded, Question, Stage};
 use crate::{
     coach::Skill,
     drills::{Exercise, Library, Session},
@@ -58,17 +58,17 @@ impl DrillScreen {
                 }
                 Err(sentence) => self.message = Some(Message::warning(format!("{name} is not removed: {sentence}"))),
             },
-            DrillReport::Estimated(estimate) => {
-                self.records.estimate = match estimate {
-                    Ok((skill, sentence)) => Estimate::Known(skill, sentence),
-                    Err(sentence) => Estimate::Missing(sentence),
-                };
+            DrillReport::Estimated(number, found) => {
+                let missing = Estimate::Missing;
+                let estimate = found.map_or_else(missing, |(skill, sentence)| Estimate::Known(skill, sentence));
+                self.records.estimated(number, estimate);
             }
             DrillReport::SkillKept(skill, kept) => {
                 self.player.own = Some(skill);
                 self.player.choose(skill);
                 self.message = Some(Message::good("this is your skill now: you are the player \"own skill\""));
                 self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
+                return self.change_player();
             }
         }
         Vec::new()
@@ -136,12 +136,5 @@ impl DrillScreen {
         self.take_own(own);
         self.catalogue.show_own(&exercise.name);
         self.message = Some(Message::good(format!("saved as {}", exercise.name)));
-    }
-}
-
-impl Turn {
-    /// Whether it waits for what came of a stroke.
-    pub const fn is_waiting(&self) -> bool {
-        matches!(self.stage, Stage::Waiting)
     }
 }

@@ -4,7 +4,7 @@
 
 use std::sync::{
     Arc,
-    atomic::{AtomicBool, Ordering},
+    atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
 use super::{
@@ -19,6 +19,9 @@ use crate::{
     table::{Layout, Table},
     terminal::{playback::Playback, shot::Shot, status::Message},
 };
+
+/// Numbers of the questions to the coach, whatever exercise they are about: an answer may come when another is open.
+static QUESTIONS: AtomicU64 = AtomicU64::new(1);
 
 /// What is going on.
 #[derive(Debug)]
@@ -133,6 +136,11 @@ impl Turn {
         matches!(self.stage, Stage::Aiming)
     }
 
+    /// Whether it waits for what came of a stroke.
+    pub const fn is_waiting(&self) -> bool {
+        matches!(self.stage, Stage::Waiting)
+    }
+
     /// The line of aim, while the stroke is set.
     pub fn sight(&self) -> Option<Sight> {
         self.is_aiming().then(|| sight(&self.table, &self.layout, self.stroke.phi))
@@ -177,7 +185,7 @@ impl Turn {
     pub(super) fn ask(&mut self) -> Vec<Errand> {
         self.stop_asking();
         self.lesson = Lesson::Pending;
-        self.position += 1;
+        self.position = QUESTIONS.fetch_add(1, Ordering::Relaxed);
         let is_exact = self.layout == self.exercise.layout;
         vec![Errand::Advise(Box::new(Position {
             id: self.position,
@@ -257,7 +265,7 @@ impl Turn {
     /// A session is on the disk, or cannot be; asks for what is taught where the balls lie elsewhere next.
     pub(super) fn saved(&mut self, session: &Session) -> Vec<Errand> {
         let Some(ahead) = self.ahead.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
-        if ahead.attempts.len() != session.attempts.len() {
+        if ahead != *session {
             self.ahead = Some(ahead);
         }
         self.session = session.clone();

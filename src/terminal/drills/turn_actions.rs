@@ -1,9 +1,9 @@
 //! What each key does to the page of an exercise, and when it may be used.
 
-use super::{DrillScreen, Lesson, Page, Stage, Turn, aiming, errand::Taught};
+use super::{DrillScreen, Errand, Lesson, Page, Stage, Turn, aiming, errand::Taught};
 use crate::{
     coach::Skill,
-    drills::{Goal, Session, Venue},
+    drills::{Attempt, Goal, Session, Venue},
     physics::CueInputs,
     terminal::{
         app::Effect,
@@ -120,6 +120,15 @@ impl DrillScreen {
         None
     }
 
+    /// Begins the exercise that is open anew where somebody else is to play it.
+    pub(super) fn change_player(&mut self) -> Vec<Errand> {
+        let is_other = |turn: &&Turn| !turn.is_exam() && turn.skill() != self.player.skill;
+        match self.turn.as_ref().filter(is_other).is_some().then(|| self.restart(None)).flatten() {
+            Some(Effect::Drill(errands)) => errands,
+            _ => Vec::new(),
+        }
+    }
+
     /// Begins the same practice anew with the wishes as they are now.
     fn restart(&mut self, venue: Option<Venue>) -> Option<Effect> {
         let (seed, wishes, skill) = (self.seed(), self.wishes, self.player.skill);
@@ -190,7 +199,9 @@ impl DrillScreen {
         let mut session = turn.newest().clone();
         match session.log(made) {
             Ok(()) => {
-                if let Some(note) = session.attempts.last_mut() {
+                // Not if the balls of this repetition have not been shown yet.
+                let is_shown = |note: &&mut Attempt| note.layout.unwrap_or(turn.exercise.layout) == turn.layout;
+                if let Some(note) = session.attempts.last_mut().filter(is_shown) {
                     note.helped = turn.is_helped;
                     // What was to be played tells how good whoever made it is: the shot must have been taught, for where
                     // the balls lie.

@@ -96,7 +96,7 @@ impl Errands {
     /// As [`Errands::train`].
     pub fn practise(&mut self, errands: Vec<Errand>) -> io::Result<()> {
         for errand in errands {
-            if matches!(errand, Errand::Estimate(_)) {
+            if matches!(errand, Errand::Estimate(..)) {
                 let to_screen = self.to_screen.clone();
                 thread::Builder::new()
                     .name("estimate".into())

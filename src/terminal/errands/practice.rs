@@ -15,7 +15,7 @@ use std::{
 use crate::{
     coach::{Coach, Request, Skill},
     drills::{
-        Advice, Session, advise_on, chance,
+        Advice, Session, advise, chance,
         estimate::{Estimate, estimate},
         store::{Store, StoreError},
     },
@@ -42,7 +42,7 @@ pub struct Clerk {
 }
 
 impl Clerk {
-    /// Does `errand` on this thread, and hands what comes of it to `reply`. A panic becomes a sentence.
+    /// Does `errand` on this thread, and hands what comes of it to `reply`. A panic in a simulation becomes a sentence.
     pub fn run(&mut self, errand: Errand, reply: &mut dyn FnMut(DrillReport)) {
         let failed = "the program failed on this position; move a ball a little and try again";
         match errand {
@@ -82,9 +82,9 @@ impl Clerk {
                 let kept = self.with_store(|store| store.keep_skill(skill));
                 reply(DrillReport::SkillKept(skill, kept));
             }
-            Errand::Estimate(sessions) => {
+            Errand::Estimate(number, sessions) => {
                 let found = catch_unwind(AssertUnwindSafe(|| estimated(&sessions)));
-                reply(DrillReport::Estimated(found.unwrap_or_else(|_| Err(failed.to_owned()))));
+                reply(DrillReport::Estimated(number, found.unwrap_or_else(|_| Err(failed.to_owned()))));
             }
         }
     }
@@ -107,6 +107,7 @@ impl Clerk {
     }
 
     fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
+        self.taught = None;
         let Position { table, layout, rule, skill, .. } = position;
         let advice = if let Some(cue) = position.own {
             Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) })
@@ -121,7 +122,7 @@ impl Clerk {
                 ..Request::default()
             };
             let coach = self.coach(table)?;
-            advise_on(coach, layout, &request).map_err(|error| error.to_string())?
+            advise(coach, layout, &request).map_err(|error| error.to_string())?
         };
         self.taught = advice.map(|advice| (position.id, advice));
         let taught = advice.map(|advice| {
@@ -199,7 +200,7 @@ pub fn start(to_screen: Sender<News>) -> io::Result<Sender<Errand>> {
 const UNKNOWN: &str = "it is not known where to write";
 
 /// The player's skill, and how sure that is.
-fn estimated(sessions: &[Session]) -> Result<(Skill, String), String> {
+fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {
     let found = estimate(sessions).map_err(|error| error.to_string())?;
     let Estimate { skill, attempts, .. } = found;
     let sentence =
