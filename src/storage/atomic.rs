@@ -88,7 +88,6 @@ impl Staged {
 
 /// Has the name of a file outlive a power cut. Folders can be opened and synced on Unix alone.
 fn sync_folder(path: &Path) -> io::Result<()> {
-    #[cfg(unix)]
     std::fs::File::open(folder_of(path))?.sync_all()?;
     Ok(())
 }
@@ -139,7 +138,6 @@ fn readable_by_all(folder: &Path) -> io::Result<NamedTempFile> {
     let [begin, end] = PARTIAL;
     let mut builder = tempfile::Builder::new();
     builder.prefix(begin).suffix(end);
-    #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder)
 }

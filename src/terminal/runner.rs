@@ -63,6 +63,8 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     runner.remember(true);
     info!(?end, "the screen closes");
     let left = runner.session.leave();
+    // The player sees the shell again; what was noted last is written all the same.
+    runner.errands.finish();
     match end? {
         // The parent is to see that a signal ended the program, even where the terminal is gone already.
         Some(signal) => emulate_default_handler(signal),

@@ -6,7 +6,13 @@ mod practice;
 mod recorder;
 mod trainer;
 
-use std::{io, path::PathBuf, sync::mpsc::Sender, thread, time::Duration};
+use std::{
+    io,
+    path::PathBuf,
+    sync::mpsc::Sender,
+    thread::{self, JoinHandle},
+    time::Duration,
+};
 
 use self::{polling::Poll, recorder::Recorder};
 use super::{
@@ -39,8 +45,8 @@ pub struct Errands {
     wanted: Wanted,
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
-    /// To the thread of the drill screens, which starts with the first errand.
-    clerk: Option<Sender<Errand>>,
+    /// The thread of the drill screens, which starts with the first errand, and the way to it.
+    clerk: Option<(Sender<Errand>, JoinHandle<()>)>,
 }
 
 impl Errands {
@@ -108,10 +114,19 @@ impl Errands {
                 None => practice::start(self.to_screen.clone())?,
             };
             // A thread that is gone has told so by its last report.
-            let _ = clerk.send(errand);
+            let _ = clerk.0.send(errand);
             self.clerk = Some(clerk);
         }
         Ok(())
+    }
+
+    /// Waits until what the player has noted is on the disk: the screen may close before.
+    pub fn finish(self) {
+        if let Some((errands, thread)) = self.clerk {
+            drop(errands);
+            // A panic there was told when it happened.
+            let _ = thread.join();
+        }
     }
 
     /// Starts a process that trains.

@@ -8,7 +8,7 @@ use std::{
         atomic::Ordering,
         mpsc::{Receiver, Sender, channel},
     },
-    thread,
+    thread::{self, JoinHandle},
     time::Duration,
 };
 
@@ -181,19 +181,19 @@ impl Clerk {
     }
 }
 
-/// Starts the thread that does errands; it ends with the sender that is returned.
+/// Starts the thread that does errands; it ends with the sender that is returned, once it has done what was sent.
 ///
 /// # Errors
 /// A thread that could not be started.
-pub fn start(to_screen: Sender<News>) -> io::Result<Sender<Errand>> {
+pub fn start(to_screen: Sender<News>) -> io::Result<(Sender<Errand>, JoinHandle<()>)> {
     let (sender, errands): (Sender<Errand>, Receiver<Errand>) = channel();
-    thread::Builder::new().name("practice".into()).spawn(move || {
+    let thread = thread::Builder::new().name("practice".into()).spawn(move || {
         let mut clerk = Clerk::default();
         for errand in errands {
             clerk.work(errand, &to_screen);
         }
     })?;
-    Ok(sender)
+    Ok((sender, thread))
 }
 
 /// What is said before the first look at the disk, which nobody sees: that look comes first.
