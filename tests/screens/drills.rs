@@ -117,10 +117,10 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     assert!(attempt.meant != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
     let half = player.wait(0.4);
     assert!(half.app.frame_interval().is_some());
-    half.says("the shot is on its way").says("no attempt yet").is_silent_on("Compared");
+    half.says("the shot is on its way").says("no attempt yet").is_silent_on("Yours makes");
     let ended = half.wait(60.0);
     check("played", &ended);
-    ended.says("makes: yours").says("your hand: ");
+    ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
     check("played_hint", &ended.press("v"));
     check("played_no_colour", &Player::practising(NO_COLOUR).press("Right Space").wait(60.0));

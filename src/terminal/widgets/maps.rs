@@ -219,7 +219,7 @@ fn draw_signs(
             let (color, weight) = match sign(place(x, width), -place(y, height), 0.0) {
                 None => continue,
                 Some(Sign::Stroke) => (theme.tip, STROKE_WEIGHT),
-                Some(Sign::Errors) => (theme.text, ERRORS_WEIGHT),
+                Some(Sign::Errors) => (theme.outline, ERRORS_WEIGHT),
                 Some(Sign::Outcome(outcome)) => (theme.outcomes[index(outcome)], OUTCOME_WEIGHT),
             };
             canvas.set(x, y, Ink { color, weight });
