@@ -24,7 +24,7 @@ pub struct Theme {
     pub rule: Color,
     /// Keys, the selected ball, the present event.
     pub accent: Color,
-    /// The same on the table: the selected ball's place on the rails, the next shot's way.
+    /// The selected ball's place on the rails.
     pub mark: Color,
     /// A point.
     pub good: Color,
@@ -46,6 +46,8 @@ pub struct Theme {
     pub behind_ball: Color,
     /// The dots of their paths.
     pub paths: [Color; 3],
+    /// The dots of the cue ball's way in the shot after this one.
+    pub way: Color,
     /// The cue ball's face, where the tip does not meet it.
     pub face: Color,
     /// The part of the face where the tip would slip off.
@@ -96,6 +98,7 @@ impl Theme {
                 ink(0x00d8_c05a, 179, Color::Yellow),
                 ink(0x00ee_8f83, 210, Color::LightRed),
             ],
+            way: ink(0x007e_e787, 114, Color::LightGreen),
             face: ink(0x00f7_f3e8, 255, Color::White),
             miscue: ink(0x00c3_c4be, 251, Color::DarkGray),
             tip: ink(0x001f_63c8, 26, Color::Blue),

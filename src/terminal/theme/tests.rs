@@ -166,8 +166,9 @@ fn things_that_mean_something_are_told_apart_in_every_palette_at_every_depth() {
         check("balls among words", &[white, yellow, red, theme.behind_ball], 30.0);
         check("table", &[theme.cloth, theme.cushion, theme.wood], 12.0);
         check("marks on the rails", &[theme.mark, theme.cushion, theme.wood], 30.0);
-        check("next way", &[theme.mark, theme.cloth], 30.0);
         let [white, yellow, red] = theme.paths;
+        check("next way", &[&theme.balls[..], &[theme.way, theme.cloth]].concat(), 30.0);
+        check("both ways", &[theme.way, theme.paths[0]], 30.0);
         check("paths", &[white, yellow, red, theme.cloth], 30.0);
         let ([own, other], [own_band, other_band]) = (theme.curves, theme.bands);
         check("curves", &[own, other, theme.background], 30.0);
@@ -189,6 +190,7 @@ fn people_who_see_fewer_colours_tell_the_balls_the_cloth_and_the_news_apart() {
             assert_eq!(too_near(what, &theme, group, 20.0, eyes), Vec::<String>::new());
         };
         check("balls", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth]);
+        check("next way", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.way, theme.cloth]);
         check("news", &[theme.good, theme.warning]);
         check("curves", &theme.curves);
     }

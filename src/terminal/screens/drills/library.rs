@@ -162,7 +162,9 @@ fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer:
 
 fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
-    let title = Line::from(Span::styled(exercise.title.clone(), theme.text()));
+    let room = usize::from(area.width.saturating_sub(4));
+    let title = cut(wrap(&exercise.title, room), 1, room, look).swap_remove(0);
+    let title = Line::from(Span::styled(title, theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
     let Ok(table) = exercise.table() else { return };
     // The text has the rows that it needs, and the table the others.
