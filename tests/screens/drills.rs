@@ -51,6 +51,12 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
     let mut player = player;
     for exercise in library.exercises() {
         player.says(&exercise.title.chars().take(20).collect::<String>());
+        // Beside the list stands all of it, on the smallest screen too.
+        let beside: Vec<String> =
+            player.text(80, 24).lines().skip(2).map(|row| row.chars().skip(47).collect()).collect();
+        let beside = beside.join(" ").replace('"', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        let ends = [&exercise.point, "expert", "you: not tried yet"];
+        assert!(ends.into_iter().all(|words| beside.contains(words)), "{}: {beside}", exercise.name);
         player = player.press("Enter");
         assert_eq!(player.app.place(), Place::Drill(DrillPlace::Exercise), "{}", exercise.name);
         player.says("set the stroke and play it");
