@@ -159,9 +159,13 @@ pub fn draw_legend(area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
         if letters && letter == ' ' {
             continue;
         }
-        let sign = if letters { letter } else { '■' };
+        let (sign, color) = match theme.outcomes[n] {
+            color if letters => (letter, color),
+            ground if ground == theme.background => ('□', theme.rule),
+            color => ('■', color),
+        };
         add([
-            Span::styled(format!(" {sign}"), theme.text().fg(theme.outcomes[n])),
+            Span::styled(format!(" {sign}"), theme.text().fg(color)),
             Span::styled(format!(" {words}"), theme.faint()),
         ]);
     }

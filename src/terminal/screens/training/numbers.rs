@@ -43,7 +43,9 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     let mut columns = columns(watch);
     if !watch.is_at_work() {
         // What is not known now will not be.
-        columns.iter_mut().for_each(|rows| rows.retain(|(_, value)| value != UNKNOWN));
+        for rows in &mut columns {
+            rows.retain(|(_, value)| value != UNKNOWN);
+        }
     }
     let [left, right] = columns;
     let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
