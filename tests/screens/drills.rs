@@ -54,6 +54,12 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
     let mut player = player;
     for exercise in library.exercises() {
         player.says(&exercise.title.chars().take(20).collect::<String>());
+        // Beside the list stands all of it, on the smallest screen too.
+        let beside: Vec<String> =
+            player.text(80, 24).lines().skip(2).map(|row| row.chars().skip(47).collect()).collect();
+        let beside = beside.join(" ").replace('"', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        let ends = [&exercise.point, "expert", "you: not tried yet"];
+        assert!(ends.into_iter().all(|words| beside.contains(words)), "{}: {beside}", exercise.name);
         player = player.press("Enter");
         assert_eq!(player.app.place(), Place::Drill(DrillPlace::Exercise), "{}", exercise.name);
         player.says("set the stroke and play it");
@@ -120,10 +126,10 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     assert!(attempt.meant != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
     let half = player.wait(0.4);
     assert!(half.app.frame_interval().is_some());
-    half.says("the shot is on its way").says("no attempt yet").is_silent_on("Compared");
+    half.says("the shot is on its way").says("no attempt yet").is_silent_on("Yours makes");
     let ended = half.wait(60.0);
     check("played", &ended);
-    ended.says("makes: yours").says("your hand: ");
+    ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
     check("played_hint", &ended.press("v"));
     check("played_no_colour", &Player::practising(NO_COLOUR).press("Right Space").wait(60.0));

@@ -118,7 +118,7 @@ fn a_click_on_a_shot_of_the_list_shows_it() {
         let player = at_the_table(Player::with(look).press("Enter").answer().press(views));
         let chosen = |player: &Player| player.app.coach().advised().map(Advised::chosen);
         let text = player.text(120, 40);
-        let row = text.lines().position(|line| line.contains("62%")).unwrap() as u16;
+        let row = text.lines().position(|line| line.contains("62 %")).unwrap() as u16;
         let player = player.point(PRESS, (5, row));
         assert_eq!(chosen(&player), Some(2), "{text}");
         assert_eq!(chosen(&player.point(PRESS, (5, row - 2))), Some(0));

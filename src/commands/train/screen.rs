@@ -67,7 +67,7 @@ impl Screen {
 pub fn line(record: &Record) -> Option<String> {
     let Record { seconds, shots, .. } = record;
     let speed = *shots as f64 / seconds.max(1e-9);
-    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0}/s, {summary}"))
+    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} a second, {summary}"))
 }
 
 fn summary(record: &Record) -> Option<String> {

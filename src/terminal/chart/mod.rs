@@ -53,6 +53,8 @@ pub struct Chart<'a> {
     pub curves: &'a [Curve<'a>],
     /// Shots at the left and the right edge, see [`whole`].
     pub shots: (f64, f64),
+    /// The ends of the scale of values; without them, those of what is to be seen.
+    pub values: Option<(f64, f64)>,
     /// Whether the scale is logarithmic.
     pub log: bool,
     /// The length of the exponential mean as a share of the range of shots; 0 shows the values alone.
@@ -63,7 +65,7 @@ pub struct Chart<'a> {
     pub with_shots: bool,
     /// What a shot is called there.
     pub unit: &'a str,
-    /// A remark: in the title if there is room, and in place of the curve where there is nothing to show yet.
+    /// A remark: in place of the curve where there is nothing to show yet, else in the title if there is room.
     pub note: Option<&'a str>,
 }
 
@@ -80,6 +82,10 @@ impl Chart<'_> {
         (length > 0.0 && length.is_finite()).then_some(length)
     }
 
+    fn has_points(&self) -> bool {
+        self.curves.iter().any(|curve| !curve.points.is_empty())
+    }
+
     /// Whether a point reaches into the range of shots.
     fn shows(&self, point: &Point) -> bool {
         point.shots.1 as f64 >= self.shots.0 && point.shots.0 as f64 <= self.shots.1
@@ -93,7 +99,7 @@ impl Chart<'_> {
             let visible = points().filter(move |point| all || self.shows(point));
             visible.filter_map(|point| values(point, self.log)).reduce(ends)
         };
-        let (min, max) = spans(false).or_else(|| spans(true))?;
+        let (min, max) = spans(false).or_else(|| spans(true)).map(|found| self.values.unwrap_or(found))?;
         Some(if self.log { Scale::logarithmic(min, max) } else { Scale::linear(min, max) })
     }
 }
@@ -158,8 +164,7 @@ pub fn draw_chart(chart: &Chart, area: Rect, theme: &Theme, look: Look, buffer: 
         draw_curves(chart, scale, &mut grid);
         grid.paint(theme, buffer);
     } else {
-        let any = chart.curves.iter().any(|curve| !curve.points.is_empty());
-        let words = match (any, chart.log) {
+        let words = match (chart.has_points(), chart.log) {
             (false, _) => chart.note.unwrap_or("no data yet"),
             (true, true) => "no values above 0",
             (true, false) => "no finite values",
@@ -197,13 +202,13 @@ fn draw_curves(chart: &Chart, scale: Scale, grid: &mut Grid) {
 fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let axis = plot.x - 1;
     for row in plot.y..plot.bottom() {
-        buffer.set_string(axis, row, look.pick("│", "|"), theme.faint());
+        buffer.set_string(axis, row, look.pick("│", "|"), theme.rule());
     }
     for tick in scale.map_or(Vec::new(), |scale| scale.ticks(plot.height)) {
         let y = Frame::row_at(tick.at, grid).round() as i32;
         let row = plot.y + grid.row_of(y).min(plot.height - 1);
         grid.set_line(y);
-        buffer.set_string(axis, row, look.pick("┤", "+"), theme.faint());
+        buffer.set_string(axis, row, look.pick("┤", "+"), theme.rule());
         write_right(buffer, plot.x - LEFT, axis, row, &tick.label, theme.faint());
     }
 }

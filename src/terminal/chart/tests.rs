@@ -47,6 +47,7 @@ fn chart<'a>(title: &'a str, curves: &'a [Curve<'a>]) -> Chart<'a> {
         title,
         curves,
         shots,
+        values: None,
         log: false,
         smoothing: 0.0,
         selected: false,
@@ -100,7 +101,7 @@ fn a_falling_loss_beside_another_run() {
     let log =
         Chart { log: true, smoothing: 0.03, note: Some("a note without room"), ..chart("3 critic loss", &curves) };
     insta::assert_snapshot!(picture(&log, (44, 9), BRAILLE), @r"
-    ─ 3 critic loss · log · smooth 3% ── 0.0183
+    ─ 3 critic loss · log · smooth 3 % ─ 0.0183
          1┤⠈⠓⠲⠤⣄⣀⣀⣀⠁ ⠁ ⠁ ⠁ ⠁ ⢀⢀⣀⣀⣀⣀⣀⡀⠁ ⠁ ⠁ ⠁ ⠁ ⣀
           │ ⠉  ⠈⠈⠙⠒⠦⣄⣀⠒⠒⠒⠒⠒⠒⠋⠉⠉    ⠈⠉⠉⠙⠒⠒⠒⠒⠒⠒⠋⠉⠉
           │         ⠈⠈⠙⠒⠦⣄⣀

@@ -39,7 +39,7 @@ struct Part {
 pub fn draw_title(chart: &Chart, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let width = usize::from(area.width);
     let rule = look.pick("─", "-");
-    buffer.set_stringn(area.x, area.y, rule.repeat(width), width, theme.faint());
+    buffer.set_stringn(area.x, area.y, rule.repeat(width), width, theme.rule());
     let (mut left, mut right) = (left(chart, theme, look), right(chart, theme, look));
     let taken = |parts: &[Part], gap: usize| {
         let texts: usize = parts.iter().map(|part| Span::raw(&part.text).width()).sum();
@@ -84,9 +84,9 @@ fn left(chart: &Chart, theme: &Theme, look: Look) -> Vec<Part> {
         add(Need::Log, "log");
     }
     if chart.length().is_some() {
-        add(Need::Smoothing, &format!("smooth {}%", (1000.0 * chart.smoothing).round() / 10.0));
+        add(Need::Smoothing, &format!("smooth {} %", (1000.0 * chart.smoothing).round() / 10.0));
     }
-    if let Some(note) = chart.note {
+    if let Some(note) = chart.note.filter(|_| chart.has_points()) {
         add(Need::Note, note);
     }
     parts

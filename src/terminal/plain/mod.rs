@@ -180,7 +180,12 @@ impl Conversation {
         let next = advice.next_probability.map_or(String::new(), |next| {
             format!("\nThe point after it is made about {:.0} percent of the time.", 100.0 * next)
         });
-        format!("{}{next}\n{} other shots.", self.describe(), self.shots.len() - 1)
+        let others = match self.shots.len() - 1 {
+            0 => "There is no other shot.".to_owned(),
+            1 => "There is 1 other shot.".to_owned(),
+            others => format!("There are {others} other shots."),
+        };
+        format!("{}{next}\n{others}", self.describe())
     }
 
     /// The shot that is spoken of.
@@ -222,11 +227,16 @@ mod tests {
     #[test]
     fn a_shot_is_told_its_margins_its_course_and_its_end() {
         let said = talk("shot\nmargins\ntell\ngo on\nundo\nquit\nwhere");
-        for words in ["percent of the time, between", "hits yellow", "phi: ", "white - yellow.", "all balls lie still"]
-        {
+        for words in [
+            "percent of the time, between",
+            "hits yellow",
+            "Direction: up to",
+            "white meets yellow.",
+            "all balls lie still",
+        ] {
             assert!(said.contains(words), "{words}: {said}");
         }
-        let first = "white at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
+        let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
         assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
     }
 

@@ -1,13 +1,18 @@
 //! Sentences about balls and shots, for ears.
 
 use crate::{
-    coach::{Aim, Kind, Margin, Skill},
+    coach::{Aim, Input, Kind, Margin, Skill, Way},
     learning::evaluation::SuccessRate,
     physics::CueInputs,
-    simulation::Recording,
-    table::{Layout, Table},
+    simulation::{Event, EventKind, Recording},
+    table::{BALLS, Layout, Table},
     terminal::words::{BALL_NAMES, event_words, fixed, percent, rail_name},
 };
+
+/// A ball's name at the beginning of a sentence.
+fn name(ball: usize) -> &'static str {
+    ["White", "Yellow", "Red"][ball]
+}
 
 /// Where the balls lie.
 pub fn places(table: &Table, layout: &Layout) -> String {
@@ -15,8 +20,8 @@ pub fn places(table: &Table, layout: &Layout) -> String {
         let at = layout.balls[ball];
         let diamonds = (at + glam::DVec2::new(0.5 * table.length, 0.5 * table.width)) / table.diamond();
         format!(
-            "{} at {} diamonds along and {} up, {} and {} millimetres from the middle.",
-            BALL_NAMES[ball],
+            "{} lies at {} diamonds along and {} up, {} and {} millimetres from the middle.",
+            name(ball),
             fixed(diamonds.x, 2),
             fixed(diamonds.y, 2),
             fixed(1e3 * at.x, 0),
@@ -61,7 +66,7 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>) -> String {
 
 /// What sort of shot, and how often the player makes it.
 pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> String {
-    let kind = kind.map_or("No point was found; this is the best attempt".to_owned(), |kind| kind.to_string());
+    let kind = kind.map_or("No point was found; this is the best attempt".to_owned(), sort);
     match rate {
         Some(rate) => format!(
             "{kind}. Player {skill} makes it {} percent of the time, between {} and {}.",
@@ -73,19 +78,47 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> St
     }
 }
 
+/// What sort of shot it is.
+fn sort(kind: Kind) -> String {
+    let first = kind.first_ball.clamp(1, BALLS - 1);
+    let (first, other) = (BALL_NAMES[first], BALL_NAMES[BALLS - first]);
+    let start = if kind.cushion_first { "a cushion, then " } else { "" };
+    let way = match kind.way {
+        Way::Direct => "without a cushion",
+        Way::OffCushion => "over one or two cushions in all",
+        Way::AroundTheTable => "over three cushions or more in all",
+    };
+    format!("First {start}{first}, then {other}, {way}, {}", kind.pace)
+}
+
 /// How far off each input may be.
 pub fn margins(margins: &[Margin]) -> String {
-    let end = |end: Option<f64>| end.map_or("any".to_owned(), |end| fixed(end, 2));
     let line = |margin: &Margin| {
-        format!("{}: {} less to {} more, {}.", margin.input.name(), end(margin.less), end(margin.more), margin.unit)
+        let (name, unit, less, more) = match margin.input {
+            Input::Side => ("Side", "millimetres", "further right", "further left"),
+            Input::Height => ("Height", "millimetres", "lower", "higher"),
+            Input::Elevation => ("Cue", "degrees", "flatter", "steeper"),
+            Input::Direction => ("Direction", "degrees", "to the right", "to the left"),
+            Input::Speed => ("Speed", "metres a second", "softer", "harder"),
+        };
+        let end = |end: Option<f64>, way: &str| match end {
+            Some(end) => format!("up to {} {unit} {way}", fixed(end, 2)),
+            None => format!("as much {way} as you like"),
+        };
+        format!("{name}: {}, {}.", end(margin.less, less), end(margin.more, more))
     };
     margins.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// What happens in a shot.
 pub fn events(recording: &Recording) -> String {
-    let line = |event: &crate::simulation::Event| format!("{} s: {}.", fixed(event.time, 2), event_words(event.kind));
+    let words = |kind: EventKind| match kind {
+        EventKind::BallBall(one, other) => format!("{} meets {}", BALL_NAMES[one], BALL_NAMES[other]),
+        EventKind::BallRail(ball, rail) => format!("{} meets the {}", BALL_NAMES[ball], rail_name(rail)),
+        other => event_words(other),
+    };
+    let line = |event: &Event| format!("{} seconds: {}.", fixed(event.time, 2), words(event.kind));
     let mut lines: Vec<String> = recording.events().iter().map(line).collect();
-    lines.push(format!("{} s: all balls lie still.", fixed(recording.duration(), 2)));
+    lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")
 }

@@ -18,10 +18,14 @@ pub struct Theme {
     pub background: Color,
     /// Ordinary text.
     pub text: Color,
-    /// Labels, units and rules.
+    /// Labels and units.
     pub faint: Color,
+    /// Rules and axes.
+    pub rule: Color,
     /// Keys, the selected ball, the present event.
     pub accent: Color,
+    /// The selected ball's place on the rails.
+    pub mark: Color,
     /// A point.
     pub good: Color,
     /// Something refused, or a shot that misses.
@@ -38,8 +42,12 @@ pub struct Theme {
     pub cue: Color,
     /// White, yellow and red ball.
     pub balls: [Color; 3],
+    /// Behind a ball's sign among words, where it has to be seen as well.
+    pub behind_ball: Color,
     /// The dots of their paths.
     pub paths: [Color; 3],
+    /// The dots of the cue ball's way in the shot after this one.
+    pub way: Color,
     /// The cue ball's face, where the tip does not meet it.
     pub face: Color,
     /// The part of the face where the tip would slip off.
@@ -52,8 +60,12 @@ pub struct Theme {
     pub bands: [Color; 2],
     /// Outcomes of a stroke: none at all, no ball met, one, both with too few cushions, a point.
     pub outcomes: [Color; 5],
+    /// The outline of the player's errors over them.
+    pub outline: Color,
     /// The lines behind the curves.
     pub grid: Color,
+    /// What makes words stand out beside their colour.
+    pub strong: Modifier,
 }
 
 impl Theme {
@@ -62,10 +74,12 @@ impl Theme {
         let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
         Self {
             depth,
-            background: ink(0x0010_1418, 233, Color::Reset),
-            text: ink(0x00d6_dbe0, 253, Color::Reset),
-            faint: ink(0x007c_8893, 244, Color::DarkGray),
+            background: ink(0x0010_1418, 233, Color::Black),
+            text: ink(0x00d6_dbe0, 253, Color::White),
+            faint: ink(0x0084_909b, 246, Color::Gray),
+            rule: ink(0x004e_5a65, 240, Color::DarkGray),
             accent: ink(0x00ff_c66d, 221, Color::LightYellow),
+            mark: ink(0x00ff_c66d, 221, Color::LightYellow),
             good: ink(0x0079_d28b, 114, Color::LightGreen),
             warning: ink(0x00ff_8a70, 209, Color::LightRed),
             cloth: ink(0x001b_6d83, 24, Color::Blue),
@@ -78,24 +92,28 @@ impl Theme {
                 ink(0x00f6_c324, 220, Color::LightYellow),
                 ink(0x00d9_3636, 160, Color::Red),
             ],
+            behind_ball: ink(0x0010_1418, 233, Color::Black),
             paths: [
                 ink(0x00b9_d3d8, 152, Color::Gray),
                 ink(0x00d8_c05a, 179, Color::Yellow),
                 ink(0x00ee_8f83, 210, Color::LightRed),
             ],
+            way: ink(0x007e_e787, 114, Color::LightGreen),
             face: ink(0x00f7_f3e8, 255, Color::White),
-            miscue: ink(0x00c3_c4be, 251, Color::Gray),
+            miscue: ink(0x00c3_c4be, 251, Color::DarkGray),
             tip: ink(0x001f_63c8, 26, Color::Blue),
             curves: [ink(0x0062_c8e8, 80, Color::LightCyan), ink(0x00d8_9a5a, 173, Color::Yellow)],
             bands: [ink(0x0027_5b6e, 24, Color::Blue), ink(0x0059_4530, 58, Color::DarkGray)],
             outcomes: [
-                ink(0x0020_282e, 235, Color::Black),
-                ink(0x0045_5058, 239, Color::DarkGray),
+                ink(0x0026_2f36, 236, Color::Black),
+                ink(0x004c_5861, 240, Color::DarkGray),
                 ink(0x0098_5a3c, 131, Color::Red),
                 ink(0x00d9_b04c, 178, Color::Yellow),
                 ink(0x005c_bd72, 71, Color::Green),
             ],
+            outline: ink(0x00f7_f3e8, 255, Color::White),
             grid: ink(0x0036_3f48, 237, Color::DarkGray),
+            strong: Modifier::BOLD,
         }
     }
 
@@ -109,29 +127,34 @@ impl Theme {
         Style::new().fg(self.text).bg(self.background)
     }
 
-    /// Style of labels, units and rules.
+    /// Style of labels and units.
     pub fn faint(&self) -> Style {
         self.text().fg(self.faint)
     }
 
+    /// Style of rules and axes.
+    pub fn rule(&self) -> Style {
+        self.text().fg(self.rule)
+    }
+
     /// Style of keys and of what is selected.
     pub fn accent(&self) -> Style {
-        self.text().fg(self.accent).add_modifier(Modifier::BOLD)
+        self.text().fg(self.accent).add_modifier(self.strong)
     }
 
     /// Style of good news.
     pub fn good(&self) -> Style {
-        self.text().fg(self.good).add_modifier(Modifier::BOLD)
+        self.text().fg(self.good).add_modifier(self.strong)
     }
 
     /// Style of refusals.
     pub fn warning(&self) -> Style {
-        self.text().fg(self.warning).add_modifier(Modifier::BOLD)
+        self.text().fg(self.warning).add_modifier(self.strong)
     }
 
-    /// Style of text that names `ball`.
+    /// Style of the sign of `ball` among words.
     pub fn ball(&self, ball: usize) -> Style {
-        self.text().fg(self.balls[ball])
+        Style::new().fg(self.balls[ball]).bg(self.behind_ball)
     }
 }
 
@@ -148,13 +171,4 @@ fn resolve(depth: Depth, rgb: u32, index: u8, ansi: Color) -> Color {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn monochrome_never_names_a_colour() {
-        let theme = Theme::new(Depth::Mono);
-        assert_eq!(theme.ball(2).fg, Some(Color::Reset));
-        assert_eq!(theme.cloth, Color::Reset);
-    }
-}
+mod tests;

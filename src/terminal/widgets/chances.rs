@@ -16,7 +16,7 @@ use crate::terminal::{
 };
 
 /// Columns at which the number of a shot and its probability end, and before its words.
-const NUMBER_END: u16 = 3;
+const NUMBER_END: u16 = 2;
 const CHANCE_END: u16 = 9;
 const WORDS: u16 = 10;
 
@@ -53,7 +53,7 @@ pub fn draw_chances(
             buffer.set_string(inner.x, row, look.pick("▸", ">"), theme.accent());
         }
         write_right(buffer, inner.x, inner.x + NUMBER_END, row, &(n + 1).to_string(), theme.faint());
-        let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + "%");
+        let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
         let room = usize::from(inner.width.saturating_sub(WORDS));
         buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal), room, style);

@@ -159,9 +159,13 @@ pub fn draw_legend(area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
         if letters && letter == ' ' {
             continue;
         }
-        let sign = if letters { letter } else { '■' };
+        let (sign, color) = match theme.outcomes[n] {
+            color if letters => (letter, color),
+            ground if ground == theme.background => ('□', theme.rule),
+            color => ('■', color),
+        };
         add([
-            Span::styled(format!(" {sign}"), theme.text().fg(theme.outcomes[n])),
+            Span::styled(format!(" {sign}"), theme.text().fg(color)),
             Span::styled(format!(" {words}"), theme.faint()),
         ]);
     }
@@ -219,7 +223,7 @@ fn draw_signs(
             let (color, weight) = match sign(place(x, width), -place(y, height), 0.0) {
                 None => continue,
                 Some(Sign::Stroke) => (theme.tip, STROKE_WEIGHT),
-                Some(Sign::Errors) => (theme.text, ERRORS_WEIGHT),
+                Some(Sign::Errors) => (theme.outline, ERRORS_WEIGHT),
                 Some(Sign::Outcome(outcome)) => (theme.outcomes[index(outcome)], OUTCOME_WEIGHT),
             };
             canvas.set(x, y, Ink { color, weight });

@@ -22,8 +22,8 @@ const MORE_END: u16 = 19;
 const YOURS_END: u16 = 28;
 const UNIT: u16 = 29;
 
-/// Columns of an input where two share a row.
-const HALF: u16 = 20;
+/// Columns of an input where two share a row: at least, and where there is room.
+const HALF: (u16, u16) = (20, 24);
 
 /// Draws the panel; the tightest input, the one that the player's errors leave first, is marked. Without
 /// a study it says `empty`.
@@ -76,8 +76,9 @@ pub fn draw_margins(
         }
     } else {
         let places = (0..2).flat_map(|column| (inner.y..inner.bottom()).map(move |y| (column, y)));
+        let half = (inner.width / 2).clamp(HALF.0, HALF.1);
         for (row, (column, y)) in rows.iter().zip(places) {
-            row.draw_half(inner.x + HALF * column, y, buffer);
+            row.draw_half(inner.x + half * column, y, buffer);
         }
     }
 }
@@ -135,7 +136,8 @@ impl Row<'_> {
         buffer.set_string(x + 1, y, self.name(), self.theme.faint());
         write_right(buffer, x + 3, x + 8, y, &size(self.margin.less, "-"), self.style());
         write_right(buffer, x + 8, x + 14, y, &size(self.margin.more, "+"), self.style());
-        write_right(buffer, x + 15, x + 20, y, &self.yours, self.theme.faint());
+        // They are less than 1 as a rule, so that their points stand one below the other.
+        buffer.set_stringn(x + 15, y, &self.yours, 5, self.theme.faint());
     }
 }
 

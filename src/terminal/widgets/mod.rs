@@ -40,7 +40,7 @@ pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &
         return area;
     }
     let rule = look.pick("─", "-").repeat(usize::from(area.width));
-    buffer.set_stringn(area.x, area.y, rule, usize::from(area.width), theme.faint());
+    buffer.set_stringn(area.x, area.y, rule, usize::from(area.width), theme.rule());
     if !title.spans.is_empty() {
         let mut spans = vec![Span::styled(" ", theme.text())];
         spans.extend(title.spans.iter().cloned());

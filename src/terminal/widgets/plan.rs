@@ -3,6 +3,7 @@
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
+    style::Style,
     text::{Line, Span},
 };
 
@@ -48,7 +49,8 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme
     if choice.next.is_some() {
         let sign = if look.glyphs == Glyphs::Letters { WAY_LETTER } else { '•' };
         lines.push(Line::from(vec![
-            Span::styled(format!(" {sign}"), theme.accent()),
+            Span::raw(" "),
+            Span::styled(sign.to_string(), Style::new().fg(theme.way).bg(theme.behind_ball)),
             Span::styled(" the cue ball's way then; n goes on", theme.faint()),
         ]));
     }
@@ -95,7 +97,7 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     });
     let next = choice.next.as_ref().and_then(|next| next.proposals.first());
     let way = next.into_iter().flat_map(|next| {
-        let spot = |place, is_ball| Spot { place, is_ball, color: theme.accent, letter: WAY_LETTER };
+        let spot = |place, is_ball| Spot { place, is_ball, color: theme.way, letter: WAY_LETTER };
         let dots = next.shot.paths[0].iter().step_by(2).map(move |dot| spot(dot.place, false));
         dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
     });

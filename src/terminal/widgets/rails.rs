@@ -138,11 +138,11 @@ impl Rails<'_> {
         }
         // The wood or the sight in the cell's outer half stays.
         for y in [bed.y - 1, bed.bottom()] {
-            buffer[(x, y)].set_bg(self.theme.accent);
+            buffer[(x, y)].set_bg(self.theme.mark);
         }
         let block = self.part_of_row(self.mapping.to_cells(place).y);
         for x in [bed.x - 1, bed.right()] {
-            put(buffer, x, y, block, self.theme.accent, self.theme.cushion);
+            put(buffer, x, y, block, self.theme.mark, self.theme.cushion);
         }
     }
 

@@ -3,10 +3,11 @@
 use ratatui::{
     buffer::Buffer,
     layout::{Position, Rect},
+    style::Style,
     text::{Line, Span},
 };
 
-use super::{draw_header, percent, write_paragraphs};
+use super::{READABLE, draw_header, percent, write_paragraphs};
 use crate::{
     drills::{Category, Exercise},
     terminal::{
@@ -15,15 +16,20 @@ use crate::{
         screens::target::{self, Target},
         status::Message,
         widgets::{TableView, cut, draw_table, draw_title, wrap, write_right},
+        words,
     },
 };
 
-/// Columns of the list, of a hundred, and at most: longer rows are hard to read across.
-const LIST: (u16, u16) = (56, 66);
+/// Columns of the list, of a hundred: on narrow screens, and on wide ones, where the titles of the bundled exercises need no
+/// more than so many columns.
+const LIST: (u16, u16) = (58, 33);
+const LIST_ENOUGH: u16 = 54;
 /// Columns at which grade, points and best run end, from the list's right edge.
-const GRADE_END: u16 = 15;
-const MADE_END: u16 = 7;
+const GRADE_END: u16 = 12;
+const MADE_END: u16 = 5;
 const RUN_END: u16 = 1;
+/// Rows of the small table, at least.
+const TABLE_ROWS: u16 = 9;
 
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message {
@@ -39,14 +45,15 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
     draw_list(app, list, buffer);
     match drills.catalogue.marked() {
         Some(exercise) => draw_exercise(app, exercise, preview, buffer),
-        None => draw_nothing(app, preview, buffer),
+        None => draw_nothing(app, list, buffer),
     }
     standing(app)
 }
 
 /// The list's part of the page, and that of the marked exercise.
 fn halves(area: Rect) -> [Rect; 2] {
-    let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
+    let share = |of| area.width * of / 100;
+    let list = Rect { width: share(LIST.0).min(LIST_ENOUGH.max(share(LIST.1))), ..area };
     [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
 }
 
@@ -88,6 +95,9 @@ fn draw_list(app: &App, area: Rect, buffer: &mut Buffer) {
     let found = catalogue.found();
     let title = Line::from(Span::styled(filter_words(app, found.len()), theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
+    if found.is_empty() {
+        return;
+    }
     for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
         let end = (area.right() + 1).saturating_sub(end);
         if area.x + 2 + title.width() as u16 + 12 < end {
@@ -145,18 +155,33 @@ fn draw_row(app: &App, exercise: &Exercise, is_marked: bool, area: Rect, buffer:
     write_right(buffer, area.x, area.right() - GRADE_END, area.y, &grade, theme.faint());
     if let Some(score) = app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         let made = format!("{}/{}", score.made, score.tried);
-        write_right(buffer, area.x, area.right() - MADE_END + 1, area.y, &made, style);
+        write_right(buffer, area.x, area.right() - MADE_END, area.y, &made, style);
         write_right(buffer, area.x, area.right() - RUN_END, area.y, &score.high_run.to_string(), style);
     }
 }
 
 fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
-    let title = Line::from(Span::styled(exercise.title.clone(), theme.text()));
+    let room = usize::from(area.width.saturating_sub(4));
+    let title = cut(wrap(&exercise.title, room), 1, room, look).swap_remove(0);
+    let title = Line::from(Span::styled(title, theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
     let Ok(table) = exercise.table() else { return };
-    // Half of the rows are the text's.
-    let room = Rect { height: inner.height * 11 / 20, ..inner };
+    // The text has the rows that it needs, and the table the others.
+    let mut paragraphs = about(app, exercise);
+    let width = inner.width.saturating_sub(2).min(READABLE);
+    let rows = |paragraphs: &[Paragraph]| {
+        let rows: usize = paragraphs.iter().map(|one| wrap(&one.text, usize::from(width)).len()).sum();
+        rows as u16
+    };
+    // Where there is little room, what adds least goes.
+    while rows(&paragraphs) + TABLE_ROWS > inner.height
+        && let Some(least) = paragraphs.iter().rposition(|one| one.is_extra)
+    {
+        paragraphs.remove(least);
+    }
+    let room =
+        Rect { height: inner.height.saturating_sub(rows(&paragraphs)).max(TABLE_ROWS.min(inner.height)), ..inner };
     let view = TableView {
         table: &table,
         layout: &exercise.layout,
@@ -170,42 +195,60 @@ fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer
         look,
     };
     draw_table(&view, room, buffer);
-    let top = Mapping::fit(&table, room).outer().bottom() + 1;
-    let text = Rect { x: inner.x + 1, y: top, width: inner.width - 2, height: inner.bottom().saturating_sub(top) };
-    let mut paragraphs = Vec::new();
+    let outer = Mapping::fit(&table, room).outer();
+    let left = outer.x.min(inner.right() - width - 1).max(inner.x + 1);
+    let text = Rect { x: left, y: outer.bottom(), width, height: inner.bottom().saturating_sub(outer.bottom()) };
+    let paragraphs: Vec<_> = paragraphs.into_iter().map(|one| (one.text, one.style)).collect();
+    write_paragraphs(&paragraphs, text, look, buffer);
+}
+
+/// A paragraph about an exercise.
+struct Paragraph {
+    text: String,
+    style: Style,
+    /// Whether it may be left out.
+    is_extra: bool,
+}
+
+/// What is to be learnt from an exercise, and how often it is made.
+fn about(app: &App, exercise: &Exercise) -> Vec<Paragraph> {
+    let theme = app.theme();
+    let mut all = Vec::new();
+    let mut add = |text: String, style, is_extra| all.push(Paragraph { text, style, is_extra });
     if !exercise.point.is_empty() {
-        paragraphs.push((exercise.point.clone(), theme.text()));
-        paragraphs.push((String::new(), theme.text()));
+        add(String::new(), theme.text(), true);
+        add(exercise.point.clone(), theme.text(), false);
     }
+    add(String::new(), theme.text(), true);
     let grade = if exercise.grade == 0 { String::new() } else { format!(", grade {}", exercise.grade) };
-    paragraphs.push((format!("rule: {}{grade}", exercise.rule), theme.text()));
+    add(format!("rule: {}{grade}", exercise.rule), theme.text(), false);
     if let Some(par) = exercise.par {
-        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(percent);
-        paragraphs.push((format!("par: beginner {beginner}, club {club}, expert {expert}"), theme.text()));
+        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(words::percent);
+        add(format!("par: beginner {beginner}, club {club}, expert {expert} %"), theme.text(), false);
     }
-    paragraphs.push(match app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
+    match app.drills().book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         Some(score) => {
-            let best = format!("best run {}", score.high_run);
-            (format!("you: {} of {}, {}, {best}", score.made, score.tried, percent(score.rate.rate)), theme.good())
+            let rate = percent(score.rate.rate);
+            let words = format!("you: {} of {}, {rate}, best run {}", score.made, score.tried, score.high_run);
+            add(words, theme.good(), false);
         }
-        None => ("you: not tried yet".to_owned(), theme.faint()),
-    });
+        None => add("you: not tried yet".to_owned(), theme.faint(), false),
+    }
     if !exercise.tags.is_empty() {
         let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{tag}")).collect();
-        paragraphs.push((tags.join(" "), theme.faint()));
+        add(tags.join(" "), theme.faint(), true);
     }
-    write_paragraphs(&paragraphs, text, look, buffer);
+    all
 }
 
 fn draw_nothing(app: &App, area: Rect, buffer: &mut Buffer) {
     let (theme, look, filter) = (app.theme(), app.look(), &app.drills().catalogue.filter);
-    let inner = draw_title(&Line::default(), area, theme, look, buffer);
     let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
         "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \
          a code that somebody has sent you."
     } else {
         "No exercise is like that. 0 lists all."
     };
-    let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
+    let text = Rect { x: area.x + 2, y: area.y + 2, width: area.width - 3, height: area.height.saturating_sub(2) };
     write_paragraphs(&[(words.to_owned(), theme.faint())], text, look, buffer);
 }

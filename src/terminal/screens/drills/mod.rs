@@ -24,6 +24,9 @@ use crate::terminal::{
     words::{self, skill_word},
 };
 
+/// Most columns of a line that is good to read.
+const READABLE: u16 = 80;
+
 /// Draws the page that is open.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     let drills = app.drills();

@@ -59,12 +59,12 @@ pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
 pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     let settled = turn.watched().filter(|watched| watched.is_settled);
-    let title = if settled.is_some() { "Compared" } else { "Aim" };
+    let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, look));
     let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
-        paragraphs.extend(compared(turn, watched, look).into_iter().map(|words| (words, theme.text())));
+        paragraphs.extend(differences(turn, watched, look).into_iter().map(|words| (words, theme.text())));
     } else {
         if let Some(sight) = turn.sight() {
             paragraphs.push((sight_words(&sight), theme.accent()));
@@ -118,20 +118,27 @@ fn hint(turn: &Turn, taught: &Taught, look: Look) -> String {
     format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
 }
 
-/// Both chances, what would make the stroke the one that is taught, and what the player's hand has added to it.
-fn compared(turn: &Turn, watched: &Watched, look: Look) -> Vec<String> {
+/// How often the stroke is made, and the one that is taught.
+fn chances(turn: &Turn, watched: &Watched, look: Look) -> String {
     let own = watched.chance.map_or_else(|| look.pick("…", "...").to_owned(), percent);
-    let mut lines = match &turn.lesson {
+    match &turn.lesson {
         Lesson::Known(taught) => {
-            let whose = teacher(taught);
-            let advice = &taught.advice;
-            let changes = told(turn, [&watched.meant, &advice.cue], "no change worth telling", look);
-            vec![format!("makes: yours {own}, {whose} {}", percent(advice.chance.rate)), format!("{whose}: {changes}")]
+            format!("Yours makes {own}, {} {}", teacher(taught), percent(taught.advice.chance.rate))
         }
-        Lesson::Pending => vec![format!("makes: yours {own}, the coach is still thinking")],
-        Lesson::Missing => vec![format!("makes: yours {own}; the coach has found no shot")],
+        Lesson::Pending | Lesson::Missing => format!("Yours makes {own}"),
+    }
+}
+
+/// What would make the stroke the one that is taught, and what the player's hand has added to it.
+fn differences(turn: &Turn, watched: &Watched, look: Look) -> [String; 2] {
+    let lesson = match &turn.lesson {
+        Lesson::Known(taught) => {
+            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", look);
+            format!("{}: {changes}", teacher(taught))
+        }
+        Lesson::Pending => "the coach is still thinking".to_owned(),
+        Lesson::Missing => "the coach has found no shot".to_owned(),
     };
     let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", look);
-    lines.push(format!("your hand: {added}"));
-    lines
+    [lesson, format!("your hand: {added}")]
 }

@@ -9,7 +9,7 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use super::{draw_header, percent, write_paragraphs};
+use super::{READABLE, draw_header, percent, write_paragraphs};
 use crate::{
     drills::{Goal, Record, Session, Venue},
     learning::{
@@ -26,8 +26,8 @@ use crate::{
     },
 };
 
-/// Columns of the numbers beside the chart.
-const NUMBERS: u16 = 38;
+/// Columns of the numbers beside the chart, of a hundred, at least and at most.
+const NUMBERS: (u16, u16, u16) = (40, 38, 56);
 
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message {
@@ -39,17 +39,18 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
     draw_header(app, "record", title, header, buffer);
     let sessions = drills.book.sessions_of(scope);
     let top = Rect { height: (area.height / 2).max(11), ..area };
-    let numbers = Rect { width: NUMBERS, ..top };
+    let (share, least, most) = NUMBERS;
+    let numbers = Rect { width: (top.width * share / 100).clamp(least, most), ..top };
     draw_numbers(app, &sessions, scope, numbers, buffer);
-    let chart = Rect { x: numbers.right() + 1, width: top.width - NUMBERS - 1, ..top };
+    let chart = Rect { x: numbers.right() + 1, width: top.width - numbers.width - 1, ..top };
     let points = points(&sessions, scope);
     let curves = [Curve { points: &points, odd: Odd::default(), whose: Whose::Own }];
     let tried = points.last().map_or(0, |point| point.shots.1);
-    let title = "made of 100, session by session";
     let chart_of = Chart {
-        title,
+        title: "made of 100, session by session",
         curves: &curves,
         shots: (0.0, tried.max(10) as f64),
+        values: Some((0.0, 100.0)),
         log: false,
         smoothing: 0.0,
         selected: false,
@@ -61,9 +62,7 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
     let list = Rect { y: top.bottom(), height: area.bottom() - top.bottom(), ..area };
     draw_sessions(app, &sessions, scope, list, buffer);
     if sessions.is_empty() {
-        return Message::plain(
-            "nothing is played yet: play a stroke, or note what you make at a real table with m and n",
-        );
+        return Message::plain("nothing is played yet");
     }
     Message::plain(match &drills.records.estimate {
         Estimate::Known(..) => "w takes the estimated skill as your own",
@@ -120,13 +119,23 @@ fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
     shares.collect()
 }
 
+/// What stands in place of the sessions where there are none.
+const EMPTY: &str = "A session begins with the first stroke that you play at an exercise, or with the first point or miss that \
+                     you note there from a real table.";
+
 /// Columns at which the numbers of a session end.
 const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
 const WHAT: u16 = 48;
 
 fn draw_sessions(app: &App, sessions: &[&Session], scope: Option<&str>, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
-    let inner = draw_title(&Line::from(Span::styled("Sessions", theme.text())), area, theme, look, buffer);
+    let title = Line::from(vec![Span::styled("Sessions", theme.text()), Span::styled(" UTC", theme.faint())]);
+    let inner = draw_title(&title, area, theme, look, buffer);
+    if sessions.is_empty() {
+        let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2).min(READABLE), ..inner };
+        write_paragraphs(&[(EMPTY.to_owned(), theme.faint())], text, look, buffer);
+        return;
+    }
     for (end, label) in ENDS {
         write_right(buffer, area.x, area.x + end + 1, area.y, &format!(" {label} "), theme.faint());
     }

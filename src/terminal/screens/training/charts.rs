@@ -45,6 +45,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
             title: &title,
             curves: &curves,
             shots,
+            values: None,
             log: charts.is_log(n),
             smoothing: charts.smoothing(),
             selected: charts.is_selected(n),

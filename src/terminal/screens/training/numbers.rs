@@ -40,7 +40,14 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     }
     let inner = draw_title(&Line::from(title), area, theme, app.look(), buffer);
     let inner = draw_legend(app, watch, inner, buffer);
-    let [left, right] = columns(watch);
+    let mut columns = columns(watch);
+    if !watch.is_at_work() {
+        // What is not known now will not be.
+        for rows in &mut columns {
+            rows.retain(|(_, value)| value != UNKNOWN);
+        }
+    }
+    let [left, right] = columns;
     let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
     let lines = left.len().max(right.len());
     // Air above, where there is some.
