@@ -1,0 +1,115 @@
+//! The shooter's view of the first object ball: how much of it the cue ball covers where they meet.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Modifier,
+    text::{Line, Span},
+};
+
+use super::{
+    draw_title,
+    field::{Mark, draw_field},
+};
+use crate::{
+    coach::Hit,
+    terminal::{
+        canvas::Ink,
+        look::Look,
+        shot::Meeting,
+        theme::Theme,
+        words::{BALL_NAMES, rail_name},
+    },
+};
+
+/// Rows of the words, and rows of a panel up to which only the title tells how full the ball is hit.
+const WORDS: u16 = 3;
+const LOW: u16 = 5;
+/// Fullness from which on a hit is called 100 % full, and has no side.
+const FULL: f64 = 0.995;
+/// Signs of the cue ball, of the part of the object ball behind it, and of the object balls.
+const CUE_BALL: char = 'W';
+const BEHIND: char = '#';
+const OBJECT_BALLS: [char; 3] = [CUE_BALL, 'Y', 'R'];
+
+/// Draws the panel: how the object ball is met, or what is met before it.
+pub fn draw_sight(meeting: Option<Meeting>, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let mut title = vec![Span::styled("Sight", theme.text())];
+    let is_low = area.height <= LOW + 1;
+    if let Some(Meeting::Ball(hit)) = meeting.filter(|_| is_low) {
+        title.push(Span::styled(format!(" {} %", percent(&hit)), theme.accent()));
+    }
+    let inner = draw_title(&Line::from(title), area, theme, look, buffer);
+    let Some(Meeting::Ball(hit)) = meeting else {
+        return draw_words(&words_without_ball(meeting), inner, theme, buffer);
+    };
+    let words = if is_low { 0 } else { WORDS };
+    let picture = Rect { height: inner.height.saturating_sub(words), ..inner };
+    let drawn = draw_hit(&hit, picture, theme, look, buffer);
+    let side = match hit {
+        _ if hit.fullness > FULL => "",
+        Hit { left: true, .. } => "left side",
+        Hit { left: false, .. } => "right side",
+    };
+    let lines = [BALL_NAMES[hit.ball].to_owned(), format!("{} % full", percent(&hit)), side.to_owned()];
+    if !is_low {
+        draw_words(&lines, Rect { y: drawn.bottom(), height: words, ..inner }, theme, buffer);
+    }
+}
+
+fn percent(hit: &Hit) -> String {
+    format!("{:.0}", 100.0 * hit.fullness)
+}
+
+fn words_without_ball(meeting: Option<Meeting>) -> Vec<String> {
+    match meeting {
+        None | Some(Meeting::Ball(_)) => Vec::new(),
+        Some(Meeting::Nothing) => vec!["meets".to_owned(), "nothing".to_owned()],
+        Some(Meeting::Rail(rail, hit)) => {
+            let mut words = vec![rail_name(rail).to_owned(), "first".to_owned()];
+            if let Some(hit) = hit {
+                words[1].push_str(", then");
+                words.push(format!("{} {} %", BALL_NAMES[hit.ball], percent(&hit)));
+            }
+            words
+        }
+    }
+}
+
+/// Writes each line in the middle.
+fn draw_words(lines: &[String], area: Rect, theme: &Theme, buffer: &mut Buffer) {
+    for (text, row) in lines.iter().zip(area.y..area.bottom()) {
+        let indent = area.width.saturating_sub(text.len() as u16) / 2;
+        buffer.set_stringn(area.x + indent, row, text, usize::from(area.width - indent), theme.text());
+    }
+}
+
+/// Draws both balls on a piece of cloth in the upper middle of `area`, as large as fits even if one only grazes the other;
+/// gives the cloth.
+fn draw_hit(hit: &Hit, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> Rect {
+    // A diameter in columns; a row is as high as two of them.
+    let diameter = (area.width / 2).min(2 * area.height);
+    let rows = diameter.div_ceil(2);
+    let cloth = Rect { x: area.x + (area.width - 2 * diameter) / 2, width: 2 * diameter, height: rows, ..area };
+    if cloth.is_empty() {
+        return cloth;
+    }
+    // In radii; the middle of the two is the middle of the picture.
+    let apart = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
+    let cue = if hit.left { -0.5 * apart } else { 0.5 * apart };
+    let per_half = f64::from(2 * rows) / f64::from(diameter);
+    let ink = |color, weight| Ink { color, weight };
+    draw_field(cloth, theme.cloth, look, buffer, |x, y, _| {
+        let (x, y) = (2.0 * x, per_half * y);
+        let covers = |middle: f64| (x - middle).hypot(y) <= 1.0;
+        let ball = hit.ball;
+        let (ink, letter, style) = match (covers(cue), covers(-cue)) {
+            (true, true) => (ink(theme.paths[ball], 3), BEHIND, theme.ball(ball)),
+            (true, false) => (ink(theme.balls[0], 4), CUE_BALL, theme.ball(0)),
+            (false, true) => (ink(theme.balls[ball], 4), OBJECT_BALLS[ball], theme.ball(ball)),
+            (false, false) => return None,
+        };
+        Some(Mark { ink, letter, style: style.add_modifier(Modifier::BOLD) })
+    });
+    cloth
+}
