@@ -27,6 +27,8 @@ pub struct Dot {
 /// The cue ball's first contact with one of the object balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
+    /// The object ball, 1 or 2.
+    pub ball: usize,
     /// When, s.
     pub time: f64,
     /// Where the cue ball is then, m.
@@ -124,7 +126,7 @@ impl Shot {
 fn first_contact(recording: &Recording, ball: usize) -> Option<Contact> {
     let event = recording.events().iter().find(|event| event.kind == EventKind::BallBall(0, ball))?;
     let place = |ball: usize| recording.state(ball, event.time).position;
-    Some(Contact { time: event.time, place: place(0), other: place(ball) })
+    Some(Contact { ball, time: event.time, place: place(0), other: place(ball) })
 }
 
 fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
@@ -181,7 +183,11 @@ mod tests {
     #[test]
     fn a_cushion_before_the_first_ball_is_what_the_cue_ball_meets() {
         let bank = shot("0,0 -0.5,0 1,0.5", "0,0,0,0,4");
-        assert!(matches!(bank.meeting(), Meeting::Rail(Rail::Right, Some(hit)) if hit.ball == 1), "{:?}", bank.meeting());
+        assert!(
+            matches!(bank.meeting(), Meeting::Rail(Rail::Right, Some(hit)) if hit.ball == 1),
+            "{:?}",
+            bank.meeting()
+        );
         assert_eq!(shot("0,0 -1,0.5 1,0.5", "0,0,0,0,0.2").meeting(), Meeting::Nothing);
     }
 

@@ -11,8 +11,9 @@ const SPIN_OF_TIP: f64 = 2.5;
 const LITTLE: f64 = 0.1;
 /// Side below which a ball on the spot stands, rad/s.
 const STILL: f64 = 0.5;
-/// The farthest a mark lies from the centre, in radii: at lower speeds no place on the ball gives the spin.
-const FARTHEST: f64 = 0.8;
+/// The farthest that a mark lies from the centre, in radii: a little beyond where a tip holds. At lower speeds no place gives
+/// the spin.
+const FARTHEST: f64 = 0.65;
 
 /// A ball's spin, seen from behind along its way.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,8 +18,8 @@ use crate::{
         status::Message,
         widgets::{
             TableView, choice_at, draw_aim_map, draw_balls, draw_chances, draw_events, draw_header, draw_hints,
-            draw_legend, draw_margins, draw_plan, draw_proposal, draw_shot, draw_sight, draw_spin, draw_status, draw_table, draw_tip,
-            draw_tip_map, plan_spots,
+            draw_legend, draw_margins, draw_plan, draw_proposal, draw_shot, draw_sight, draw_spin, draw_status,
+            draw_table, draw_tip, draw_tip_map, plan_spots,
         },
         words::{BALL_NAMES, event_words, fixed, millimetres, percent, rail_word, step_words},
     },

@@ -1,5 +1,6 @@
 //! Maps of the outcome: over the tip's place on the ball's face, and over direction and speed around the stroke.
 
+use glam::DVec2;
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
@@ -8,7 +9,7 @@ use ratatui::{
 
 use super::{
     draw_title,
-    field::{Mark, draw_field, face_in, is_on_spot, spot_mark},
+    field::{Dot, Mark, draw_field, face_in, spot_mark},
     write_right,
 };
 use crate::{
@@ -76,15 +77,14 @@ pub fn draw_tip_map(
     let reach = map.columns.last().copied().unwrap_or_default();
     let title = format!("Tip {}{} mm", look.pick("±", "+-"), fixed(reach, 0));
     let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
-    // How far the tip is from the middle of the map, as a share of its half.
+    // How far the tip is from the middle of the map, as a share of its half; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
-    draw_signs(face_in(inner), theme, look, buffer, |x, y, cell| {
-        let (right, up) = (x + share * cue.a, y - share * cue.b);
-        match () {
-            () if x.hypot(y) > 1.0 => None,
-            () if is_on_spot(right, up, TIP_RADIUS, cell) => Some(Sign::Stroke),
-            () => Some(Sign::Outcome(at(map, -x, y))),
-        }
+    let face = face_in(inner);
+    let tip = Dot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, look);
+    draw_signs(face, theme, look, buffer, |x, y, _| match () {
+        () if x.hypot(y) > 1.0 => None,
+        () if tip.covers(x, y) => Some(Sign::Stroke),
+        () => Some(Sign::Outcome(at(map, -x, y))),
     });
 }
 

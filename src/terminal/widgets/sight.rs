@@ -105,11 +105,45 @@ fn draw_hit(hit: &Hit, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffe
         let ball = hit.ball;
         let (ink, letter, style) = match (covers(cue), covers(-cue)) {
             (true, true) => (ink(theme.paths[ball], 3), BEHIND, theme.ball(ball)),
-            (true, false) => (ink(theme.balls[0], 4), CUE_BALL, theme.ball(0)),
-            (false, true) => (ink(theme.balls[ball], 4), OBJECT_BALLS[ball], theme.ball(ball)),
+            (true, false) => (ink(theme.balls[0], 3), CUE_BALL, theme.ball(0)),
+            (false, true) => (ink(theme.balls[ball], 3), OBJECT_BALLS[ball], theme.ball(ball)),
             (false, false) => return None,
         };
         Some(Mark { ink, letter, style: style.add_modifier(Modifier::BOLD) })
     });
     cloth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::look::{Depth, Glyphs};
+    use glam::DVec2;
+
+    /// The picture in letters, a line a row, and how many of them are `letter`.
+    fn drawn(fullness: f64, left: bool, letter: char) -> (String, usize) {
+        let area = Rect::new(0, 0, 40, 10);
+        let look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+        let mut buffer = Buffer::empty(area);
+        let hit = Hit { ball: 2, place: DVec2::ZERO, fullness, left };
+        let cloth = draw_hit(&hit, area, &Theme::new(Depth::Mono), look, &mut buffer);
+        assert_eq!((cloth.width, cloth.height), (40, 10));
+        let text: String = buffer.content().iter().map(ratatui::buffer::Cell::symbol).collect();
+        (text[5 * 40..6 * 40].to_owned(), text.matches(letter).count())
+    }
+
+    #[test]
+    fn as_much_of_the_object_ball_is_covered_as_the_hit_is_full() {
+        let (row, covered) = drawn(0.0, true, BEHIND);
+        assert_eq!((row, covered), (format!("{}{}", "W".repeat(20), "R".repeat(20)), 0));
+        assert_eq!(drawn(1.0, true, 'R').1, 0);
+        let (row, _) = drawn(0.5, true, BEHIND);
+        assert_eq!(row.trim(), format!("{}{}{}", "W".repeat(10), "#".repeat(10), "R".repeat(10)));
+        let (row, _) = drawn(0.5, false, BEHIND);
+        assert_eq!(
+            row.trim(),
+            format!("{}{}{}", "R".repeat(10), "#".repeat(10), "W".repeat(10)),
+            "its right side is hit"
+        );
+    }
 }

@@ -9,16 +9,20 @@ use ratatui::{
 use super::{draw_title, field::face_in, tip::draw_face, write_right};
 use crate::terminal::{look::Look, spin::Spin, theme::Theme, words::fixed};
 
-/// Rows of the words, and rows up to which they stand beside the face.
+/// Rows and columns of the words, and rows up to which they stand beside the face.
 const WORDS: u16 = 3;
+const WORDS_WIDTH: u16 = 9;
 const LOW: u16 = 5;
 
 /// Draws the panel. The spot is where a level cue would have had to meet the ball to give it this spin at this speed.
 pub fn draw_spin(spin: &Spin, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let inner = draw_title(&Line::from(Span::styled("Spin", theme.text())), area, theme, look, buffer);
     let is_low = inner.height <= LOW;
-    let face = face_in(Rect { height: if is_low { inner.height } else { inner.height - WORDS }, ..inner });
-    let face = if is_low { Rect { x: inner.x, ..face } } else { face };
+    let face = face_in(if is_low {
+        Rect { width: inner.width.saturating_sub(WORDS_WIDTH), ..inner }
+    } else {
+        Rect { height: inner.height - WORDS, ..inner }
+    });
     let has_spin = !spin.word.is_empty();
     draw_face(has_spin.then_some(spin.mark), None, face, theme, look, buffer);
     // Whole numbers, for which few pictures change.
@@ -36,9 +40,9 @@ pub fn draw_spin(spin: &Spin, area: Rect, theme: &Theme, look: Look, buffer: &mu
     for ((text, style), row) in words.iter().zip(styles).zip(top..inner.bottom()) {
         let text = text.as_str();
         if is_low {
-            // In a narrow panel the last row stands where the face's corner is.
-            let text = if usize::from(inner.right() - face.right()) <= text.len() { text.trim_end_matches(" side") } else { text };
-            write_right(buffer, face.right() - 1, inner.right(), row, text, style);
+            let is_wide = usize::from(inner.right() - face.right()) > text.len();
+            let text = if is_wide { text } else { text.trim_end_matches(" side") };
+            write_right(buffer, face.right(), inner.right(), row, text, style);
         } else {
             let indent = inner.width.saturating_sub(text.len() as u16) / 2;
             buffer.set_stringn(inner.x + indent, row, text, usize::from(inner.width - indent), style);

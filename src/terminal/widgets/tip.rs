@@ -9,7 +9,7 @@ use ratatui::{
 
 use super::{
     draw_title,
-    field::{Mark, draw_field, face_in, is_on_spot, spot_mark},
+    field::{Dot, Mark, draw_field, face_in, spot_mark},
 };
 use crate::{
     physics::CueInputs,
@@ -19,8 +19,6 @@ use crate::{
 
 /// Radius of the tip's contact as it is drawn, in ball radii; a real one is smaller than a sub-pixel.
 const TIP_RADIUS: f64 = 0.17;
-/// The least radius that it is drawn with, in rows: on a small face the spot would have holes.
-const LEAST_ROWS: f64 = 0.36;
 
 /// Weight of the tip in a cell that it shares with both parts of the face: more than the other sub-pixels of theirs, or the
 /// spot would lose a piece and fall apart.
@@ -37,25 +35,20 @@ pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, theme: &Them
 }
 
 /// Draws a ball's face with a spot, in radii to the right and up; grey beyond `limit`.
-pub fn draw_face(
-    spot: Option<DVec2>,
-    limit: Option<f64>,
-    face: Rect,
-    theme: &Theme,
-    look: Look,
-    buffer: &mut Buffer,
-) {
-    let size = TIP_RADIUS.max(LEAST_ROWS * 2.0 / f64::from(face.height.max(1)));
+pub fn draw_face(spot: Option<DVec2>, limit: Option<f64>, face: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+    let spot = spot.map(|spot| Dot::new(spot, TIP_RADIUS, face, look));
     let ink = |color| Ink { color, weight: FACE_WEIGHT };
     draw_field(face, theme.background, look, buffer, |x, y, cell| {
         let radius = x.hypot(y);
-        if spot.is_some_and(|spot| is_on_spot(x - spot.x, y - spot.y, size, cell)) && radius <= 1.0 {
+        if spot.is_some_and(|spot| spot.covers(x, y)) {
             return Some(spot_mark(theme, TIP_WEIGHT));
         }
         let is_beyond = limit.is_some_and(|limit| radius > limit);
         let face = ink(if is_beyond { theme.miscue } else { theme.face });
         if cell == 0.0 {
-            return (radius <= 1.0).then_some(Mark { ink: face, letter: ' ', style: theme.text() });
+            // Three colours do not fit a cell: at the rim a bulge is better than a bite.
+            let is_face = radius <= 1.0 || spot.is_some_and(|spot| spot.shares_cell(x, y));
+            return is_face.then_some(Mark { ink: face, letter: ' ', style: theme.text() });
         }
         // Lines instead of areas: the rim, the circle, and the centre.
         let (letter, style) = match limit {

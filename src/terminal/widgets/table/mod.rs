@@ -74,8 +74,9 @@ pub fn draw_table(view: &TableView, area: Rect, buffer: &mut Buffer) {
     draw_rails(&mapping, view.table.diamond(), marked, view.theme, view.look, buffer);
     let glyphs = view.look.glyphs;
     let sprite = Sprite::new(&mapping, glyphs);
-    let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * sprite.reach(&mapping, glyphs));
-    let balls = apart(balls, 2.0 * sprite.reach(&mapping, glyphs));
+    let reach = sprite.reach(&mapping, glyphs);
+    let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
+    let balls = apart(balls, 2.0 * reach);
     let time = if view.is_moving { view.time } else { 0.0 };
     let scene = Scene { view, mapping, time, balls, sprite, clear };
     paint::paint(&scene, buffer);

@@ -103,3 +103,26 @@ fn in_letters(scene: &Scene, buffer: &mut Buffer) {
         buffer.set_stringn(x - u16::from(wide), y, &text, 3, style);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::{look::Depth, theme::Palette};
+
+    #[test]
+    fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_palette() {
+        for palette in Palette::ALL.into_iter().filter(|palette| *palette != Palette::Mono) {
+            for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
+                let theme = Theme::of(palette, depth);
+                for ball in 0..BALLS {
+                    let [ahead, trail, past] =
+                        [Age::Ahead, Age::Trail, Age::Past].map(|age| path_color(&theme, ball, age));
+                    let all = [ahead, trail, past, theme.cloth];
+                    for (n, one) in all.iter().enumerate() {
+                        assert!(!all[n + 1..].contains(one), "{palette} {depth:?} ball {ball}: {all:?}");
+                    }
+                }
+            }
+        }
+    }
+}

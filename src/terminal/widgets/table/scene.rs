@@ -14,6 +14,8 @@ const HALF_DOT_COLUMNS: f64 = 2.6;
 /// Length of the cue that is drawn before the stroke, m, and the distance of its dots: it is to be a line.
 const CUE_LENGTH: f64 = 0.4;
 const CUE_DOTS: f64 = 0.008;
+/// How near dots come to a ball that is not there, against one that is: there is no fourth colour.
+const GHOST_CLEAR: f64 = 0.95;
 /// How long a ball's way counts as its trail, s.
 const TRAIL: f64 = 0.4;
 
@@ -81,7 +83,7 @@ impl Scene<'_> {
         let columns = if self.view.look.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
-        let is_free = |place: DVec2| ghosts.iter().all(|ghost| ghost.place.distance(place) > 0.75 * self.clear);
+        let is_free = |place: DVec2| ghosts.iter().all(|ghost| ghost.place.distance(place) > GHOST_CLEAR * self.clear);
         let balls = if self.view.is_lean { 1 } else { BALLS };
         for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
             for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place) && is_free(dot.place)) {
@@ -94,16 +96,18 @@ impl Scene<'_> {
     /// to rest.
     pub fn ghosts(&self) -> Vec<Ghost> {
         let Some(shot) = self.view.shot else { return Vec::new() };
-        let contacts = shot.contacts.iter().map(|contact| {
+        // A ring that a picture would cut is no ring.
+        let clear = self.clear.max(2.0 * self.reach());
+        let is_clear = |place: DVec2, ball: usize| self.balls[ball].distance(place) > clear;
+        let contacts = shot.contacts.iter().filter_map(|contact| {
             // Pictures that are larger than the balls are to touch where the balls do.
             let way = contact.place - contact.other;
             let place = contact.other + way.normalize_or(DVec2::X) * way.length().max(2.0 * self.reach());
-            Ghost { ball: 0, place, age: Age::at(contact.time, self.time) }
+            let is_clear = (0..BALLS).all(|ball| ball == contact.ball || is_clear(place, ball));
+            is_clear.then(|| Ghost { ball: 0, place, age: Age::at(contact.time, self.time) })
         });
-        // The ring touches the object ball; only the cue ball itself may hide it.
-        let contacts = contacts.filter(|ghost| ghost.place.distance(self.balls[0]) > self.clear);
         let ends = shot.recording.final_layout().balls.into_iter().enumerate();
-        let ends = ends.filter(|&(_, place)| self.is_clear(place));
+        let ends = ends.filter(|&(_, place)| (0..BALLS).all(|ball| is_clear(place, ball)));
         contacts.chain(ends.map(|(ball, place)| Ghost { ball, place, age: Age::Ahead })).collect()
     }
 
@@ -122,5 +126,81 @@ impl Scene<'_> {
     pub fn order(&self) -> [usize; BALLS] {
         let selected = self.view.front;
         [(selected + 1) % BALLS, (selected + 2) % BALLS, selected]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        physics::CueInputs,
+        table::{Layout, Table},
+        terminal::{
+            look::{Depth, Look},
+            shot::Shot,
+            theme::Theme,
+            widgets::table::{CLEAR_PICTURES, CLEAR_RADII, apart},
+        },
+    };
+    use ratatui::layout::Rect;
+
+    /// Calls `check` with the scene at `time` of a shot that meets both balls.
+    fn at(columns: u16, time: f64, check: impl Fn(&Scene, &Shot)) {
+        let table = Table::default();
+        let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
+        let shot = Shot::new(&table, &layout, CueInputs::parse("0,0.3,0,0,4").unwrap(), true, "test").unwrap();
+        assert_eq!(shot.contacts.len(), 2, "{:?}", shot.contacts);
+        let theme = Theme::new(Depth::True);
+        let view = TableView {
+            table: &table,
+            layout: &layout,
+            shot: Some(&shot),
+            time,
+            is_moving: true,
+            front: 0,
+            is_lean: false,
+            spots: &[],
+            theme: &theme,
+            look: Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true },
+        };
+        let mapping = Mapping::fit(&table, Rect::new(0, 0, columns, 60));
+        let sprite = Sprite::new(&mapping, Glyphs::Sextant);
+        let reach = sprite.reach(&mapping, Glyphs::Sextant);
+        let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
+        let balls = apart(shot.recording.positions(time), 2.0 * reach);
+        check(&Scene { view: &view, mapping, time, balls, sprite, clear }, &shot);
+    }
+
+    #[test]
+    fn the_cue_ball_has_a_ring_at_each_first_contact_and_no_ring_is_cut() {
+        for columns in [64, 112, 176] {
+            at(columns, 0.0, |scene, shot| {
+                let ghosts = scene.ghosts();
+                for contact in &shot.contacts {
+                    let is_there = |ghost: &Ghost| ghost.ball == 0 && ghost.place.distance(contact.place) < 0.07;
+                    assert!(ghosts.iter().any(is_there), "{columns}: {ghosts:?}");
+                }
+                let reach = scene.reach();
+                for ghost in &ghosts {
+                    let nearest = scene.balls.map(|ball| ball.distance(ghost.place)).into_iter().fold(1.0, f64::min);
+                    assert!(nearest > 2.0 * reach - 1e-9, "{columns}: {ghost:?} is {nearest} from a ball");
+                    scene.each_dot(|_, dot, _| assert!(dot.distance(ghost.place) > reach, "{columns}: {ghost:?}"));
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn a_path_ages_as_its_ball_runs_along_it() {
+        let count = |time: f64| {
+            let ages = std::cell::RefCell::new([0; 3]);
+            at(112, time, |scene, _| scene.each_dot(|_, _, age| ages.borrow_mut()[age as usize] += 1));
+            ages.into_inner()
+        };
+        let [ahead, trail, past] = count(0.0);
+        assert!(ahead > 20 && trail + past == 0, "before the stroke all of it lies ahead");
+        let [later, trail, past] = count(0.6);
+        assert!(later < ahead && trail > 3 && past > 3, "{later} {trail} {past}");
+        assert_eq!(count(60.0)[..2], [0, 0]);
     }
 }
