@@ -154,6 +154,7 @@ mod tests {
 
     #[test]
     fn glyphs_go_round_but_never_beyond_what_the_terminal_has() {
+        use Glyphs::{Half, Letters, Octant, Sextant};
         let walk = |start: Look| {
             let mut looks = vec![start];
             while looks.len() < 5 {
@@ -161,7 +162,6 @@ mod tests {
             }
             looks.iter().map(|look| look.glyphs).collect::<Vec<_>>()
         };
-        use Glyphs::{Half, Letters, Octant, Sextant};
         let start = look(&[("TERM", "xterm"), ("LANG", "C.UTF-8")]);
         assert_eq!(walk(start), [Sextant, Half, Letters, Sextant, Half]);
         let asked = look(&[("TERM", "xterm"), ("LANG", "C.UTF-8"), ("CAROM_GLYPHS", "octant")]);
