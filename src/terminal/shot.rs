@@ -170,8 +170,7 @@ mod tests {
 
     #[test]
     fn each_object_ball_is_met_where_the_cue_ball_touches_it_for_the_first_time() {
-        // Along the x axis into the yellow ball, which goes on into the red one; the cue ball follows to both.
-        let shot = shot("-1,0 0,0 0.5,0", "0,0.3,0,0,5");
+        let shot = shot("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
         let [yellow, red] = shot.contacts[..] else { panic!("{:?}", shot.contacts) };
         assert!(yellow.time < red.time && yellow.place.distance(shot.contact.unwrap().place) < 1e-12);
         for contact in [yellow, red] {

@@ -49,7 +49,7 @@ fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
     let start = Player::new().press("Enter").answer();
     let before = start.picture(120, 40);
     assert_eq!(count(&before, past), 0);
-    let later = start.press("Space").wait(1.2).picture(120, 40);
+    let later = start.press("Space").wait(0.8).picture(120, 40);
     assert!(count(&later, path) < count(&before, path));
     assert!(count(&later, past) > 5, "{}", count(&later, past));
     assert!(count(&later, ball) > count(&before, ball), "the trail has the ball's colour");
@@ -72,10 +72,10 @@ fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
 #[test]
 fn draw_is_told_from_follow_and_both_from_rolling() {
     for (cue, wait, word) in [
-        ("0,-0.4,0,180,3", 0.11, "draw"),
-        ("0,0.49,0,180,3", 0.11, "follow"),
-        ("0,0,0,180,3", 0.11, "slides"),
-        ("0,0.4,0,180,1", 0.25, "rolls"),
+        ("0,-0.4,0,0,3", 0.11, "draw"),
+        ("0,0.49,0,0,8", 0.11, "follow"),
+        ("0,0,0,0,3", 0.11, "slides"),
+        ("0,0.4,0,0,1", 0.25, "rolls"),
     ] {
         let text = shown(TRUE_COLOUR, cue).press("Space").wait(wait).text(120, 40);
         let ball = text.lines().find(|line| line.contains("● white")).unwrap();

@@ -11,9 +11,11 @@ const BELOW_BESIDE: u16 = 5;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (22, 36);
 /// Columns of the stroke and the tip where all panels stand side by side.
-const STROKE_WIDTH: u16 = 24;
+const STROKE_WIDTH: u16 = 22;
 const TIP_WIDTH: u16 = 14;
 const SIGHT_WIDTH: u16 = 12;
+/// Columns that the score's title needs.
+const SCORE_WIDTH: u16 = 30;
 /// Rows of the stroke's numbers with their title, and of the sight below the tip.
 const STROKE_ROWS: u16 = 6;
 const SIGHT_ROWS: u16 = 4;
@@ -50,18 +52,19 @@ impl Panes {
     }
 
     fn all_below(table: &Table, area: Rect) -> Self {
-        let room = Rect { height: area.height.saturating_sub(BELOW), ..area };
-        let top = Mapping::fit(table, room).outer().bottom().min(area.bottom());
+        let upper = Rect { height: area.height.saturating_sub(BELOW), ..area };
+        let top = Mapping::fit(table, upper).outer().bottom().min(area.bottom());
         let panel = |x: u16, width: u16| {
             let left = (area.x + x).min(area.right());
             Rect::new(left, top, width.min(area.right() - left), area.bottom() - top)
         };
         let sight = STROKE_WIDTH + TIP_WIDTH + 2;
         let aim = sight + SIGHT_WIDTH + 1;
-        let words = area.width.saturating_sub(aim + 1) * AIM.0 / AIM.1;
+        let room = area.width.saturating_sub(aim + 1);
+        let words = (room * AIM.0 / AIM.1).min(room.saturating_sub(SCORE_WIDTH));
         let score = aim + words + 1;
         Self {
-            table: room,
+            table: upper,
             stroke: panel(0, STROKE_WIDTH),
             tip: panel(STROKE_WIDTH + 1, TIP_WIDTH),
             sight: panel(sight, SIGHT_WIDTH),
