@@ -1,11 +1,18 @@
-//! A grid of sub-pixels that becomes block characters: two colours a cell, as sextants or half blocks.
+//! A grid of sub-pixels that becomes block characters: two colours a cell, as octants, sextants or half blocks.
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Color, symbols::pixel::SEXTANTS};
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Color,
+    symbols::pixel::{OCTANTS, SEXTANTS},
+};
 
 use super::look::Glyphs;
 
 /// Half blocks by the bits of their upper (1) and lower (2) half.
 const HALVES: [char; 4] = [' ', '▀', '▄', '█'];
+/// Most sub-pixels of a cell: those of an octant.
+const MOST: usize = 8;
 
 /// A sub-pixel's colour; where a cell holds more than two colours those with more weight stay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +61,7 @@ impl Canvas {
             for column in 0..self.area.width {
                 let first = usize::from(row * self.grid.1) * stride + usize::from(column * self.grid.0);
                 let Some(cell) = buffer.cell_mut((self.area.x + column, self.area.y + row)) else { continue };
-                let mut inks = [Ink { color: self.ground, weight: 0 }; 6];
+                let mut inks = [Ink { color: self.ground, weight: 0 }; MOST];
                 let mut count = 0;
                 for line in 0..usize::from(self.grid.1) {
                     for across in 0..usize::from(self.grid.0) {
@@ -72,6 +79,7 @@ impl Canvas {
 /// Sub-pixels a cell, across and down.
 pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
     match glyphs {
+        Glyphs::Octant => (2, 4),
         Glyphs::Sextant => (2, 3),
         Glyphs::Half => (1, 2),
         Glyphs::Letters => (1, 1),
@@ -81,7 +89,7 @@ pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
 /// The block character, its colour and the colour behind it. Where there is ground in the cell it lies behind, and only
 /// the heaviest other colour stays before it: a ball without its last corner is better than one with a foreign spot.
 fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
-    let mut found = [(ground, 0_u16); 6];
+    let mut found = [(ground, 0_u16); MOST];
     let mut kinds = 0;
     for ink in inks.iter().filter(|ink| ink.color != ground) {
         let index = found[..kinds].iter().position(|(color, _)| *color == ink.color).unwrap_or_else(|| {
@@ -106,7 +114,11 @@ fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
     for (n, ink) in inks.iter().enumerate() {
         bits |= usize::from(ink.color == front) << n;
     }
-    let symbol = if inks.len() == 6 { SEXTANTS[bits] } else { HALVES[bits & 3] };
+    let symbol = match inks.len() {
+        8 => OCTANTS[bits],
+        6 => SEXTANTS[bits],
+        _ => HALVES[bits & 3],
+    };
     (symbol, front, back)
 }
 
@@ -129,6 +141,33 @@ mod tests {
         let left = [BALL, GROUND, BALL, GROUND, BALL, GROUND];
         assert_eq!(two_colours(&left, GROUND.color), ('▌', Color::Red, Color::Blue));
         assert_eq!(two_colours(&[GROUND, BALL], GROUND.color), ('▄', Color::Red, Color::Blue));
+    }
+
+    #[test]
+    fn each_pattern_of_octants_has_a_character_of_its_own() {
+        let character = |bits: usize| {
+            let inks: [Ink; 8] = std::array::from_fn(|n| if bits >> n & 1 == 1 { BALL } else { GROUND });
+            two_colours(&inks, GROUND.color).0
+        };
+        let all: std::collections::BTreeSet<char> = (0..256).map(character).collect();
+        assert_eq!(all.len(), 256);
+        // Octants are numbered row by row from the upper left; shapes that were there before are not among them.
+        for (octants, expected) in [
+            (&[3][..], '\u{1CD00}'),
+            (&[2, 3], '\u{1CD01}'),
+            (&[2, 3, 4, 5, 6, 7, 8], '\u{1CDE5}'),
+            (&[1], '\u{1CEA8}'),
+            (&[8], '\u{1CEA0}'),
+            (&[3, 5], '\u{1FBE6}'),
+            (&[4, 6], '\u{1FBE7}'),
+            (&[1, 2], '\u{1FB82}'),
+            (&[7, 8], '▂'),
+            (&[1, 3], '▘'),
+            (&[1, 3, 5, 7], '▌'),
+            (&[5, 6, 7, 8], '▄'),
+        ] {
+            assert_eq!(character(octants.iter().map(|octant| 1 << (octant - 1)).sum()), expected, "{octants:?}");
+        }
     }
 
     #[test]

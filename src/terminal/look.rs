@@ -18,6 +18,8 @@ pub enum Depth {
 /// Which characters the table is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Glyphs {
+    /// Octants: two by four sub-pixels a cell. Few fonts have them, and multiplexers drop them: for those who ask for them.
+    Octant,
     /// Sextants: two by three sub-pixels a cell.
     Sextant,
     /// Half blocks: one by two sub-pixels a cell, for fonts without sextants.
@@ -38,8 +40,8 @@ pub struct Look {
 }
 
 impl Look {
-    /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`sextant`, `half` or
-    /// `letters`), with which a user whose font lacks sextants chooses once and for all. What the settings say goes before what
+    /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`octant`, `sextant`,
+    /// `half` or `letters`), with which a user whose font has octants, or lacks sextants, chooses once and for all. What the settings say goes before what
     /// the environment lets guess, and before `NO_COLOR`, but not before `CAROM_GLYPHS`.
     pub fn detect(variable: impl Fn(&str) -> Option<String>, settings: &Settings) -> Self {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
@@ -57,6 +59,7 @@ impl Look {
             ("letters", _) => Glyphs::Letters,
             ("half", _) => Glyphs::Half,
             ("sextant", _) => Glyphs::Sextant,
+            ("octant", _) => Glyphs::Octant,
             (_, Some(glyphs)) => glyphs,
             // The Linux console has 512 glyphs, and sextants are not among them.
             _ if term == "linux" => Glyphs::Half,
@@ -65,14 +68,20 @@ impl Look {
         Self { depth, glyphs, unicode }
     }
 
-    /// The next simpler set of characters that this terminal can show, and back to the finest after the simplest.
+    /// The finest characters that may be drawn with: octants only where the user has asked for them.
+    pub fn finest(&self) -> Glyphs {
+        if self.glyphs == Glyphs::Octant { Glyphs::Octant } else { Glyphs::Sextant }
+    }
+
+    /// The next simpler set of characters that this terminal can show, and back to the `finest` after the simplest.
     #[must_use]
-    pub fn with_next_glyphs(self) -> Self {
+    pub fn with_next_glyphs(self, finest: Glyphs) -> Self {
         let glyphs = match self.glyphs {
             _ if !self.unicode || self.depth == Depth::Mono => Glyphs::Letters,
+            Glyphs::Octant => Glyphs::Sextant,
             Glyphs::Sextant => Glyphs::Half,
             Glyphs::Half => Glyphs::Letters,
-            Glyphs::Letters => Glyphs::Sextant,
+            Glyphs::Letters => finest,
         };
         Self { glyphs, ..self }
     }
@@ -145,10 +154,19 @@ mod tests {
 
     #[test]
     fn glyphs_go_round_but_never_beyond_what_the_terminal_has() {
+        use Glyphs::{Half, Letters, Octant, Sextant};
+        let walk = |start: Look| {
+            let mut looks = vec![start];
+            while looks.len() < 5 {
+                looks.push(looks[looks.len() - 1].with_next_glyphs(start.finest()));
+            }
+            looks.iter().map(|look| look.glyphs).collect::<Vec<_>>()
+        };
         let start = look(&[("TERM", "xterm"), ("LANG", "C.UTF-8")]);
-        let round = start.with_next_glyphs().with_next_glyphs().with_next_glyphs();
-        assert_eq!(start, round);
-        let plain = look(&[("TERM", "xterm")]);
-        assert_eq!(plain.with_next_glyphs(), plain);
+        assert_eq!(walk(start), [Sextant, Half, Letters, Sextant, Half]);
+        let asked = look(&[("TERM", "xterm"), ("LANG", "C.UTF-8"), ("CAROM_GLYPHS", "octant")]);
+        assert_eq!(walk(asked), [Octant, Sextant, Half, Letters, Octant]);
+        let plain = look(&[("TERM", "xterm"), ("CAROM_GLYPHS", "octant")]);
+        assert_eq!(walk(plain), [Letters; 5]);
     }
 }

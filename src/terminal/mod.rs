@@ -31,6 +31,7 @@ mod session;
 mod settings;
 mod sgr;
 mod shot;
+mod spin;
 mod sprites;
 mod status;
 mod theme;

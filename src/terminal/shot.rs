@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use super::words::BALL_NAMES;
+use super::{spin::Spin, words::BALL_NAMES};
 use crate::{
     coach::{Hit, first_hit},
     physics::{CueInputs, Impulse},
-    simulation::{Recording, ShotError},
+    simulation::{EventKind, Rail, Recording, ShotError},
     table::{BALLS, Layout, Table},
 };
 
@@ -22,6 +22,30 @@ pub struct Dot {
     pub time: f64,
     /// Where, m.
     pub place: DVec2,
+}
+
+/// The cue ball's first contact with one of the object balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The object ball, 1 or 2.
+    pub ball: usize,
+    /// When, s.
+    pub time: f64,
+    /// Where the cue ball is then, m.
+    pub place: DVec2,
+    /// Where the object ball is then, m.
+    pub other: DVec2,
+}
+
+/// What the cue ball meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Meeting {
+    /// An object ball, and how.
+    Ball(Hit),
+    /// A cushion, and after it perhaps an object ball.
+    Rail(Rail, Option<Hit>),
+    /// Nothing.
+    Nothing,
 }
 
 /// A shot ready to be shown and played.
@@ -41,6 +65,8 @@ pub struct Shot {
     pub paths: [Vec<Dot>; BALLS],
     /// The first contact of the cue ball with an object ball.
     pub contact: Option<Hit>,
+    /// Its first contact with each object ball that it meets.
+    pub contacts: Vec<Contact>,
 }
 
 impl Shot {
@@ -63,8 +89,29 @@ impl Shot {
             source: source.into(),
             paths: std::array::from_fn(|ball| dots(&recording, ball)),
             contact: first_hit(table, &recording),
+            contacts: (1..BALLS).filter_map(|ball| first_contact(&recording, ball)).collect(),
             recording,
         })
+    }
+
+    /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.
+    pub fn spin(&self, time: f64, radius: f64) -> Option<Spin> {
+        let is_under_way = time > 0.0 && time < self.recording.duration();
+        is_under_way.then(|| Spin::of(&self.recording.state(0, time), self.recording.motion(0, time), radius))
+    }
+
+    /// What the cue ball meets first.
+    pub fn meeting(&self) -> Meeting {
+        let first = self.recording.events().iter().find_map(|event| match event.kind {
+            EventKind::BallRail(0, rail) => Some(Some(rail)),
+            EventKind::BallBall(0, _) => Some(None),
+            _ => None,
+        });
+        match (first.flatten(), self.contact) {
+            (Some(rail), hit) => Meeting::Rail(rail, hit),
+            (None, Some(hit)) => Meeting::Ball(hit),
+            (None, None) => Meeting::Nothing,
+        }
     }
 
     /// How the cue ball meets the first object ball, in words.
@@ -74,6 +121,12 @@ impl Shot {
         let percent = (100.0 * contact.fullness).round();
         Some(format!("hits {} {percent}% full, {side} side", BALL_NAMES[contact.ball]))
     }
+}
+
+fn first_contact(recording: &Recording, ball: usize) -> Option<Contact> {
+    let event = recording.events().iter().find(|event| event.kind == EventKind::BallBall(0, ball))?;
+    let place = |ball: usize| recording.state(ball, event.time).position;
+    Some(Contact { ball, time: event.time, place: place(0), other: place(ball) })
 }
 
 fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
@@ -113,6 +166,28 @@ mod tests {
         assert_eq!(contact.ball, 1);
         assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
         assert_eq!(half.contact_words().unwrap(), "hits yellow 50% full, left side");
+    }
+
+    #[test]
+    fn each_object_ball_is_met_where_the_cue_ball_touches_it_for_the_first_time() {
+        let shot = shot("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
+        let [yellow, red] = shot.contacts[..] else { panic!("{:?}", shot.contacts) };
+        assert!(yellow.time < red.time && yellow.place.distance(shot.contact.unwrap().place) < 1e-12);
+        for contact in [yellow, red] {
+            assert!((contact.place.distance(contact.other) - 0.0615).abs() < 1e-9, "{contact:?}");
+        }
+        assert!(matches!(shot.meeting(), Meeting::Ball(hit) if hit.ball == 1));
+    }
+
+    #[test]
+    fn a_cushion_before_the_first_ball_is_what_the_cue_ball_meets() {
+        let bank = shot("0,0 -0.5,0 1,0.5", "0,0,0,0,4");
+        assert!(
+            matches!(bank.meeting(), Meeting::Rail(Rail::Right, Some(hit)) if hit.ball == 1),
+            "{:?}",
+            bank.meeting()
+        );
+        assert_eq!(shot("0,0 -1,0.5 1,0.5", "0,0,0,0,0.2").meeting(), Meeting::Nothing);
     }
 
     #[test]

@@ -13,6 +13,8 @@ const ROUNDED: f64 = 1.1;
 /// The smallest shape in sextants that looks round: anything smaller is a cross or a block. On a table of 60 columns it is
 /// almost twice the ball; the physics keeps the true size.
 const LEAST_SEXTANTS: (i32, i32) = (5, 4);
+/// The same in octants, whose sub-pixels are square.
+const LEAST_OCTANTS: (i32, i32) = (5, 5);
 /// The smallest shape in half blocks that can be seen.
 const LEAST_HALVES: (i32, i32) = (2, 2);
 
@@ -28,7 +30,11 @@ impl Sprite {
     pub fn new(mapping: &Mapping, glyphs: Glyphs) -> Self {
         let drawn = mapping.ball_columns() * ROUNDED;
         let (across, down) = sub_pixels(glyphs);
-        let least = if glyphs == Glyphs::Sextant { LEAST_SEXTANTS } else { LEAST_HALVES };
+        let least = match glyphs {
+            Glyphs::Octant => LEAST_OCTANTS,
+            Glyphs::Sextant => LEAST_SEXTANTS,
+            Glyphs::Half | Glyphs::Letters => LEAST_HALVES,
+        };
         // A row is as high as two columns are wide. The width follows from the height, or rounding both would make some
         // balls ovals.
         let height = (drawn * f64::from(down) / 2.0).round();
@@ -68,8 +74,11 @@ impl Sprite {
         self.each(canvas, mapping, place, ink, |_, _| true);
     }
 
-    /// Draws the ball's outline: a ball that is not there yet.
+    /// Draws the ball's outline: a ball that is not there yet. A picture that is too small for a hole is left out.
     pub fn stamp_ring(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
+        if self.width.min(self.height) < 3 {
+            return;
+        }
         let inside = |x, y| [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| self.covers(x + dx, y + dy));
         self.each(canvas, mapping, place, ink, |x, y| !inside(x, y));
     }

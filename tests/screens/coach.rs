@@ -252,8 +252,8 @@ fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
     let picture = Player::new().press("Enter").answer().picture(120, 40);
     let blue = Color::Rgb(0x1f, 0x63, 0xc8);
     let columns: Vec<u16> =
-        (74..90).filter(|&x| (30..40).any(|y| picture[(x, y)].fg == blue || picture[(x, y)].bg == blue)).collect();
-    assert!(!columns.is_empty() && columns.iter().all(|&x| x >= 82), "{columns:?}");
+        (72..84).filter(|&x| (30..40).any(|y| picture[(x, y)].fg == blue || picture[(x, y)].bg == blue)).collect();
+    assert!(!columns.is_empty() && columns.iter().all(|&x| x >= 78), "{columns:?}");
 }
 
 #[test]

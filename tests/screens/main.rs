@@ -8,5 +8,6 @@ mod drills;
 mod finder;
 mod keys;
 mod mouse;
+mod table;
 mod training;
 mod training_player;

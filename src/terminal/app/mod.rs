@@ -99,6 +99,8 @@ pub struct App {
     look: Look,
     /// The look with any palette that has colours.
     full_look: Look,
+    /// The finest characters to draw with: octants only where they were asked for.
+    finest: Glyphs,
     theme: Theme,
     palette: Palette,
     /// Keys of the user's own.
@@ -123,6 +125,7 @@ impl App {
             mouse: true,
             look,
             full_look: look,
+            finest: look.finest(),
             theme: Theme::new(look.depth),
             palette: Palette::default(),
             keys: Keys::default(),
@@ -244,7 +247,7 @@ impl App {
                 self.help = self.help.map(|top| top.min(end).saturating_add_signed(lines).min(end));
             }
             Action::NextGlyphs => {
-                self.look = self.look.with_next_glyphs();
+                self.look = self.look.with_next_glyphs(self.finest);
                 if self.palette != Palette::Mono {
                     self.full_look = self.look;
                 }

@@ -75,7 +75,7 @@ enum Dots {
 impl Dots {
     fn of(look: Look, theme: &Theme) -> Self {
         match look.glyphs {
-            Glyphs::Sextant if look.unicode => Self::Braille,
+            Glyphs::Octant | Glyphs::Sextant if look.unicode => Self::Braille,
             // Half blocks tell two curves apart by colours alone.
             Glyphs::Half if look.unicode && !theme.is_mono() => Self::Halves,
             _ => Self::Marks,

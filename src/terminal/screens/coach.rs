@@ -18,8 +18,8 @@ use crate::{
         status::Message,
         widgets::{
             TableView, choice_at, draw_aim_map, draw_balls, draw_chances, draw_events, draw_header, draw_hints,
-            draw_legend, draw_margins, draw_plan, draw_proposal, draw_shot, draw_status, draw_table, draw_tip,
-            draw_tip_map, plan_spots,
+            draw_legend, draw_margins, draw_plan, draw_proposal, draw_shot, draw_sight, draw_spin, draw_status,
+            draw_table, draw_tip, draw_tip_map, plan_spots,
         },
         words::{BALL_NAMES, event_words, fixed, millimetres, percent, rail_word, step_words},
     },
@@ -63,7 +63,7 @@ fn draw_panels(app: &App, panes: &Panes, buffer: &mut Buffer) {
     let study = app.coach().shown().and_then(|advised| advised.choice().study.as_ref());
     if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
         draw_aim_map(&study.aim, app.coach().tutor.skill, panes.shot, theme, look, buffer);
-        draw_tip_map(&study.tip, &shot.cue, table, panes.tip, theme, look, buffer);
+        draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), theme, look, buffer);
         return draw_legend(panes.events, theme, look, buffer);
     }
     match app.coach().proposal() {
@@ -72,6 +72,10 @@ fn draw_panels(app: &App, panes: &Panes, buffer: &mut Buffer) {
     }
     draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, theme, look, buffer);
     let time = app.watched().map(|_| app.playback().readout);
+    match shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius)) {
+        Some(spin) => draw_spin(&spin, panes.sight, theme, look, buffer),
+        None => draw_sight(shot.map(Shot::meeting), panes.sight, theme, look, buffer),
+    }
     draw_events(shot, time, panes.events, theme, look, buffer);
 }
 

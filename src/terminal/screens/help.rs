@@ -22,7 +22,8 @@ const KEYS: usize = 22;
 /// Each is a paragraph.
 const COACH_NOTES: [&str; 6] = [
     "Places are measured from the middle of the table, x to the right, y up. The dots are the predicted paths; rings are \
-     the first contact and where the balls stop. On a small screen the balls are drawn larger than they are; they roll \
+     where the cue ball first meets each ball and where the balls stop. While a shot plays, a ball trails bright dots for 0.4 s; \
+     those before them are pale. On a small screen the balls are drawn larger than they are; they roll \
      and touch at their true size.",
     "Chances are those of the player in the first row, from attempts that took no part in the choice, with their 95 % \
      interval. Shots that are made less than half as often as the best are not listed.",
@@ -31,7 +32,10 @@ const COACH_NOTES: [&str; 6] = [
      errors.",
     "The plan: dots show where the balls stop in 100 attempts, as far as they make the point, and the cue ball's way in the \
      next shot, if all goes as meant.",
-    "Tip: the cue ball from behind the cue; in its grey part the tip would slip off.",
+    "Tip: the cue ball from behind the cue; in its grey part the tip would slip off. Sight: the first object ball as the cue \
+     ball comes on, and how much of it that covers. Spin, while a shot plays: the cue ball from behind along its way, with the \
+     place where a level cue would have to meet it to give it the spin that it has at its speed; a rolling ball has it two \
+     fifths above the middle.",
     "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
 ];
 

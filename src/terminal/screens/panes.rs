@@ -13,16 +13,29 @@ const ROWS_A_PANEL_ROW: u16 = 5;
 const BELOW_BESIDE: u16 = 4;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (16, 36);
-/// Columns of the panels of balls, shot and tip where they stand side by side; the tip's may be wider.
-const INFO_WIDTH: u16 = 39;
-const SHOT_WIDTH: u16 = 33;
-const TIP_WIDTH: (u16, u16) = (16, 18);
+/// Columns of what a view tells, of the shot, the tip, the sight and the events where they stand side by side: where there is
+/// just room for them, and where there is more. The tip's may be wider.
+const NARROW: [u16; 5] = [38, 32, 12, 12, 22];
+const WIDE: [u16; 5] = [39, 33, 14, 16, 29];
+const MOST_TIP_WIDTH: u16 = 18;
 /// Columns of what other views tell beside them.
 const MORE_WIDTH: u16 = 38;
-/// Columns that the events need for their longest words.
-const EVENTS_WIDTH: u16 = 29;
-/// Columns from which on the events find room beside these three.
-const ALL_BELOW_WIDTH: u16 = INFO_WIDTH + SHOT_WIDTH + TIP_WIDTH.0 + EVENTS_WIDTH + 3;
+/// Columns from which on all of these find room.
+const ALL_BELOW_WIDTH: u16 = width(NARROW);
+/// Rows of the panels from which on the sight stands below the tip, in columns that are as wide as both of its balls.
+const STACKED_ROWS: u16 = 12;
+const STACKED_WIDTH: u16 = 16;
+/// Rows of the shot's numbers with their title where the column beside the table is narrow: as few as hold them all, and as
+/// many as are easy to read, where the column has rows enough; and where it is wide.
+const SHOT_ROWS: [u16; 3] = [7, 9, 8];
+const TALL: u16 = 20;
+/// Columns of a column from which on its panels are the wide ones.
+const WIDE_COLUMN: u16 = 30;
+/// Most rows of tip and sight, one below the other and side by side, and those of the sight below the tip: at least, and where
+/// there are more than so many for both.
+const PRECISION_ROWS: (u16, u16) = (13, 10);
+const SIGHT_ROWS: [u16; 2] = [4, 5];
+const MANY_ROWS: u16 = 13;
 
 /// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
 /// several panels at once.
@@ -43,6 +56,8 @@ pub struct Panes {
     pub shot: Rect,
     /// The cue ball's face.
     pub tip: Rect,
+    /// The shooter's view of the first ball; beside or below the tip.
+    pub sight: Rect,
     /// What happens in the shot.
     pub events: Rect,
     /// The row above the hints; longer sentences may grow upwards into the panels.
@@ -80,13 +95,22 @@ impl Panes {
             left = (left + width + u16::from(width > 0)).min(area.right());
             panel
         };
-        let tip = (2 * rows).clamp(TIP_WIDTH.0, TIP_WIDTH.1);
-        let taken = INFO_WIDTH + SHOT_WIDTH + tip + 3 + EVENTS_WIDTH;
+        let mut widths = if area.width >= width(WIDE) { WIDE } else { NARROW };
+        let is_stacked = rows >= STACKED_ROWS;
+        if is_stacked {
+            widths = [WIDE[0], WIDE[1], STACKED_WIDTH, 0, WIDE[4]];
+        }
+        // A face is twice as many columns as rows, and its panel has a title.
+        let spare = area.width.saturating_sub(width(widths));
+        let [info, shot, tip, sight, events] = widths;
+        let tip = (tip + spare).min(2 * (rows - 1)).clamp(tip, MOST_TIP_WIDTH);
+        let taken = width([info, shot, tip, sight, events]);
         let others = area.width.saturating_sub(taken) / (MORE_WIDTH + 1);
-        let [info, shot, tip] = [INFO_WIDTH, SHOT_WIDTH, tip].map(&mut panel);
+        let [info, shot, tip, sight] = [info, shot, tip, sight].map(&mut panel);
+        let (tip, sight) = if is_stacked { stacked(tip) } else { (tip, sight) };
         let more = [1, 2].map(|n| panel(if n <= others { MORE_WIDTH } else { 0 }));
         let events = panel(area.width);
-        Self { header, table: room, info, more, shot, tip, events, status, hints }
+        Self { header, table: room, info, more, shot, tip, sight, events, status, hints }
     }
 
     fn some_beside(table: &Table, area: Rect) -> Self {
@@ -103,8 +127,17 @@ impl Panes {
         let room = Rect { width: left - 1 - area.x, ..room };
         let outer = Mapping::fit(table, room).outer();
         let bottom = outer.bottom().min(middle.bottom());
-        let tip_rows = BELOW.0.min((bottom - middle.y) / 2);
-        let column = |y: u16, height: u16| Rect::new(left, y, width, height);
+        let rows = bottom - middle.y;
+        let (least, easy, wide) = (SHOT_ROWS[0], SHOT_ROWS[1], SHOT_ROWS[2]);
+        let is_wide = width >= WIDE_COLUMN;
+        let (shot, most) = match () {
+            () if is_wide => (wide, PRECISION_ROWS.1),
+            () if rows >= TALL => (easy, PRECISION_ROWS.0),
+            () => (least, PRECISION_ROWS.0),
+        };
+        let precision_rows = rows.saturating_sub(shot).min(most);
+        let precision = Rect::new(left, bottom - precision_rows, width, precision_rows);
+        let (tip, sight) = if is_wide { halves(precision) } else { stacked(precision) };
         let half = area.width / 2;
         let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, middle.bottom() - bottom);
         Self {
@@ -112,13 +145,34 @@ impl Panes {
             table: room,
             info: below(0, half),
             more: [Rect::ZERO; 2],
-            shot: column(middle.y, bottom - middle.y - tip_rows),
-            tip: column(bottom - tip_rows, tip_rows),
+            shot: Rect::new(left, middle.y, width, rows - precision_rows),
+            tip,
+            sight,
             events: below(half + 1, area.width - half - 1),
             status,
             hints,
         }
     }
+}
+
+/// Columns of panels side by side, with a blank between every two that are there.
+const fn width(panels: [u16; 5]) -> u16 {
+    let [info, shot, tip, sight, events] = panels;
+    info + shot + tip + sight + events + if sight > 0 { 4 } else { 3 }
+}
+
+/// Tip and sight one below the other.
+fn stacked(area: Rect) -> (Rect, Rect) {
+    let rows = SIGHT_ROWS[usize::from(area.height >= MANY_ROWS)].min(area.height);
+    let tip = Rect { height: area.height - rows, ..area };
+    (tip, Rect { y: tip.bottom(), height: rows, ..area })
+}
+
+/// Tip and sight side by side.
+fn halves(area: Rect) -> (Rect, Rect) {
+    let width = area.width / 2;
+    let tip = Rect { width, ..area };
+    (tip, Rect { x: tip.right() + 1, width: area.width - width - 1, ..area })
 }
 
 #[cfg(test)]
@@ -145,11 +199,11 @@ mod tests {
             for height in 24..=80 {
                 let panes = Panes::new(&table, Rect::new(0, 0, width, height));
                 let table = Mapping::fit(&table, panes.table).outer();
-                let Panes { header, info, more, shot, tip, events, status, hints, .. } = panes;
-                let all = [header, table, info, shot, tip, events, status, hints, more[0], more[1]];
+                let Panes { header, info, more, shot, tip, sight, events, status, hints, .. } = panes;
+                let all = [header, table, info, shot, tip, sight, events, status, hints, more[0], more[1]];
                 for (n, one) in all.iter().enumerate() {
                     assert!(one.right() <= width && one.bottom() <= height, "{width}×{height} {n}");
-                    assert!(n > 7 || !one.is_empty(), "{width}×{height} {n}");
+                    assert!(n > 8 || !one.is_empty(), "{width}×{height} {n}");
                     for other in &all[n + 1..] {
                         assert!(one.intersection(*other).is_empty(), "{width}×{height}: {one} and {other}");
                     }

@@ -38,8 +38,9 @@ const DEPTHS: [(&str, Option<Depth>); 5] = [
 ];
 
 /// What the table is drawn with, by name.
-const GLYPHS: [(&str, Option<Glyphs>); 4] = [
+const GLYPHS: [(&str, Option<Glyphs>); 5] = [
     ("auto", None),
+    ("octant", Some(Glyphs::Octant)),
     ("sextant", Some(Glyphs::Sextant)),
     ("half", Some(Glyphs::Half)),
     ("letters", Some(Glyphs::Letters)),
@@ -69,8 +70,8 @@ pub const ENTRIES: &[Entry] = &[
     },
     Entry {
         key: "glyphs",
-        about: "What the table is drawn with; auto looks at the locale. CAROM_GLYPHS overrides it.",
-        accepted: "\"auto\", \"sextant\", \"half\", \"letters\"",
+        about: "What the table is drawn with; auto looks at the locale and never takes octants, which few fonts have. CAROM_GLYPHS overrides it.",
+        accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
         set: |settings, value| {
             settings.glyphs = named(&GLYPHS, value.as_str()?)?;

@@ -152,6 +152,18 @@ impl Theme {
         self.text().fg(self.warning).add_modifier(self.strong)
     }
 
+    /// The colour of a path that the ball has run: half of the path's, half of the cloth's.
+    pub fn past(&self, ball: usize) -> Color {
+        match (self.paths[ball], self.cloth) {
+            (Color::Rgb(r, g, b), Color::Rgb(cloth_r, cloth_g, cloth_b)) => {
+                Color::Rgb(r.midpoint(cloth_r), g.midpoint(cloth_g), b.midpoint(cloth_b))
+            }
+            (Color::Indexed(_), _) => Color::Indexed([73, 107, 131][ball]),
+            (Color::Reset, _) => Color::Reset,
+            _ => Color::Cyan,
+        }
+    }
+
     /// Style of the sign of `ball` among words.
     pub fn ball(&self, ball: usize) -> Style {
         Style::new().fg(self.balls[ball]).bg(self.behind_ball)

@@ -9,19 +9,19 @@ use ratatui::{
 
 use super::{draw_title, write_right};
 use crate::{
-    physics::Motion,
     table::BALLS,
     terminal::{
         app::{App, Mode},
+        spin::Spin,
         words::{BALL_NAMES, fixed, millimetres, step_words},
     },
 };
 
 /// Columns at which the numbers end, from the panel's left edge.
-const X_END: u16 = 18;
-const Y_END: u16 = 26;
-const SPEED_END: u16 = 32;
-const MOTION: u16 = 33;
+const X_END: u16 = 17;
+const Y_END: u16 = 24;
+const SPEED_END: u16 = 30;
+const MOTION: u16 = 31;
 
 /// Draws the panel; below the balls, if there is room, more about the layout or the shot.
 pub fn draw_balls(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -55,7 +55,8 @@ fn draw_ball(app: &App, ball: usize, area: Rect, buffer: &mut Buffer) {
             let time = app.playback().readout;
             let state = shot.recording.state(ball, time);
             let speed = state.velocity.length();
-            (state.position, Some(speed), motion_words(shot.recording.motion(ball, time), speed, state.spin.z))
+            let spin = Spin::of(&state, shot.recording.motion(ball, time), app.table().radius);
+            (state.position, Some(speed), spin.word)
         }
         None => (app.layout().balls[ball], None, ""),
     };
@@ -65,16 +66,6 @@ fn draw_ball(app: &App, ball: usize, area: Rect, buffer: &mut Buffer) {
         write_right(buffer, area.x, area.x + SPEED_END, area.y, &fixed(speed, 2), style);
     }
     buffer.set_stringn(area.x + MOTION, area.y, motion, usize::from(area.width.saturating_sub(MOTION)), theme.faint());
-}
-
-fn motion_words(motion: Motion, speed: f64, side_spin: f64) -> &'static str {
-    match motion {
-        Motion::Sliding => "slides",
-        Motion::Rolling => "rolls",
-        Motion::Resting => "leans",
-        Motion::Stationary if speed == 0.0 && side_spin.abs() > 0.5 => "spins",
-        Motion::Stationary => "",
-    }
 }
 
 fn more(app: &App) -> Vec<Line<'static>> {

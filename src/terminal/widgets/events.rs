@@ -18,8 +18,11 @@ use crate::{
     },
 };
 
-/// Columns before an event's words.
-const WORDS: u16 = 9;
+/// Where an event's time ends, where its words begin, and the decimals of its time: in a wide panel and in a narrow one.
+const COLUMNS: (u16, u16, usize) = (7, 9, 3);
+const NARROW_COLUMNS: (u16, u16, usize) = (6, 7, 2);
+/// Columns from which on there is room for the longest words.
+const WIDE: u16 = 29;
 /// Columns of an event's words and of how soon it comes.
 const WAIT: u16 = 34;
 
@@ -37,11 +40,14 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, theme: &T
     if shot.is_none() || inner.is_empty() {
         return;
     }
+    let is_narrow = inner.width < WIDE;
+    let (end, start, decimals) = if is_narrow { NARROW_COLUMNS } else { COLUMNS };
     let rows = usize::from(inner.height);
     let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
     for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
         let event = n.checked_sub(1).map(|n| events[n]);
         let (at, words) = event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind)));
+        let words = if is_narrow { words.trim_end_matches(" rail").replace("comes free", "is free") } else { words };
         let style = match n {
             _ if n == present => theme.accent(),
             _ if n < present => theme.faint(),
@@ -49,14 +55,14 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, theme: &T
         };
         let pointer = if n == present { look.pick("▸", ">") } else { " " };
         buffer.set_string(inner.x, row, pointer, theme.accent());
-        write_right(buffer, inner.x, inner.x + 7, row, &fixed(at, 3), style);
-        buffer.set_stringn(inner.x + WORDS, row, &words, usize::from(inner.width.saturating_sub(WORDS)), style);
+        write_right(buffer, inner.x, inner.x + end, row, &fixed(at, decimals), style);
+        buffer.set_stringn(inner.x + start, row, &words, usize::from(inner.width.saturating_sub(start)), style);
         if n == present + 1
             && let Some(time) = time
         {
             let wait = format!("in {} s", fixed(at - time, 1));
-            if usize::from(inner.width) > usize::from(WORDS) + words.len() + wait.len() + 2 {
-                let end = inner.right().saturating_sub(1).min(inner.x + WORDS + WAIT);
+            if usize::from(inner.width) > usize::from(start) + words.len() + wait.len() + 2 {
+                let end = inner.right().saturating_sub(1).min(inner.x + start + WAIT);
                 write_right(buffer, inner.x, end, row, &wait, theme.faint());
             }
         }

@@ -1,19 +1,23 @@
 //! Maps of the outcome: over the tip's place on the ball's face, and over direction and speed around the stroke.
 
+use glam::DVec2;
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
-    style::Modifier,
     text::{Line, Span},
 };
 
-use super::{draw_title, face_in, write_right};
+use super::{
+    draw_title,
+    field::{Dot, Mark, draw_field, face_in, spot_mark},
+    write_right,
+};
 use crate::{
     coach::{Map, Outcome, Skill},
     physics::CueInputs,
     table::Table,
     terminal::{
-        canvas::{Canvas, Ink},
+        canvas::Ink,
         look::{Glyphs, Look},
         theme::Theme,
         words::fixed,
@@ -73,19 +77,14 @@ pub fn draw_tip_map(
     let reach = map.columns.last().copied().unwrap_or_default();
     let title = format!("Tip {}{} mm", look.pick("±", "+-"), fixed(reach, 0));
     let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
-    // How far the tip is from the middle of the map, as a share of its half.
+    // How far the tip is from the middle of the map, as a share of its half; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
-    draw_signs(face_in(inner), theme, look, buffer, |x, y, cell| {
-        let (right, up) = (x + share * cue.a, y - share * cue.b);
-        let is_tip = match cell {
-            0.0 => right.hypot(up) <= TIP_RADIUS,
-            _ => right.abs() <= 0.5 * cell && up.abs() <= cell,
-        };
-        match () {
-            () if x.hypot(y) > 1.0 => None,
-            () if is_tip => Some(Sign::Stroke),
-            () => Some(Sign::Outcome(at(map, -x, y))),
-        }
+    let face = face_in(inner);
+    let tip = Dot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, look);
+    draw_signs(face, theme, look, buffer, |x, y, _| match () {
+        () if x.hypot(y) > 1.0 => None,
+        () if tip.covers(x, y) => Some(Sign::Stroke),
+        () => Some(Sign::Outcome(at(map, -x, y))),
     });
 }
 
@@ -188,8 +187,7 @@ fn at(map: &Map, x: f64, y: f64) -> Outcome {
     map.outcomes[index(y, map.rows.len())][index(x, map.columns.len())]
 }
 
-/// Paints `area` with what `sign` says of each place: right and up from the middle, -1 to 1, and half the height of a cell
-/// where letters are drawn, nought where sub-pixels are.
+/// Paints `area` with what `sign` says of each place, as [`draw_field`] asks for it.
 fn draw_signs(
     area: Rect,
     theme: &Theme,
@@ -197,39 +195,19 @@ fn draw_signs(
     buffer: &mut Buffer,
     sign: impl Fn(f64, f64, f64) -> Option<Sign>,
 ) {
-    let place = |at: i32, size: i32| f64::from(2 * at + 1) / f64::from(size) - 1.0;
-    let index = |outcome| OUTCOMES.iter().position(|(one, ..)| *one == outcome).unwrap_or_default();
-    if look.glyphs == Glyphs::Letters {
-        let (width, height) = (i32::from(area.width), i32::from(area.height));
-        for (y, row) in (0..height).zip(area.y..) {
-            for (x, column) in (0..width).zip(area.x..) {
-                let (symbol, style) = match sign(place(x, width), -place(y, height), 1.0 / f64::from(height)) {
-                    None => continue,
-                    Some(Sign::Stroke | Sign::Errors) => ('X', theme.accent().add_modifier(Modifier::REVERSED)),
-                    Some(Sign::Outcome(outcome)) => {
-                        let index = index(outcome);
-                        (OUTCOMES[index].1, theme.text().fg(theme.outcomes[index]))
-                    }
-                };
-                buffer[(column, row)].set_char(symbol).set_style(style);
+    draw_field(area, theme.background, look, buffer, |x, y, cell| {
+        Some(match sign(x, y, cell)? {
+            Sign::Stroke => spot_mark(theme, STROKE_WEIGHT),
+            // Letters have no outline.
+            Sign::Errors => Mark { ink: Ink { color: theme.outline, weight: ERRORS_WEIGHT }, ..spot_mark(theme, 0) },
+            Sign::Outcome(outcome) => {
+                let index = OUTCOMES.iter().position(|(one, ..)| *one == outcome).unwrap_or_default();
+                let color = theme.outcomes[index];
+                let ink = Ink { color, weight: OUTCOME_WEIGHT };
+                Mark { ink, letter: OUTCOMES[index].1, style: theme.text().fg(color) }
             }
-        }
-        return;
-    }
-    let mut canvas = Canvas::new(area, look.glyphs, theme.background);
-    let (width, height) = canvas.size();
-    for y in 0..height {
-        for x in 0..width {
-            let (color, weight) = match sign(place(x, width), -place(y, height), 0.0) {
-                None => continue,
-                Some(Sign::Stroke) => (theme.tip, STROKE_WEIGHT),
-                Some(Sign::Errors) => (theme.outline, ERRORS_WEIGHT),
-                Some(Sign::Outcome(outcome)) => (theme.outcomes[index(outcome)], OUTCOME_WEIGHT),
-            };
-            canvas.set(x, y, Ink { color, weight });
-        }
-    }
-    canvas.paint(buffer);
+        })
+    });
 }
 
 #[cfg(test)]

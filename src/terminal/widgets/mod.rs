@@ -3,6 +3,7 @@
 mod balls;
 mod chances;
 mod events;
+mod field;
 mod footer;
 mod header;
 mod maps;
@@ -10,6 +11,8 @@ mod margins;
 mod plan;
 mod rails;
 mod shot;
+mod sight;
+mod spin;
 mod table;
 mod tip;
 
@@ -31,8 +34,10 @@ pub use maps::{draw_aim_map, draw_legend, draw_tip_map};
 pub use margins::draw_margins;
 pub use plan::{draw_plan, plan_spots};
 pub use shot::{draw_proposal, draw_shot};
+pub use sight::draw_sight;
+pub use spin::draw_spin;
 pub use table::{Spot, TableView, ball_at, draw_table};
-pub use tip::{draw_tip, face_in};
+pub use tip::draw_tip;
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
 pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> Rect {

@@ -4,7 +4,7 @@ use glam::DVec2;
 use ratatui::{
     buffer::Buffer,
     style::{Color, Modifier, Style},
-    symbols::pixel::SEXTANTS,
+    symbols::pixel::{OCTANTS, SEXTANTS},
 };
 
 use crate::terminal::{
@@ -148,9 +148,10 @@ impl Rails<'_> {
 
     /// The block that is nearest to `row` inside its cell.
     fn part_of_row(&self, row: f64) -> char {
-        let thirds = [SEXTANTS[0b11], SEXTANTS[0b1100], SEXTANTS[0b11_0000]];
+        let part = |parts: f64| (row.fract() * parts) as usize;
         match self.look.glyphs {
-            Glyphs::Sextant => thirds[(row.fract() * 3.0) as usize % 3],
+            Glyphs::Octant => OCTANTS[0b11 << (2 * part(4.0))],
+            Glyphs::Sextant => SEXTANTS[0b11 << (2 * part(3.0))],
             _ if row.fract() < 0.5 => '▀',
             _ => '▄',
         }

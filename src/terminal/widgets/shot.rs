@@ -22,6 +22,8 @@ use crate::{
 
 /// Columns from which on the panel explains the numbers.
 const WIDE: u16 = 30;
+/// Columns of the spin where its three numbers share a narrow row.
+const SPIN_WIDTH: usize = 12;
 
 /// Draws the panel; without a shot it says `empty`, a line a row.
 pub fn draw_shot(
@@ -90,18 +92,53 @@ pub fn draw_proposal(
 fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
     let wide = inner.width >= WIDE;
     let rows = if wide { wide_rows(shot, aim, table.radius, look) } else { narrow_rows(shot, look) };
-    for ((name, value, note), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
-        let line = Line::from(vec![
-            Span::styled(format!("{name:<3}"), theme.faint()),
-            Span::styled(value, theme.text()),
-            Span::styled(format!(" {note}"), theme.faint()),
-        ]);
+    let is_low = !wide && usize::from(inner.height) < rows.len();
+    let lines = if is_low {
+        low_lines(shot, rows, theme, look)
+    } else {
+        rows.into_iter().map(|row| line(row, theme)).collect()
+    };
+    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
         let indent = u16::from(wide);
-        buffer.set_line(inner.x + indent, row, &line, inner.width.saturating_sub(indent));
+        buffer.set_line(inner.x + indent, row, line, inner.width.saturating_sub(indent));
     }
 }
 
 type Row = (&'static str, String, String);
+
+fn line((name, value, note): Row, theme: &Theme) -> Line<'static> {
+    Line::from(vec![
+        Span::styled(format!("{name:<3}"), theme.faint()),
+        Span::styled(value, theme.text()),
+        Span::styled(format!(" {note}"), theme.faint()),
+    ])
+}
+
+/// The narrow rows in two fewer: both angles stand in one, and the spin in another.
+fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, look: Look) -> Vec<Line<'static>> {
+    let degree = look.pick("°", "");
+    let angle = |angle: f64, width: usize| format!("{:>width$}{degree}", fixed(angle.to_degrees(), 1));
+    let angles = Line::from(vec![
+        Span::styled(look.pick("φ", "ph"), theme.faint()),
+        Span::styled(angle(shot.cue.phi, 6), theme.text()),
+        Span::styled(look.pick(" θ", " th"), theme.faint()),
+        Span::styled(angle(shot.cue.theta, 4), theme.text()),
+    ]);
+    let w = shot.impulse.spin;
+    let spin = [w.x, w.y, w.z].map(|part| fixed(part, 0));
+    // Where blanks have no room, the signs divide the numbers.
+    let blank = |part: &String| if part.starts_with('-') { part.clone() } else { format!(" {part}") };
+    let close: String = spin.iter().map(blank).collect();
+    let apart = spin.join(" ");
+    let spin = if apart.len() <= SPIN_WIDTH { apart } else { close };
+    let mut rows = rows.into_iter();
+    let mut take = |count: usize| rows.by_ref().take(count).map(|row| line(row, theme)).collect::<Vec<_>>();
+    let tip = take(2);
+    take(2);
+    let speeds = take(2);
+    let spin = (look.pick("ω0", "w0"), format!("{spin:>SPIN_WIDTH$}"), String::new());
+    tip.into_iter().chain([angles]).chain(speeds).chain([line(spin, theme)]).collect()
+}
 
 fn wide_rows(shot: &Shot, aim: String, radius: f64, look: Look) -> Vec<Row> {
     let cue = &shot.cue;

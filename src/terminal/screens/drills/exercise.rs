@@ -6,11 +6,12 @@ use ratatui::{buffer::Buffer, layout::Rect};
 use super::{draw_header, panels, panes::Panes, score};
 use crate::terminal::{
     app::App,
-    drills::{Lesson, Sight, Turn},
+    drills::{Lesson, Meets, Sight, Turn},
     look::Look,
+    shot::{Meeting, Shot},
     status::Message,
     theme::Theme,
-    widgets::{Spot, TableView, draw_table, draw_tip},
+    widgets::{Spot, TableView, draw_sight, draw_spin, draw_table, draw_tip},
 };
 
 /// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
@@ -42,6 +43,12 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
     panels::draw_stroke(app, turn, panes.stroke, buffer);
     let meant = turn.watched().map_or(&turn.stroke, |watched| &watched.meant);
     draw_tip(Some(meant), &turn.table, panes.tip, theme, look, buffer);
+    let watched = turn.watched().filter(|_| !turn.shows_hint);
+    let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
+    match spin {
+        Some(spin) => draw_spin(&spin, panes.sight, theme, look, buffer),
+        None => draw_sight(meeting(turn), panes.sight, theme, look, buffer),
+    }
     panels::draw_aim(app, turn, panes.aim, buffer);
     score::draw(app, turn, panes.score, buffer);
     standing(turn)
@@ -58,6 +65,15 @@ fn about(turn: &Turn, look: Look) -> String {
         parts.push("shifted".to_owned());
     }
     parts.join(look.pick(" · ", " - "))
+}
+
+/// What the cue ball meets first along the line of aim, or in the shot that was played.
+fn meeting(turn: &Turn) -> Option<Meeting> {
+    let Some(sight) = turn.sight() else { return turn.shot().map(Shot::meeting) };
+    Some(match sight.meets {
+        Meets::Ball(hit) => Meeting::Ball(hit),
+        Meets::Cushion(rail, _) => Meeting::Rail(rail, None),
+    })
 }
 
 /// The line of aim with the ball at its end, and the cue.

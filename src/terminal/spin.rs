@@ -1,0 +1,100 @@
+//! How a ball spins, as a player reads it: draw or follow, and side.
+
+use glam::{DVec2, DVec3};
+
+use crate::physics::{BallState, Motion};
+
+/// Spin of a level stroke through a place beside the centre, in radii, over the speed that it gives, `w R / v`: a solid
+/// ball's (thesis equations 15 and 16 at theta = 0).
+const SPIN_OF_TIP: f64 = 2.5;
+/// Share of the spin of a rolling ball up to which a sliding ball counts as without any, and beyond that as with more.
+const LITTLE: f64 = 0.1;
+/// Side below which a ball on the spot stands, rad/s.
+const STILL: f64 = 0.5;
+/// The farthest that a mark lies from the centre, in radii: a little beyond where a tip holds. At lower speeds no place gives
+/// the spin.
+const FARTHEST: f64 = 0.65;
+
+/// A ball's spin, seen from behind along its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spin {
+    /// What the ball does: it rolls, it slides, or slides with draw or follow.
+    pub word: &'static str,
+    /// Where a level cue would have had to meet the ball to give it this spin at this speed: radii to the right and up.
+    pub mark: DVec2,
+    /// Side, rad/s, positive to the left, as with the tip's offset `a`.
+    pub side: f64,
+}
+
+impl Spin {
+    /// The spin of a ball of `radius`, m, that moves in the way `motion`.
+    pub fn of(state: &BallState, motion: Motion, radius: f64) -> Self {
+        let speed = state.velocity.length();
+        let ahead = state.velocity.normalize_or_zero();
+        let across = DVec3::new(-ahead.y, ahead.x, 0.0);
+        let rolling = radius * state.spin.dot(across);
+        let side = -state.spin.z;
+        let turning = DVec2::new(-radius * side, rolling) / SPIN_OF_TIP;
+        let mark = if turning.length() <= FARTHEST * speed && speed > 0.0 {
+            turning / speed
+        } else {
+            FARTHEST * turning.normalize_or_zero()
+        };
+        let word = match motion {
+            Motion::Sliding if rolling < -LITTLE * speed => "draw",
+            Motion::Sliding if rolling > (1.0 + LITTLE) * speed => "follow",
+            Motion::Sliding => "slides",
+            Motion::Rolling => "rolls",
+            Motion::Resting => "leans",
+            Motion::Stationary if speed == 0.0 && side.abs() > STILL => "spins",
+            Motion::Stationary => "",
+        };
+        Self { word, mark, side }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        physics::CueInputs,
+        simulation::Recording,
+        table::{Layout, Table},
+    };
+
+    fn spin(cue: &str, time: f64) -> Spin {
+        let table = Table::default();
+        let layout = Layout::parse("-1,0 1,0.6 1,-0.6", &table).unwrap();
+        let recording = Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap();
+        Spin::of(&recording.state(0, time), recording.motion(0, time), table.radius)
+    }
+
+    #[test]
+    fn the_mark_begins_where_the_tip_meets_the_ball_whatever_the_direction() {
+        for (cue, a, b, word) in [
+            ("0.3,-0.2,0,0,2", 0.3, -0.2, "draw"),
+            ("-0.2,0.1,0,140,3", -0.2, 0.1, "slides"),
+            ("0.1,0.47,0,-80,1.5", 0.1, 0.47, "follow"),
+        ] {
+            let spin = spin(cue, 0.0);
+            assert!(spin.mark.abs_diff_eq(DVec2::new(-a, b), 1e-9), "{cue}: {spin:?}");
+            assert_eq!((spin.word, spin.side > 0.0), (word, a > 0.0), "{cue}");
+        }
+    }
+
+    #[test]
+    fn a_rolling_ball_is_marked_two_fifths_above_the_centre() {
+        let rolling = spin("0,-0.3,0,0,1.5", 0.9);
+        assert_eq!(rolling.word, "rolls");
+        assert!(rolling.mark.abs_diff_eq(DVec2::new(0.0, 0.4), 1e-6), "{rolling:?}");
+    }
+
+    #[test]
+    fn a_ball_that_spins_on_the_spot_is_marked_at_its_side() {
+        let state = BallState { position: DVec2::ZERO, velocity: DVec2::ZERO, spin: DVec3::new(0.0, 0.0, 20.0) };
+        let spin = Spin::of(&state, Motion::Stationary, 0.03);
+        assert_eq!((spin.word, spin.mark), ("spins", DVec2::new(FARTHEST, 0.0)));
+        let still = Spin::of(&BallState { spin: DVec3::ZERO, ..state }, Motion::Stationary, 0.03);
+        assert_eq!((still.word, still.mark), ("", DVec2::ZERO));
+    }
+}
