@@ -178,3 +178,29 @@ fn whatever_kills_it_two_seconds_are_lost_at_most() {
     session.signal("KILL");
     session.ends_within(PATIENCE);
 }
+
+#[test]
+fn an_exam_that_was_interrupted_is_gone_on_with() {
+    let home = tempfile::tempdir().unwrap();
+    let start = || Session::start_at(home.path(), carom(), 80, 24);
+    let mut first = start();
+    first.wait_for(OPENING);
+    first.send("d");
+    first.wait_for("The half ball");
+    first.send("e");
+    first.wait_for("exercise 1 of 20");
+    first.send(" ");
+    first.wait_for("to the end");
+    first.send("\r");
+    first.wait_for("next");
+    first.send("\r");
+    first.wait_for("exercise 2 of 20");
+    first.signal("HUP");
+    first.assert_left_without_trace();
+    let mut second = start();
+    second.wait_for("c goes on");
+    second.send("c");
+    second.wait_for("exercise 2 of 20");
+    second.send("q");
+    assert!(second.assert_left_without_trace().success());
+}

@@ -78,16 +78,20 @@ impl DrillScreen {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
         session.shifted = self.wishes.shifted && goal != Goal::Exam;
+        Some(Effect::Drill(self.practise(session)))
+    }
+
+    /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
+    pub(super) fn practise(&mut self, session: Session) -> Vec<Errand> {
         match Turn::new(session) {
             Ok(Some(turn)) => {
                 self.pages = vec![Page::Library, Page::Exercise];
-                let turn = self.turn.insert(turn);
-                return Some(Effect::Drill(turn.ask()));
+                return self.turn.insert(turn).ask();
             }
             Ok(None) => {}
             Err(error) => self.message = Some(Message::warning(error.to_string())),
         }
-        None
+        Vec::new()
     }
 
     fn begin_exam(&mut self, level: u8) -> Option<Effect> {

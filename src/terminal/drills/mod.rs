@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
-    drills::{Category, Exercise, Goal, Library},
+    drills::{Category, Exercise, Goal, Library, Session},
     game::Rule,
     physics::CueInputs,
     storage::Places,
@@ -156,7 +156,31 @@ impl DrillScreen {
         if self.pages.is_empty() {
             self.pages.push(Page::Library);
         }
-        Effect::Drill(vec![Errand::Load(self.places.clone())])
+        Effect::Drill(vec![self.load()])
+    }
+
+    /// Reads what is on the disk.
+    fn load(&self) -> Errand {
+        Errand::Load(self.places.clone())
+    }
+
+    /// Goes on with a session that an earlier one of the program has left.
+    pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
+        self.leave_turn();
+        self.player.at_coach = skill;
+        self.player.skill = session.skill;
+        let mut errands = vec![self.load()];
+        errands.extend(self.practise(session));
+        // A damaged one has no page.
+        if self.pages.is_empty() {
+            self.pages.push(Page::Library);
+        }
+        Effect::Drill(errands)
+    }
+
+    /// The session that is practised, as long as it is not over.
+    pub fn unfinished(&self) -> Option<&Session> {
+        self.turn.as_ref().map(|turn| &turn.session).filter(|session| !session.is_over())
     }
 
     /// Opens the library and asks under which name the position on the coach's table is to be saved.
