@@ -140,7 +140,7 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     let mut session = Session::start(80, 24);
     session.wait_for(OPENING);
     session.send("\r");
-    session.wait_for("Events 0/");
+    session.wait_for_advice();
     // A quarter of the speed: the shot is to last.
     session.send("-- ");
     session.wait_for("Events 1/");

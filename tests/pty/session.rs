@@ -152,6 +152,14 @@ impl Session {
         self.wait_until(text, |screen| screen.contents().contains(text));
     }
 
+    /// Waits until the coach has found its shot, of which nothing has been played yet.
+    pub fn wait_for_advice(&mut self) {
+        self.wait_until("the advice", |screen| {
+            let text = screen.contents();
+            text.contains("Events 0/") && !text.contains("cancel")
+        });
+    }
+
     /// Bytes that come within `time`.
     pub fn count(&mut self, time: Duration) -> usize {
         let (start, before) = (Instant::now(), self.bytes);
