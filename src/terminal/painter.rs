@@ -328,4 +328,19 @@ mod tests {
         }]);
         assert!(bytes < 60, "{bytes}");
     }
+
+    #[test]
+    fn a_colour_that_comes_again_and_again_is_named_once_a_frame() {
+        let bytes = check(&[
+            |_| (),
+            |frame| {
+                for x in 0..WIDTH {
+                    let color = if x % 2 == 0 { Color::Rgb(200, 100, 101) } else { Color::Rgb(201, 102, 103) };
+                    frame.buffer_mut().set_string(x, 1, "#", Style::new().fg(color));
+                }
+            },
+        ]);
+        // A move and a character a cell, and not 19 bytes more for its colour.
+        assert!(bytes < usize::from(WIDTH) * 5 + 100, "{bytes}");
+    }
 }

@@ -144,10 +144,10 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     // A quarter of the speed: the shot is to last.
     session.send("-- ");
     session.wait_for("Events 1/");
+    let before = clock(session.screen()).unwrap();
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
     let stopped = Instant::now();
-    let before = clock(session.screen()).unwrap();
     std::thread::sleep(Duration::from_secs(4));
     session.come_back_to("Events");
     session.wait_until("the clock", |screen| clock(screen).is_some());

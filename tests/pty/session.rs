@@ -118,6 +118,14 @@ impl Session {
 
     /// The terminal goes away. (Its last words are an empty line and Ctrl-D: the library that makes it has it so.)
     pub fn cut(&mut self) {
+        // Whoever waits for something to read holds it: there has to be something.
+        let mut sizes = [(100, 30), (120, 40)].into_iter().cycle();
+        while self.line.as_ref().is_some_and(|line| line.is_asked)
+            && let Some((width, height)) = sizes.next()
+        {
+            self.resize(width, height);
+            self.take(Duration::from_millis(200));
+        }
         self.line = None;
     }
 
