@@ -3,45 +3,35 @@
 //!
 //! `cargo bench --bench watching` takes four minutes. Processor times come from `/proc` and are left out elsewhere.
 
+mod pty;
+
 use std::{
-    fs,
-    io::Read,
     path::Path,
     process::{Child, Command, Stdio},
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, Ordering},
-    },
     thread,
     time::{Duration, Instant},
 };
 
 use carom::learning::run::standing::Standing;
-use portable_pty::{CommandBuilder, MasterPty, PtySize, native_pty_system};
 
-const CAROM: &str = env!("CARGO_BIN_EXE_carom");
+use pty::{CAROM, Terminal, frames, part, seconds_of};
+
 /// Pairs of stretches with and without a watcher, and the length of each.
 const PAIRS: usize = 10;
 const STRETCH: Duration = Duration::from_secs(10);
 /// Time in which the first picture is painted and the first shots are replayed: it is told apart.
 const SETTLING: Duration = Duration::from_secs(3);
-/// What every frame begins with (synchronized output).
-const FRAME: &[u8] = b"\x1b[?2026h";
 
 fn main() {
     let folder = tempfile::tempdir().expect("a folder for the run");
     let run = folder.path().join("run");
     let training = Training(train(&run));
     for (width, height) in [(80, 24), (120, 40)] {
-        let watcher = Watcher::start(&run, width, height);
-        thread::sleep(SETTLING);
-        let first = watcher.take();
+        let mut watcher = watch(&run, width, height);
+        let first = watcher.take(SETTLING);
         let (cpu, begin) = (watcher.seconds(), Instant::now());
-        thread::sleep(3 * STRETCH);
-        let (bytes, passed) = (watcher.take(), begin.elapsed().as_secs_f64());
-        let mut frames = frames(&bytes);
-        frames.sort_unstable();
-        let part = |share: f64| frames.get((share * (frames.len().max(1) - 1) as f64) as usize).copied().unwrap_or(0);
+        let (bytes, passed) = (watcher.take(3 * STRETCH), begin.elapsed().as_secs_f64());
+        let frames = frames(&bytes);
         println!(
             "{width}x{height}: first {} s {} bytes; then {:.0} bytes/s in {:.1} frames/s, a frame {} bytes on average, \
              median {}, 99 % {}, largest {}",
@@ -50,9 +40,9 @@ fn main() {
             bytes.len() as f64 / passed,
             frames.len() as f64 / passed,
             bytes.len() / frames.len().max(1),
-            part(0.5),
-            part(0.99),
-            part(1.0)
+            part(&frames, 0.5),
+            part(&frames, 0.99),
+            part(&frames, 1.0)
         );
         if let (Some(before), Some(after)) = (cpu, watcher.seconds()) {
             println!("{width}x{height}: the watcher takes {:.2} % of a processor", 100.0 * (after - before) / passed);
@@ -100,75 +90,12 @@ fn ratio(run: &Path, training: u32) -> Option<f64> {
         Some((after.0 - before.0) / (after.1 - before.1) as f64)
     };
     let alone = a_shot()?;
-    let _watcher = Watcher::start(run, 120, 40);
-    thread::sleep(SETTLING);
+    let mut watcher = watch(run, 120, 40);
+    watcher.take(SETTLING);
     Some(a_shot()? / alone)
 }
 
-/// User and system time of a process, s.
-fn seconds_of(process: u32) -> Option<f64> {
-    // Ticks of a hundredth of a second on every Linux there is; the name before the last bracket may have blanks.
-    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    let ticks = |index: usize| fields.get(index)?.parse::<f64>().ok();
-    Some((ticks(11)? + ticks(12)?) / 100.0)
-}
-
-fn frames(bytes: &[u8]) -> Vec<usize> {
-    let starts: Vec<usize> =
-        bytes.windows(FRAME.len()).enumerate().filter(|(_, window)| *window == FRAME).map(|(at, _)| at).collect();
-    starts.iter().zip(starts.iter().skip(1).chain([&bytes.len()])).map(|(start, end)| end - start).collect()
-}
-
 /// `carom watch` in a pseudo-terminal.
-struct Watcher {
-    child: Box<dyn portable_pty::Child + Send + Sync>,
-    bytes: Arc<Mutex<Vec<u8>>>,
-    ended: Arc<AtomicBool>,
-    _master: Box<dyn MasterPty + Send>,
-}
-
-impl Watcher {
-    fn start(run: &Path, columns: u16, rows: u16) -> Self {
-        let pair = native_pty_system()
-            .openpty(PtySize { rows, cols: columns, pixel_width: 0, pixel_height: 0 })
-            .expect("a pseudo-terminal");
-        let mut command = CommandBuilder::new(CAROM);
-        command.arg("watch");
-        command.arg(run);
-        for (name, value) in [("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LC_ALL", "C.UTF-8")] {
-            command.env(name, value);
-        }
-        let child = pair.slave.spawn_command(command).expect("carom watch starts");
-        let mut reader = pair.master.try_clone_reader().expect("its output");
-        let (bytes, ended) = (Arc::default(), Arc::new(AtomicBool::new(false)));
-        let (kept, over) = (Arc::clone(&bytes), Arc::clone(&ended));
-        thread::spawn(move || {
-            let mut buffer = vec![0; 65536];
-            while let Ok(count @ 1..) = reader.read(&mut buffer) {
-                let kept: &Mutex<Vec<u8>> = &kept;
-                kept.lock().expect("nobody panics with it").extend_from_slice(&buffer[..count]);
-            }
-            over.store(true, Ordering::Relaxed);
-        });
-        Self { child, bytes, ended, _master: pair.master }
-    }
-
-    /// What it has written since the last call.
-    fn take(&self) -> Vec<u8> {
-        assert!(!self.ended.load(Ordering::Relaxed), "carom watch has ended by itself");
-        std::mem::take(&mut self.bytes.lock().expect("nobody panics with it"))
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        seconds_of(self.child.process_id()?)
-    }
-}
-
-impl Drop for Watcher {
-    fn drop(&mut self) {
-        // It may have ended already.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
+fn watch(run: &Path, columns: u16, rows: u16) -> Terminal {
+    Terminal::start(&["watch", &run.to_string_lossy()], (columns, rows), "")
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     coach::Skill,
+    drills::Session,
     game::Rule,
     storage::replace,
     table::{Layout, Table},
@@ -28,12 +29,21 @@ pub struct Last {
     pub skill: Skill,
     /// Whether the next point counted too.
     pub plan: bool,
+    /// What was practised, where that was on the screen and not over.
+    #[serde(default)]
+    pub practice: Option<Session>,
 }
 
 impl Last {
-    /// What is to be remembered.
+    /// What is to be remembered of the coach's screen.
     pub const fn new(table: Table, layout: Layout, rule: Rule, skill: Skill, plan: bool) -> Self {
-        Self { version: VERSION, table, layout, rule, skill, plan }
+        Self { version: VERSION, table, layout, rule, skill, plan, practice: None }
+    }
+
+    /// The same with what is practised.
+    #[must_use]
+    pub fn with_practice(self, practice: Option<Session>) -> Self {
+        Self { practice, ..self }
     }
 
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and

@@ -58,7 +58,8 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
         let _ = to_screen.send(News::Answer(answer));
     })?;
     let remembered = (None, Instant::now());
-    let mut runner = Runner { app, session, jobs, errands, places, remembered, logged: None };
+    let ticked = Instant::now();
+    let mut runner = Runner { app, session, jobs, errands, places, ticked, remembered, logged: None };
     let end = runner.until_the_end(&news);
     runner.remember(true);
     info!(?end, "the screen closes");
@@ -87,6 +88,8 @@ struct Runner {
     jobs: Sender<Box<Job>>,
     errands: Errands,
     places: Places,
+    /// When the app was last told how much time had passed, or the program came back from being stopped.
+    ticked: Instant,
     /// What was last remembered of the session, and when.
     remembered: (Option<Last>, Instant),
     /// The refusal or failure that was last written down.
@@ -98,11 +101,10 @@ impl Runner {
     fn until_the_end(&mut self, news: &Receiver<News>) -> io::Result<Option<i32>> {
         self.draw()?;
         let mut pace = Pace::new(Instant::now());
-        let mut ticked = Instant::now();
         loop {
             self.errands.want(self.app.wanted())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
-            let first = match pace.wake(interval) {
+            let first = match pace.wake(interval).into_iter().chain(self.forgets()).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(due) => news.recv_timeout(due.saturating_duration_since(Instant::now())),
@@ -116,8 +118,8 @@ impl Runner {
                 std::thread::sleep(LEAST_INTERVAL.saturating_sub(pace.since(Instant::now())));
             }
             // Time that passed while nothing moved does not count.
-            let passed = ticked.elapsed();
-            ticked = Instant::now();
+            let passed = self.ticked.elapsed();
+            self.ticked = Instant::now();
             if interval.is_some() {
                 self.app.tick(passed.as_secs_f64());
             }
@@ -133,14 +135,21 @@ impl Runner {
             if can_wait && !pace.news(Instant::now(), self.app.frame_interval().is_some()) {
                 continue;
             }
-            self.draw()?;
-            pace.drew(Instant::now());
+            // Before the picture: a slow link may hold that up.
             self.remember(false);
             self.write_down();
+            self.draw()?;
+            pace.drew(Instant::now());
         }
     }
 
-    /// Writes down what the next session may go on from, at the end and now and then: a crash costs a few seconds of it.
+    /// When something is to be written down for the next session, if there is anything new.
+    fn forgets(&self) -> Option<Instant> {
+        let (before, when) = &self.remembered;
+        (self.app.last() != *before).then(|| *when + REMEMBERED)
+    }
+
+    /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
     fn remember(&mut self, at_the_end: bool) {
         let (before, when) = &self.remembered;
         if !at_the_end && when.elapsed() < REMEMBERED {
@@ -186,7 +195,7 @@ impl Runner {
             // Somebody else may have had the terminal since.
             News::Signal(SIGCONT) => {
                 self.session.leave()?;
-                self.session.enter()?;
+                self.come_back()?;
                 None
             }
             News::Signal(signal) => return Ok(Next::Die(signal)),
@@ -222,6 +231,12 @@ impl Runner {
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
         emulate_default_handler(SIGTSTP)?;
+        self.come_back()
+    }
+
+    /// Takes the terminal again. A shot that plays goes on from where it was: nobody has seen the time between.
+    fn come_back(&mut self) -> io::Result<()> {
+        self.ticked = Instant::now();
         self.session.enter()
     }
 }

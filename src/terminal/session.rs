@@ -2,7 +2,7 @@
 
 use std::{
     fs::File,
-    io::{self, IsTerminal, Write},
+    io::{self, IsTerminal},
     os::fd::AsFd,
     panic,
     sync::atomic::{AtomicBool, Ordering},
@@ -10,6 +10,7 @@ use std::{
 };
 
 use crossterm::{
+    clipboard::CopyToClipboard,
     cursor::{Hide, Show},
     event::{DisableBracketedPaste, EnableBracketedPaste},
     execute,
@@ -90,8 +91,7 @@ impl Session {
     /// # Errors
     /// What the terminal answers.
     pub fn copy(&mut self, text: &str) -> io::Result<()> {
-        write!(self.output, "\x1b]52;c;{}\x07", base64(text.as_bytes()))?;
-        self.output.flush()
+        execute!(self.output, CopyToClipboard::to_clipboard_from(text))
     }
 
     /// Draws one picture and writes what has changed, in one piece; nothing where nothing has.
@@ -109,20 +109,6 @@ impl Drop for Session {
         // There is nobody left to tell.
         let _ = self.leave();
     }
-}
-
-/// The bytes in the letters that the terminal wants (RFC 4648, section 4).
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let bits = (0..3).fold(0_u32, |bits, n| bits << 8 | u32::from(three.get(n).copied().unwrap_or(0)));
-        for n in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * n) & 63) as usize];
-            text.push(if n <= three.len() { char::from(letter) } else { '=' });
-        }
-    }
-    text
 }
 
 /// Whether there is a terminal on both sides that can show pictures.
@@ -157,14 +143,41 @@ fn restore_on_panic() {
 
 #[cfg(test)]
 mod tests {
-    use super::base64;
+    use std::io::Read;
+
+    use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+    use ratatui::style::Style;
+
+    use super::Session;
 
     #[test]
-    fn what_is_copied_is_written_as_the_rfc_has_it() {
-        let texts = ["", "f", "fo", "foo", "foob", "fooba", "foobar"];
-        assert_eq!(
-            texts.map(|text| base64(text.as_bytes())),
-            ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]
-        );
+    #[ignore = "the next test runs it, in a terminal of its own"]
+    fn draws_and_panics() {
+        let mut session = Session::start(true).unwrap();
+        session.draw(|frame| frame.buffer_mut().set_string(0, 0, "picture", Style::new())).unwrap();
+        panic!("something is wrong");
+    }
+
+    #[test]
+    fn a_panic_gives_the_terminal_back_and_is_reported_then() {
+        let pair = native_pty_system().openpty(PtySize::default()).unwrap();
+        let mut command = CommandBuilder::new(std::env::current_exe().unwrap());
+        command.args(["--exact", "--ignored", "--nocapture", "terminal::session::tests::draws_and_panics"]);
+        let mut child = pair.slave.spawn_command(command).unwrap();
+        drop(pair.slave);
+        let (mut reader, mut bytes) = (pair.master.try_clone_reader().unwrap(), Vec::new());
+        // The end of a pseudo-terminal is an error to whoever reads it.
+        let _ = reader.read_to_end(&mut bytes);
+        assert_eq!(child.wait().unwrap().exit_code(), 101);
+        let text = String::from_utf8_lossy(&bytes);
+        let [picture, back, report] =
+            ["picture", "\x1b[?1049l", "something is wrong"].map(|part| text.find(part).expect(part));
+        assert!(picture < back && back < report, "{text:?}");
+        assert!(text[report..].contains("\r\n"), "raw mode was left on: {text:?}");
+        let mut terminal = vt100::Parser::default();
+        terminal.process(&bytes);
+        let screen = terminal.screen();
+        assert!(!screen.alternate_screen() && !screen.hide_cursor() && !screen.bracketed_paste());
+        assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
     }
 }

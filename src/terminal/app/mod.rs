@@ -18,7 +18,7 @@ use super::{
     coach::CoachScreen,
     drills::{Balls, DrillReport, DrillScreen, Errand},
     finder::Finder,
-    keymap::{self, Action, Place, When},
+    keymap::{self, Action, CoachAction, Place, When},
     last::Last,
     look::{Depth, Glyphs, Look},
     recommender::{Answer, Job},
@@ -181,7 +181,8 @@ impl App {
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
     pub fn last(&self) -> Option<Last> {
-        self.coach.last()
+        let practice = if self.screen == Screen::Drills { self.drills.unfinished() } else { None };
+        self.coach.last(practice.cloned())
     }
 
     /// Says that something is wrong with the settings.
@@ -276,6 +277,11 @@ impl App {
                 return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
             }
             Action::Finder(action) => return self.find(action),
+            Action::Coach(CoachAction::Resume) => {
+                let practice = self.coach.resume()?;
+                self.screen = Screen::Drills;
+                return Some(self.drills.resume(practice, self.coach.tutor.skill));
+            }
             Action::Coach(action) => return self.coach.update(action),
             Action::Drill(action) => {
                 let effect = self.drills.update(action);

@@ -52,7 +52,8 @@ impl CoachScreen {
             Action::NextShot => self.choose(|advised| advised.turn(true)),
             Action::PreviousShot => self.choose(|advised| advised.turn(false)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
-            Action::Resume => self.resume(),
+            // The app goes on with what was practised.
+            Action::Resume => drop(self.resume()),
             Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
             other => self.play(other),
         }

@@ -29,6 +29,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
+    drills::Session,
     game::Rule,
     table::{Layout, LayoutError, Table},
 };
@@ -137,16 +138,20 @@ impl CoachScreen {
 
     /// Offers to go on from where the last session ended, if that is somewhere else.
     pub fn offer(&mut self, last: Option<Last>) {
-        self.before = last.filter(|last| last.layout != *self.layout() || last.table != self.table);
+        let is_elsewhere =
+            |last: &Last| last.layout != *self.layout() || last.table != self.table || last.practice.is_some();
+        self.before = last.filter(is_elsewhere);
         if self.before.is_some() {
             self.message = Some(Message::plain("c goes on from where the last session ended"));
         }
     }
 
-    /// What the next session may go on from; `None` while the balls lie as at the start.
-    pub fn last(&self) -> Option<Last> {
+    /// What the next session may go on from, with what is practised; `None` while nothing is and the balls lie as at the
+    /// start.
+    pub fn last(&self, practice: Option<Session>) -> Option<Last> {
         let Tutor { rule, skill, plan, .. } = self.tutor;
-        self.is_begun().then(|| Last::new(self.table.clone(), *self.layout(), rule, skill, plan))
+        let last = || Last::new(self.table.clone(), *self.layout(), rule, skill, plan);
+        (self.is_begun() || practice.is_some()).then(|| last().with_practice(practice))
     }
 
     /// Whether anything has been done since the start.
@@ -154,12 +159,13 @@ impl CoachScreen {
         self.balls.can_undo() || self.balls.present().advised.is_some()
     }
 
-    /// Goes on from where the last session ended.
-    pub(super) fn resume(&mut self) {
-        let Some(last) = self.before.take() else { return };
+    /// Goes on from where the last session ended; gives what was practised there.
+    pub fn resume(&mut self) -> Option<Session> {
+        let last = self.before.take()?;
         self.take_position(&last.table, last.layout, last.rule);
         self.tutor = Tutor { skill: last.skill, plan: last.plan, ..self.tutor.clone() };
         self.message = Some(Message::good("this is where the last session ended; Enter asks the coach"));
+        last.practice
     }
 
     /// Begins as the user wants it.

@@ -70,30 +70,34 @@ impl DrillScreen {
 
     fn open_marked(&mut self) -> Option<Effect> {
         let exercise = self.catalogue.marked()?.clone();
-        self.begin(self.wishes.goal, vec![exercise])
+        Some(self.begin(self.wishes.goal, vec![exercise]))
     }
 
     /// Begins a session of these exercises and opens the page of the first.
-    pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Option<Effect> {
+    pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
         session.shifted = self.wishes.shifted && goal != Goal::Exam;
+        Effect::Drill(self.practise(session))
+    }
+
+    /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
+    pub(super) fn practise(&mut self, session: Session) -> Vec<Errand> {
         match Turn::new(session) {
             Ok(Some(turn)) => {
                 self.pages = vec![Page::Library, Page::Exercise];
-                let turn = self.turn.insert(turn);
-                return Some(Effect::Drill(turn.ask()));
+                return self.turn.insert(turn).ask();
             }
             Ok(None) => {}
             Err(error) => self.message = Some(Message::warning(error.to_string())),
         }
-        None
+        Vec::new()
     }
 
     fn begin_exam(&mut self, level: u8) -> Option<Effect> {
         let seed = self.seed();
         match exam::draw(self.catalogue.library().exercises(), level, seed) {
-            Ok(exercises) => self.begin(Goal::Exam, exercises),
+            Ok(exercises) => Some(self.begin(Goal::Exam, exercises)),
             Err(error) => {
                 self.message = Some(Message::warning(error.to_string()));
                 None

@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     coach::Skill,
-    drills::{Exercise, Goal, Library},
+    drills::{Exercise, Goal, Library, Session},
     game::Rule,
     physics::CueInputs,
     storage::Places,
@@ -150,7 +150,7 @@ impl DrillScreen {
     /// again.
     pub fn open(&mut self, skill: Skill) -> Effect {
         self.message = None;
-        let mut errands = vec![Errand::Load(self.places.clone())];
+        let mut errands = vec![self.load()];
         if skill != self.player.at_coach {
             self.player.choose(skill);
             errands.extend(self.change_player());
@@ -159,6 +159,30 @@ impl DrillScreen {
             self.pages.push(Page::Library);
         }
         Effect::Drill(errands)
+    }
+
+    /// Reads what is on the disk.
+    fn load(&self) -> Errand {
+        Errand::Load(self.places.clone())
+    }
+
+    /// Goes on with a session that an earlier one of the program has left.
+    pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
+        self.leave_turn();
+        self.player.at_coach = skill;
+        self.player.skill = session.skill;
+        let mut errands = vec![self.load()];
+        errands.extend(self.practise(session));
+        // A damaged one has no page.
+        if self.pages.is_empty() {
+            self.pages.push(Page::Library);
+        }
+        Effect::Drill(errands)
+    }
+
+    /// The session that is practised, as long as it is not over.
+    pub fn unfinished(&self) -> Option<&Session> {
+        self.turn.as_ref().map(|turn| &turn.session).filter(|session| !session.is_over())
     }
 
     /// Opens the library and asks under which name the position on the coach's table is to be saved.

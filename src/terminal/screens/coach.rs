@@ -40,7 +40,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         time: app.playback().time,
         is_moving: app.mode() == Mode::Watching,
         front: app.selected(),
-        is_lean: planned.is_some(),
+        // While the coach thinks each better shot would move them all.
+        is_lean: planned.is_some() || app.spinner().is_some(),
         spots: &spots,
         theme,
         look,
