@@ -12,7 +12,7 @@ use signal_hook::{
     iterator::Signals,
 };
 
-use super::{drills::DrillReport, recommender::Answer, training::Report};
+use super::{drills::DrillReport, recommender::Answer, settings::SettingsReport, training::Report};
 
 /// Something that the screen has to deal with.
 #[derive(Debug)]
@@ -29,6 +29,8 @@ pub enum News {
     Report(Report),
     /// Something has come of an errand of the drill screens.
     Drill(DrillReport),
+    /// Something has come of an errand of the settings.
+    Settings(SettingsReport),
 }
 
 /// Starts the threads that read the terminal and the signals into one channel.

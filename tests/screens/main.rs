@@ -8,5 +8,8 @@ mod drills;
 mod finder;
 mod keys;
 mod mouse;
+mod settings;
+mod tabs;
+mod toasts;
 mod training;
 mod training_player;

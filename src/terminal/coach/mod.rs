@@ -30,6 +30,7 @@ use super::{
 use crate::{
     coach::Skill,
     game::Rule,
+    learning::Policy,
     table::{Layout, LayoutError, Table},
 };
 
@@ -41,9 +42,11 @@ const FIRST_STEP: usize = 2;
 /// Seconds a picture of the spinner stays.
 const SPINNER_INTERVAL: f64 = 0.1;
 
-/// The balls and the advice on them.
+/// Everything that a step back brings back: where the balls lie, on which table, who is asked, and the advice on them.
 #[derive(Clone, Debug)]
 struct Position {
+    table: Arc<Table>,
+    policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
     advised: Option<Advised>,
 }
@@ -77,8 +80,6 @@ impl View {
 /// The state of the coach's screen.
 #[derive(Debug)]
 pub struct CoachScreen {
-    /// The table that is played on.
-    pub table: Table,
     /// What the arrow keys are for.
     pub mode: Mode,
     /// The ball that the arrow keys move.
@@ -115,7 +116,6 @@ impl CoachScreen {
     pub fn new(table: Table, layout: Layout, seed: u64) -> Result<Self, LayoutError> {
         layout.validate(&table)?;
         Ok(Self {
-            table,
             mode: Mode::Placing,
             selected: 0,
             playback: Playback::default(),
@@ -123,7 +123,7 @@ impl CoachScreen {
             tutor: Tutor::default(),
             own: None,
             view: View::default(),
-            balls: History::new(Position { layout, advised: None }),
+            balls: History::new(Position { table: Arc::new(table), policy: None, layout, advised: None }),
             drag: None,
             before: None,
             step: FIRST_STEP,
@@ -137,7 +137,7 @@ impl CoachScreen {
 
     /// Offers to go on from where the last session ended, if that is somewhere else.
     pub fn offer(&mut self, last: Option<Last>) {
-        self.before = last.filter(|last| last.layout != *self.layout() || last.table != self.table);
+        self.before = last.filter(|last| last.layout != *self.layout() || last.table != *self.table());
         if self.before.is_some() {
             self.message = Some(Message::plain("c goes on from where the last session ended"));
         }
@@ -146,7 +146,7 @@ impl CoachScreen {
     /// What the next session may go on from; `None` while the balls lie as at the start.
     pub fn last(&self) -> Option<Last> {
         let Tutor { rule, skill, plan, .. } = self.tutor;
-        self.is_begun().then(|| Last::new(self.table.clone(), *self.layout(), rule, skill, plan))
+        self.is_begun().then(|| Last::new(self.table().clone(), *self.layout(), rule, skill, plan))
     }
 
     /// Whether anything has been done since the start.
@@ -167,21 +167,68 @@ impl CoachScreen {
         let Settings { rule, skill, plan, .. } = *settings;
         self.tutor = Tutor { rule, skill, plan, ..self.tutor.clone() };
         self.budget = Duration::from_millis(settings.think_ms);
-        self.step = STEPS.iter().position(|step| *step == settings.step_mm).unwrap_or(FIRST_STEP);
+        self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
+    }
+
+    /// Takes what has been set otherwise since `before`, and leaves all else as it is.
+    ///
+    /// # Errors
+    /// A sentence where the table cannot be read; everything else is taken.
+    pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
+        self.budget = Duration::from_millis(settings.think_ms);
+        if before.step_mm != settings.step_mm {
+            self.set_step(settings.step_mm);
+        }
+        if before.speed != settings.speed {
+            self.playback.set_speed(settings.speed);
+        }
+        let mut tutor = self.tutor.clone();
+        if before.rule != settings.rule {
+            tutor.rule = settings.rule;
+        }
+        if before.skill != settings.skill {
+            tutor.skill = settings.skill;
+        }
+        if before.plan != settings.plan {
+            tutor.plan = settings.plan;
+        }
+        if tutor != self.tutor {
+            self.cancel();
+            self.tutor = tutor;
+            self.rest();
+        }
+        if before.table != settings.table {
+            let table = settings.table()?;
+            if table != *self.table() {
+                self.take_tutor(&table, Tutor { policy: None, ..self.tutor.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets somebody else play from now on.
+    pub fn choose_skill(&mut self, skill: Skill) {
+        if skill != self.tutor.skill {
+            self.cancel();
+            self.tutor.skill = skill;
+            self.rest();
+        }
+    }
+
+    fn set_step(&mut self, step_mm: f64) {
+        self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
     }
 
     /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
     pub fn take_tutor(&mut self, table: &Table, tutor: Tutor) {
         self.cancel();
-        if self.table == *table {
-            let layout = *self.layout();
-            self.place(layout);
-        } else {
-            self.balls = History::new(Position { layout: Layout::opening(table), advised: None });
-            self.table = table.clone();
-            self.rest();
-        }
+        self.drop_ball();
+        let is_same = self.table() == table;
+        let layout = if is_same { *self.layout() } else { Layout::opening(table) };
+        let table = if is_same { Arc::clone(&self.balls.present().table) } else { Arc::new(table.clone()) };
+        self.balls.push(Position { table, policy: tutor.policy.clone(), layout, advised: None });
+        self.rest();
         self.message = Some(Message::good(format!("the coach plays with {}; Enter asks it", tutor.name())));
         self.tutor = Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor };
     }
@@ -189,13 +236,18 @@ impl CoachScreen {
     /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
-        if self.table != *table {
+        if self.table() != table {
             self.take_tutor(table, Tutor::default());
         }
         self.cancel();
         self.tutor.rule = rule;
         self.place(layout);
         self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
+    }
+
+    /// The table that is played on.
+    pub fn table(&self) -> &Table {
+        &self.balls.present().table
     }
 
     /// Where the balls lie before the shot.

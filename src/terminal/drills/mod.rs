@@ -196,6 +196,11 @@ impl DrillScreen {
         self.pages.is_empty()
     }
 
+    /// Whether an exam is under way, that leaving would end.
+    pub fn is_in_exam(&self) -> bool {
+        self.turn.as_ref().is_some_and(|turn| turn.is_exam() && !turn.session.is_over())
+    }
+
     /// Balls that are to go to the coach's table; asked once.
     pub const fn take_for_coach(&mut self) -> Option<Balls> {
         self.for_coach.take()

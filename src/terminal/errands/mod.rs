@@ -6,12 +6,19 @@ mod practice;
 mod recorder;
 mod trainer;
 
-use std::{io, path::PathBuf, sync::mpsc::Sender, thread, time::Duration};
+use std::{
+    io,
+    path::PathBuf,
+    sync::mpsc::{Sender, channel},
+    thread,
+    time::Duration,
+};
 
 use self::{polling::Poll, recorder::Recorder};
 use super::{
     drills::Errand,
     inbox::News,
+    settings::{SettingsErrand, SettingsFile},
     training::{Keeping, Launch, Reel, Report, Slot, Wanted},
 };
 use crate::{
@@ -41,12 +48,14 @@ pub struct Errands {
     followed: [Option<Poll>; 2],
     /// To the thread of the drill screens, which starts with the first errand.
     clerk: Option<Sender<Errand>>,
+    /// To the thread of the settings' file, likewise.
+    setter: Option<Sender<SettingsErrand>>,
 }
 
 impl Errands {
     /// Nothing is wanted yet.
     pub fn new(to_screen: Sender<News>) -> Self {
-        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], clerk: None }
+        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], clerk: None, setter: None }
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -114,6 +123,21 @@ impl Errands {
         Ok(())
     }
 
+    /// Reads or changes the settings' file, one errand after the other.
+    ///
+    /// # Errors
+    /// As [`Errands::train`].
+    pub fn set(&mut self, errand: SettingsErrand) -> io::Result<()> {
+        let setter = match self.setter.take() {
+            Some(setter) => setter,
+            None => start_setter(self.to_screen.clone())?,
+        };
+        // The thread ends with the program alone.
+        let _ = setter.send(errand);
+        self.setter = Some(setter);
+        Ok(())
+    }
+
     /// Starts a process that trains.
     ///
     /// # Errors
@@ -167,6 +191,23 @@ impl Errands {
         })?;
         Ok(())
     }
+}
+
+/// Starts the thread of the settings' file.
+///
+/// # Errors
+/// A thread that could not be started.
+fn start_setter(to_screen: Sender<News>) -> io::Result<Sender<SettingsErrand>> {
+    let (sender, errands) = channel::<SettingsErrand>();
+    thread::Builder::new().name("settings".into()).spawn(move || {
+        let mut file = SettingsFile::default();
+        for errand in errands {
+            if to_screen.send(News::Settings(file.run(&errand))).is_err() {
+                break;
+            }
+        }
+    })?;
+    Ok(sender)
 }
 
 /// Lists the runs, and reports where anything has changed.
