@@ -150,11 +150,11 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.wait_for("white at x -710.0 mm, y -110.0 mm");
     session.send("\r");
     session.wait_for("Events 0/");
-    session.wait_for("paused");
+    session.wait_for("‖");
     session.send(".");
     session.wait_for("Events 1/");
     session.send(" ");
-    session.wait_for("playing");
+    session.wait_until("it plays", |screen| !screen.contents().contains('‖'));
     session.wait_until("the next event", |screen| !screen.contents().contains("Events 1/"));
     session.send(" ?");
     session.wait_for("Placing the balls");
@@ -176,9 +176,9 @@ fn playback_stays_small_enough_for_a_slow_link() {
     let mut session = Session::start(120, 40);
     session.wait_for("white at x -710.0 mm");
     session.send("\r");
-    session.wait_for("paused");
+    session.wait_for("‖");
     session.send(" ");
-    session.wait_for("playing");
+    session.wait_until("it plays", |screen| !screen.contents().contains('‖'));
     let frame = session.count(Duration::from_secs(1)) / 30;
     // 230 in the first seconds of a shot, when most balls move; 540 with crossterm's backend.
     assert!((20..450).contains(&frame), "{frame} bytes a frame");

@@ -63,8 +63,10 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
     assert_eq!((player.app.place(), time(&player)), (Place::Drill(DrillPlace::Exercise), before));
     player.wait(60.0).says("your hand: ");
     let exam = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("e Space Enter Enter F2 s");
-    exam.says("an exam is under way, and saving would end it");
-    exam.press("d").says("exercise 2 of 20");
+    exam.says("save the balls as");
+    let exam = exam.type_in("mine").press("Enter");
+    exam.says("saved as mine").says("exercise 2 of 20");
+    assert_eq!(exam.press("F2 s Esc").app.place(), Place::Coach, "one has come from there");
     let typing = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("a").type_in("carom:half");
     let typing = typing.press("F5 F3");
     typing.says("carom:half_");

@@ -271,9 +271,6 @@ impl App {
                 *self.message_mut() = Some(Message::plain(format!("theme: {}", self.palette)));
             }
             Action::Open(screen) => return self.open(screen),
-            Action::SavePosition if self.drills.is_in_exam() => {
-                self.toasts.push("an exam is under way, and saving would end it; d goes back to it".to_owned(), true);
-            }
             Action::SavePosition => {
                 self.coach.playback.pause();
                 self.screen = Screen::Drills;

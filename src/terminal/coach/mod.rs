@@ -222,27 +222,29 @@ impl CoachScreen {
 
     /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
     pub fn take_tutor(&mut self, table: &Table, tutor: Tutor) {
-        self.cancel();
-        self.drop_ball();
-        let is_same = self.table() == table;
-        let layout = if is_same { *self.layout() } else { Layout::opening(table) };
-        let table = if is_same { Arc::clone(&self.balls.present().table) } else { Arc::new(table.clone()) };
-        self.balls.push(Position { table, policy: tutor.policy.clone(), layout, advised: None });
-        self.rest();
-        self.message = Some(Message::good(format!("the coach plays with {}; Enter asks it", tutor.name())));
-        self.tutor = Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor };
+        let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
+        let news = format!("the coach plays with {}; Enter asks it", tutor.name());
+        self.take(table, layout, Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor });
+        self.message = Some(Message::good(news));
     }
 
     /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
-        if self.table() != table {
-            self.take_tutor(table, Tutor::default());
-        }
-        self.cancel();
-        self.tutor.rule = rule;
-        self.place(layout);
+        let policy = self.tutor.policy.clone().filter(|_| self.table() == table);
+        self.take(table, layout, Tutor { policy, rule, ..self.tutor.clone() });
         self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
+    }
+
+    /// Puts balls on a table, as a step that can be taken back, for `tutor` to be asked.
+    fn take(&mut self, table: &Table, layout: Layout, tutor: Tutor) {
+        self.cancel();
+        self.drop_ball();
+        let known = &self.balls.present().table;
+        let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
+        self.balls.push(Position { table, policy: tutor.policy.clone(), layout, advised: None });
+        self.tutor = tutor;
+        self.rest();
     }
 
     /// The table that is played on.

@@ -301,6 +301,12 @@ pub fn chord_of(place: Place, action: Action) -> Option<Chord> {
     all.into_iter().find(|(_, known)| *known == action).map(|(chord, _)| *chord)
 }
 
+/// The key that opens `screen` from everywhere.
+pub fn chord_of_tab(screen: Screen) -> Option<Chord> {
+    let all = TABS.iter().flat_map(|binding| binding.keys);
+    all.into_iter().find(|(_, known)| *known == Action::Open(screen)).map(|(chord, _)| *chord)
+}
+
 /// Everything that a key does anywhere: the page's name and what it does there, in the order of the pages.
 pub fn works_of(chord: Chord) -> Vec<(&'static str, &'static str)> {
     let mut works = Vec::new();

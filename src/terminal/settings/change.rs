@@ -46,9 +46,8 @@ pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged>
     let text = text.unwrap_or(FIRST_LINE);
     let mut document: DocumentMut = text.parse().map_err(|error| damaged(text, &error))?;
     match change {
-        Change::Value(key, value) => put(document.as_table_mut(), key, value, text)?,
         Change::Default(key, _) if !document.contains_key(key) => {}
-        Change::Default(key, value) => put(document.as_table_mut(), key, value, text)?,
+        Change::Value(key, value) | Change::Default(key, value) => put(document.as_table_mut(), key, value, text)?,
         Change::Keys(gone, added) => {
             let is_gone = |written: &str| chord(written).is_some_and(|known| gone.contains(&known));
             if added.is_none() && !document.contains_key(KEYS) {

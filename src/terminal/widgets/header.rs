@@ -14,8 +14,10 @@ use crate::terminal::{
     words::{fixed, rule_word, skill_word},
 };
 
-/// Most and fewest cells of the bar that shows how far the shot has played.
-const BAR: (usize, usize) = (40, 6);
+/// Cells of the bar that shows how far the shot has played: at least, and at most; and from how many on words stand before
+/// it.
+const BAR: (usize, usize) = (6, 40);
+const WORDY: usize = 16;
 /// Columns behind the tabs from which on the usual table is named, and its size told.
 const NAMED: usize = 60;
 const MEASURED: usize = 72;
@@ -29,11 +31,11 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
     let question = question(app);
     let name = name(app, room.saturating_sub(question.width() + transport(app, Form::Short, 0).width() + 2), room);
     let left = room.saturating_sub(question.width() + name.width() + 1);
-    let form =
-        [Form::Words, Form::Sign, Form::Short].into_iter().find(|form| transport(app, *form, 0).width() + 1 <= left);
-    let form = form.unwrap_or(Form::Short);
-    let bar = left.saturating_sub(transport(app, form, 0).width() + 4).min(BAR.0);
-    let bar = if bar < BAR.1 || form != Form::Words { 0 } else { bar };
+    // The bar says more than words do.
+    let wanted = [(Form::Words, WORDY), (Form::Sign, BAR.0), (Form::Words, 0), (Form::Sign, 0)];
+    let fits = |(form, bar): &(Form, usize)| transport(app, *form, *bar).width() < left;
+    let (form, bar) = wanted.into_iter().find(fits).unwrap_or((Form::Short, 0));
+    let bar = if bar > 0 { left.saturating_sub(transport(app, form, 0).width() + 3).min(BAR.1) } else { 0 };
     let x = buffer.set_line(area.x, area.y, &name, area.width).0;
     let x = buffer.set_line(x, area.y, &question, area.right().saturating_sub(x)).0;
     let right = transport(app, form, bar);

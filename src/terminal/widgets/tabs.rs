@@ -10,10 +10,11 @@ use ratatui::{
 use crate::terminal::{
     app::{App, Screen},
     chord::keys_text,
-    keymap::{Action, chord_of},
+    keymap::chord_of_tab,
 };
 
-/// Columns of the screen from which on each tab has its key.
+/// Columns of the screen from which on neighbours do not share a blank, and from which on each tab has its key.
+const LOOSE: u16 = 100;
 const WIDE: u16 = 120;
 /// The program's name, where there are no tabs.
 const NAME: &str = " carom ";
@@ -26,14 +27,13 @@ pub fn tabs(app: &App, area: Rect) -> Vec<(Screen, Rect, String)> {
     let mut x = area.x;
     let mut tabs = Vec::new();
     for screen in Screen::ALL {
-        let key = chord_of(app.place(), Action::Open(screen)).filter(|_| area.width >= WIDE);
+        let key = chord_of_tab(screen).filter(|_| area.width >= WIDE);
         let key = keys_text(key.into_iter().flat_map(|chord| app.keys().for_work_of(chord).take(1)), app.look());
         let gap = u16::from(!key.is_empty());
         let width = (Span::raw(&key).width() + Span::raw(screen.title()).width()) as u16 + gap + 2;
         let place = Rect::new(x, area.y, width.min(area.right().saturating_sub(x)), 1);
         tabs.push((screen, place, key));
-        // Neighbours share a blank where there is little room.
-        x += width - u16::from(area.width < WIDE);
+        x += width - u16::from(area.width < LOOSE);
     }
     tabs
 }

@@ -90,13 +90,7 @@ fn draw_words(app: &App, command: &Command, area: Rect, buffer: &mut Buffer) {
         paragraphs
             .push((format!("A key of your own does all that {} does: {all}.", words(app, *chord)), theme.faint()));
     }
-    let text = Rect {
-        x: inner.x + 1,
-        y: inner.y + 1,
-        width: inner.width.saturating_sub(2),
-        height: inner.height.saturating_sub(1),
-    };
-    write_paragraphs(app, &paragraphs, text, buffer);
+    write_paragraphs(app, &paragraphs, inner, buffer);
 }
 
 /// What a key does, page by page.

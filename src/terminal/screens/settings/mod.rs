@@ -20,6 +20,11 @@ use crate::terminal::{
 
 /// Columns of the list, of a hundred, and at most.
 const LIST: (u16, u16) = (54, 70);
+/// Columns of the screen from which on the words on a key stand beside the list; otherwise they have some rows below it.
+const BESIDE: u16 = 100;
+const BELOW: u16 = 7;
+/// Rows from which on paragraphs stand apart.
+const APART: u16 = 10;
 
 /// A row of a list.
 enum Row<T> {
@@ -37,20 +42,18 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
     let rest = draw_tabs(app, row(area.y), buffer);
     let path = end_of(&screen.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), look);
     buffer.set_string(rest.x + 1, rest.y, path, theme.faint());
-    let [list, words] = halves(page);
+    let [list, words] = halves(screen.page, page);
     let standing = match screen.page {
         Page::Values => values::draw(app, list, words, buffer),
         Page::Keys => keys::draw(app, list, words, buffer),
     };
     draw_hints(app, row(page.bottom() + 1), buffer);
     let status = row(page.bottom());
-    match question(app) {
-        Some(question) => draw_question(&Message::plain(question), status, theme, look, buffer),
-        None => {
-            let message = app.message().cloned().unwrap_or(Message::plain(standing));
-            draw_status(&message, status, theme, look, buffer)
-        }
+    if let Some(question) = question(app) {
+        return draw_question(&Message::plain(question), status, theme, look, buffer);
     }
+    let message = app.message().cloned().unwrap_or(Message::plain(standing));
+    draw_status(&message, status, theme, look, buffer)
 }
 
 /// What is being put in, as it stands on the status line.
@@ -63,15 +66,19 @@ fn question(app: &App) -> Option<String> {
     }
 }
 
-/// The list's part of the page, and that of the words beside it.
-fn halves(area: Rect) -> [Rect; 2] {
+/// The list's part of the page, and that of the words.
+fn halves(page: Page, area: Rect) -> [Rect; 2] {
+    if page == Page::Keys && area.width < BESIDE {
+        let list = Rect { height: area.height.saturating_sub(BELOW), ..area };
+        return [list, Rect { y: list.bottom(), height: area.height - list.height, ..area }];
+    }
     let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
     [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
 }
 
 /// What the mouse points at.
 pub fn target(app: &App, area: Rect, at: Position) -> Option<Target> {
-    let [list, _] = halves(area);
+    let [list, _] = halves(app.settings().page, area);
     let (places, mark) = match app.settings().page {
         Page::Values => (places(&values::rows()), app.settings().mark()),
         Page::Keys => (places(&keys::rows(app)), app.settings().keys.mark()),
@@ -127,10 +134,12 @@ fn draw_list<T>(
     }
 }
 
-/// Writes paragraphs from the top of `area`, a blank row between two.
+/// Writes paragraphs into a panel from its top on, with blank rows between them where there is room.
 fn write_paragraphs(app: &App, paragraphs: &[(String, Style)], area: Rect, buffer: &mut Buffer) {
+    let gap = u16::from(area.height >= APART);
+    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
     let width = usize::from(area.width);
-    let mut y = area.y;
+    let mut y = area.y + gap;
     for (text, style) in paragraphs {
         let room = usize::from(area.bottom().saturating_sub(y));
         if room == 0 {
@@ -140,6 +149,6 @@ fn write_paragraphs(app: &App, paragraphs: &[(String, Style)], area: Rect, buffe
             buffer.set_line(area.x, y, &Line::from(Span::styled(line, *style)), area.width);
             y += 1;
         }
-        y += 1;
+        y += gap;
     }
 }

@@ -74,11 +74,5 @@ fn draw_words(app: &App, area: Rect, buffer: &mut Buffer) {
         (format!("Accepted: {}.", entry.accepted), theme.text()),
         (format!("Default: {default}."), if screen.is_changed(entry) { theme.text() } else { theme.faint() }),
     ];
-    let text = Rect {
-        x: inner.x + 1,
-        y: inner.y + 1,
-        width: inner.width.saturating_sub(2),
-        height: inner.height.saturating_sub(1),
-    };
-    write_paragraphs(app, &paragraphs, text, buffer);
+    write_paragraphs(app, &paragraphs, inner, buffer);
 }
