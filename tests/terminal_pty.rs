@@ -297,6 +297,36 @@ fn a_user_may_keep_the_mouse() {
 }
 
 #[test]
+fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
+    let home = tempfile::tempdir().unwrap();
+    let mut session = Session::start_at(home.path(), CommandBuilder::new(env!("CARGO_BIN_EXE_carom")), 80, 24);
+    session.wait_for("white at x -710.0 mm");
+    session.send("\x1b[15~");
+    session.wait_for("what is set holds at once");
+    // The last setting is the mouse.
+    session.send("\x1b[F\x1b[C");
+    session.wait_until("the mouse is left to the terminal", |screen| {
+        screen.mouse_protocol_mode() == vt100::MouseProtocolMode::None
+    });
+    let file = home.path().join("config/carom/config.toml");
+    let start = Instant::now();
+    while !std::fs::read_to_string(&file).unwrap_or_default().contains("mouse = false") {
+        assert!(start.elapsed() < PATIENCE, "it is not written");
+        thread::sleep(Duration::from_millis(20));
+    }
+    session.send("\x1bOQ");
+    session.wait_for("white at x -710.0 mm");
+    session.send("u");
+    session.wait_for("there is nothing to take back");
+    session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to take back"));
+    assert!(session.screen.screen().contents().contains("white at x -710.0 mm"));
+    session.count(Duration::from_millis(200));
+    assert_eq!(session.count(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
 fn raw_mode_is_off_again_after_the_end() {
     let mut command = CommandBuilder::new("sh");
     command.args(["-c", "\"$0\"; stty -a", env!("CARGO_BIN_EXE_carom")]);

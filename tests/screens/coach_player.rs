@@ -79,9 +79,9 @@ impl Player {
         match effect {
             Some(Effect::Recommend(job)) => self.asked = Some(job),
             Some(Effect::Study(job)) => self.study = Some(job),
-            // Of the other screens.
-            Some(Effect::Drill(_) | Effect::Settings(_)) | None => {}
-            Some(other) => panic!("{other:?}"),
+            Some(other @ (Effect::Quit | Effect::Suspend)) => panic!("{other:?}"),
+            // What other screens want is another matter.
+            _ => {}
         }
     }
 

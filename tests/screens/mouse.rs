@@ -168,6 +168,20 @@ fn the_mark_of_the_library_follows_wheel_and_click() {
 }
 
 #[test]
+fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
+    let player = at_the_table(Player::new().press("F5"));
+    let row = |player: &Player, part: &str| player.text(120, 40).lines().position(|line| line.contains(part)).unwrap();
+    let speed = row(&player, "speed") as u16;
+    let player = at_the_table(player.point(PRESS, (5, speed)));
+    assert_eq!(player.app.settings().marked().key, "speed");
+    let player = at_the_table(player.point(MouseEventKind::ScrollDown, (5, speed)).press("Tab"));
+    assert_eq!(player.app.settings().marked().key, "mouse");
+    let random = row(&player, "put the balls anywhere") as u16;
+    let player = player.point(PRESS, (5, random)).press("Enter");
+    assert!(player.text(120, 40).contains("press the key that is to do this: put the balls anywhere"));
+}
+
+#[test]
 fn the_mark_of_the_runs_follows_wheel_and_click() {
     let mut player =
         crate::training_player::Player::new().report(Report::Runs(Ok(crate::training_player::summaries().into())));

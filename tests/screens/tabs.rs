@@ -85,6 +85,15 @@ fn palette_and_help_close_on_the_way() {
 }
 
 #[test]
+fn help_and_messages_open_where_letters_are_typed_and_lead_back_there() {
+    let typing = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("a x F1");
+    typing.says("The library");
+    let back = typing.press("Esc y F6");
+    back.says("Messages, the newest first");
+    back.press("Esc").says("the code of a position: xy_");
+}
+
+#[test]
 fn carom_watch_has_no_tabs() {
     let look: Look = TRUE_COLOUR;
     let mut app = App::watching(look, None, None).unwrap();

@@ -4,6 +4,7 @@ use super::{App, Effect, Overlay, Screen};
 
 impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {
+        self.finder = None;
         self.help = Some((page, 0));
         self.help_end.set(u16::MAX);
     }

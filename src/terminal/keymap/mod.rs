@@ -268,6 +268,8 @@ const PROGRAM: &[Binding] = &[
 /// Those of them that mean nothing else where letters are answers.
 #[rustfmt::skip]
 const LEAVE: &[Binding] = &[
+    entry(Program, When::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
+    entry(Program, When::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
     entry(Program, When::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     entry(Program, When::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];

@@ -71,6 +71,8 @@ fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, buffe
     let (theme, look) = (app.theme(), app.look());
     let refusal = app.refusal(command.when);
     let (keys, words) = if refusal.is_some() { (theme.faint(), theme.faint()) } else { (theme.accent(), theme.text()) };
+    // The mark has to be read, whatever may be done.
+    let words = if is_marked { theme.text() } else { words };
     let text = sentence(command, refusal);
     let room = usize::from(area.width.saturating_sub(KEYS + 4));
     buffer.set_stringn(area.x + 2, area.y, &command.keys, usize::from(KEYS), keys);
@@ -91,8 +93,10 @@ fn standing(app: &App, marked: Option<&Command>) -> Message {
     marked.map_or_else(
         || Message::plain("nothing here is called like that"),
         |command| {
-            let words = sentence(command, app.refusal(command.when));
-            Message::plain(words).after(command.title)
+            let refusal = app.refusal(command.when);
+            let words = sentence(command, refusal);
+            let message = if refusal.is_some() { Message::poor(words) } else { Message::plain(words) };
+            message.after(command.title)
         },
     )
 }

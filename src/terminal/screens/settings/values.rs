@@ -32,7 +32,7 @@ pub fn rows() -> Vec<Row<&'static Entry>> {
 pub fn draw(app: &App, list: Rect, words: Rect, buffer: &mut Buffer) -> &'static str {
     let (theme, look, screen) = (app.theme(), app.look(), app.settings());
     let changed = ENTRIES.iter().filter(|entry| screen.is_changed(entry)).count();
-    let of = if changed == 0 { String::new() } else { format!(" {changed} not as by default") };
+    let of = if changed == 0 { String::new() } else { format!(" {changed} changed") };
     let title = Line::from(vec![Span::styled("Settings", theme.text()), Span::styled(of, theme.faint())]);
     let inner = draw_title(&title, list, theme, look, buffer);
     draw_list(app, &rows(), screen.mark(), inner, buffer, |entry, is_marked, area, buffer| {
