@@ -313,7 +313,8 @@ pub fn chord_of_tab(screen: Screen) -> Option<Chord> {
 pub fn works_of(chord: Chord) -> Vec<(&'static str, &'static str)> {
     let mut works = Vec::new();
     for (place, page) in Place::PAGES {
-        for binding in bindings(place).filter(|binding| binding.keys.iter().any(|(known, _)| *known == chord)) {
+        let own = bindings(place).filter(|binding| binding.when != When::Help);
+        for binding in own.filter(|binding| binding.keys.iter().any(|(known, _)| *known == chord)) {
             // What all pages have is told once.
             if works.iter().all(|(_, known)| *known != binding.description) {
                 works.push((page, binding.description));
@@ -401,7 +402,7 @@ mod tests {
     fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
         let pages = |letter| works_of(Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
         assert_eq!(pages('u'), ["Coach", "Drills: exercise"]);
-        assert_eq!(works_of(Chord::char('q')).len(), 2, "quitting, and closing the help");
+        assert_eq!(works_of(Chord::char('q')).len(), 1, "quitting");
         assert!(pages('%').is_empty());
     }
 }
