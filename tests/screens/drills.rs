@@ -90,25 +90,6 @@ fn a_stroke_is_set_with_keys() {
 }
 
 #[test]
-fn changes_of_the_stroke_are_taken_back_input_by_input() {
-    let stroke = |player: &Player| *player.app.drills().turn.as_ref().unwrap().stroke();
-    let player = Player::practising(TRUE_COLOUR);
-    let start = stroke(&player);
-    let set = player.press("Left Left Left k k Up Left");
-    let end = stroke(&set);
-    let back = set.press("z");
-    assert!((back.app.drills().turn.as_ref().unwrap().stroke().speed - end.speed).abs() < 1e-12);
-    let back = back.press("z z z");
-    assert_eq!(stroke(&back), start, "aim, tip, speed, aim");
-    back.press("z").says("the stroke is as it was at first");
-    let again = Player::practising(TRUE_COLOUR).press("Left Left Left k k Up Left z z z z Z Z Z C-r");
-    assert_eq!(stroke(&again), end);
-    again.press("Z").says("no change of the stroke was taken back");
-    let played = Player::practising(TRUE_COLOUR).press("Left Space z");
-    played.says("a shot is being watched; Enter goes on");
-}
-
-#[test]
 fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
     let player = Player::practising(TRUE_COLOUR).press("v");
     check("hint", &player);

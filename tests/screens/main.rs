@@ -13,3 +13,4 @@ mod tabs;
 mod toasts;
 mod training;
 mod training_player;
+mod undo;
