@@ -114,12 +114,12 @@ mod tests {
     use super::*;
     use crate::terminal::theme::Palette;
 
-    fn errand(path: &Path, change: Option<Change>) -> SettingsErrand {
-        SettingsErrand { number: 1, path: path.to_owned(), change }
+    fn errand(path: &Path, change: impl Into<Option<Change>>) -> SettingsErrand {
+        SettingsErrand { number: 1, path: path.to_owned(), change: change.into() }
     }
 
-    fn theme(name: &str) -> Option<Change> {
-        Some(Change::Value("theme", format!("\"{name}\"")))
+    fn theme(name: &str) -> Change {
+        Change::Value("theme", format!("\"{name}\""))
     }
 
     #[test]
