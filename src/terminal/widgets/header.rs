@@ -35,7 +35,7 @@ pub fn draw_header(app: &App, area: Rect, buffer: &mut Buffer) {
     let wanted = [(Form::Words, WORDY), (Form::Sign, BAR.0), (Form::Words, 0), (Form::Sign, 0)];
     let fits = |(form, bar): &(Form, usize)| transport(app, *form, *bar).width() < left;
     let (form, bar) = wanted.into_iter().find(fits).unwrap_or((Form::Short, 0));
-    let bar = if bar > 0 { left.saturating_sub(transport(app, form, 0).width() + 3).min(BAR.1) } else { 0 };
+    let bar = if bar > 0 { left.saturating_sub(transport(app, form, 0).width() + 5).min(BAR.1) } else { 0 };
     let x = buffer.set_line(area.x, area.y, &name, area.width).0;
     let x = buffer.set_line(x, area.y, &question, area.right().saturating_sub(x)).0;
     let right = transport(app, form, bar);
