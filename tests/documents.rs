@@ -45,6 +45,19 @@ fn what_is_wrong_with_a_table_is_said() {
 }
 
 #[test]
+fn the_table_of_keys_is_that_of_the_program() {
+    let written = include_str!("../docs/keys.md");
+    assert_eq!(
+        written,
+        carom::terminal::keys_document(),
+        "cargo run --release --example picture -- docs/ writes it anew"
+    );
+    for part in ["## Coach", "## Drills: exercise", "| `F2` |", "| `←↓↑→ hjkl` | move the selected ball"] {
+        assert!(written.contains(part), "{part}");
+    }
+}
+
+#[test]
 fn every_shell_has_its_completions() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = text(&["completions", shell]);

@@ -1,4 +1,4 @@
-//! Draws the pictures of the documentation: plays the real program without a terminal and writes its screens as SVG.
+//! Draws the pictures of the documentation, and writes its table of keys: plays the real program without a terminal and writes its screens as SVG.
 //!
 //! `cargo run --release --example picture -- docs/` writes the same bytes each time, but for the times of the training that
 //! it shows; another processor may round the networks' numbers otherwise and so find another shot.
@@ -11,7 +11,7 @@ use std::{env, error::Error, fs, path::Path};
 use carom::{
     simulation::EventKind,
     table::{Layout, Table},
-    terminal::{App, Depth, Effect, Glyphs, Look, Office, Tidings},
+    terminal::{App, Depth, Effect, Glyphs, Look, Office, Tidings, keys_document},
 };
 use crossterm::event::KeyCode::{self, Char, Enter};
 use ratatui::{Terminal, backend::TestBackend};
@@ -29,6 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let directory = env::args().nth(1).ok_or("say where to write the pictures: picture docs/")?;
     let directory = Path::new(&directory);
     fs::create_dir_all(directory)?;
+    fs::write(directory.join("keys.md"), keys_document())?;
     let write = |name: &str, app: &App, width, height, title| -> Result<(), Box<dyn Error>> {
         let mut terminal = Terminal::new(TestBackend::new(width, height))?;
         terminal.draw(|frame| app.draw(frame))?;

@@ -32,6 +32,13 @@ impl Chord {
         Self { code, modifiers: KeyModifiers::CONTROL }
     }
 
+    /// The key of an event.
+    pub fn of(event: &KeyEvent) -> Self {
+        let shift_is_in_the_code = matches!(event.code, KeyCode::Char(_) | KeyCode::BackTab);
+        let ignored = if shift_is_in_the_code { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
+        Self { code: event.code, modifiers: event.modifiers - ignored }
+    }
+
     /// The event of this key being pressed.
     pub const fn event(self) -> KeyEvent {
         KeyEvent::new(self.code, self.modifiers)
@@ -39,9 +46,7 @@ impl Chord {
 
     /// Whether `event` is this key. Terminals differ in whether they report Shift beside a letter that it made.
     pub fn matches(self, event: &KeyEvent) -> bool {
-        let shift_is_in_the_code = matches!(self.code, KeyCode::Char(_) | KeyCode::BackTab);
-        let ignored = if shift_is_in_the_code { KeyModifiers::SHIFT } else { KeyModifiers::NONE };
-        self.code == event.code && self.modifiers == event.modifiers - ignored
+        self == Self::of(event)
     }
 
     /// The modifiers as they are written before the key.

@@ -19,7 +19,7 @@ use signal_hook::{
     iterator::Signals,
 };
 
-use super::{drills::DrillReport, recommender::Answer, training::Report};
+use super::{drills::DrillReport, recommender::Answer, settings::SettingsReport, training::Report};
 
 /// Time in which a key that has begun to arrive is read, once there is something to read.
 const READING: Duration = Duration::from_millis(1);
@@ -42,6 +42,8 @@ pub enum News {
     Report(Report),
     /// Something has come of an errand of the drill screens.
     Drill(DrillReport),
+    /// Something has come of an errand of the settings.
+    Settings(SettingsReport),
 }
 
 /// Starts the threads that read the terminal and the signals into one channel.

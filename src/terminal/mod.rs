@@ -35,6 +35,7 @@ mod spin;
 mod sprites;
 mod status;
 mod theme;
+mod toasts;
 mod training;
 mod widgets;
 mod words;
@@ -54,22 +55,23 @@ use crate::{
 };
 
 pub use advice::{Advice, Effort, Proposal, Study, Tutor};
-pub use app::{App, Effect, Mode, Screen};
+pub use app::{App, Effect, Mode, Overlay, Screen};
 pub use coach::{Advised, View};
 pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
 pub use errands::Clerk;
 pub use finder::{Command, Finder};
 pub use geometry::Mapping;
 pub use keymap::{
-    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, TrainingAction,
-    TrainingWhen, When,
+    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, SettingsAction,
+    SettingsPlace, SettingsWhen, TrainingAction, TrainingWhen, When, document as keys_document,
 };
 pub use last::Last;
 pub use look::{Depth, Glyphs, Look};
 pub use recommender::{Answer, Job, Office, Tidings};
-pub use settings::{Complaint, Keys, Settings};
+pub use settings::{Change, Complaint, Keys, Settings, SettingsErrand, SettingsFile, SettingsReport, SettingsScreen};
 pub use shot::Shot;
 pub use theme::{Palette, UnknownPalette};
+pub use toasts::{Toast, Toasts};
 pub use training::{Failure, Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
 
 /// Why the terminal program cannot run.
@@ -105,6 +107,7 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Resul
     // A file that cannot be read is named by the drill screens.
     let own = Store::new(&places).own_skill().unwrap_or_default();
     let app = App::new(table, layout, detect(settings), seed())?
+        .with_detection(detect)
         .with_settings(settings)
         .with_last(Last::load(&places.last))
         .with_own_skill(own.map(|own| own.skill))
@@ -148,6 +151,7 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
     }
     let (settings, complaints) = Settings::load(&Settings::path());
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
+        .with_detection(detect)
         .with_settings(&settings)
         .with_complaints(&Settings::path(), &complaints);
     Ok(runner::run(app, Places::of_this_user())?)

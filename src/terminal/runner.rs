@@ -23,7 +23,6 @@ use super::{
     pace::Pace,
     recommender::{self, Answer, Job, Tidings},
     session::Session,
-    status::Message,
     training::Report,
 };
 use crate::storage::Places;
@@ -59,7 +58,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     })?;
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
-    let mut runner = Runner { app, session, jobs, errands, places, ticked, remembered, logged: None };
+    let mut runner = Runner { app, session, jobs, errands, places, ticked, remembered };
     let end = runner.until_the_end(&news);
     runner.remember(true);
     info!(?end, "the screen closes");
@@ -92,8 +91,6 @@ struct Runner {
     ticked: Instant,
     /// What was last remembered of the session, and when.
     remembered: (Option<Last>, Instant),
-    /// The refusal or failure that was last written down.
-    logged: Option<Message>,
 }
 
 impl Runner {
@@ -104,7 +101,9 @@ impl Runner {
         loop {
             self.errands.want(self.app.wanted())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
-            let first = match pace.wake(interval).into_iter().chain(self.forgets()).min() {
+            // A toast goes by itself: one picture more, and no other.
+            let toast = self.app.toast_time().map(|left| self.ticked + Duration::from_secs_f64(left));
+            let first = match pace.wake(interval).into_iter().chain(toast).chain(self.forgets()).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(due) => news.recv_timeout(due.saturating_duration_since(Instant::now())),
@@ -120,7 +119,7 @@ impl Runner {
             // Time that passed while nothing moved does not count.
             let passed = self.ticked.elapsed();
             self.ticked = Instant::now();
-            if interval.is_some() {
+            if interval.is_some() || toast.is_some() {
                 self.app.tick(passed.as_secs_f64());
             }
             let mut can_wait = first.is_some();
@@ -166,16 +165,13 @@ impl Runner {
 
     /// Writes refusals and failures down that were shown.
     fn write_down(&mut self) {
-        let message = self.app.message().filter(|message| message.is_warning());
-        if message != self.logged.as_ref() {
-            self.logged = message.cloned();
-            if let Some(message) = message {
-                warn!("{}", message.text);
-            }
+        for text in self.app.take_unwritten() {
+            warn!("{text}");
         }
     }
 
     fn draw(&mut self) -> io::Result<()> {
+        self.session.want_mouse(self.app.wants_mouse())?;
         self.session.draw(|frame| self.app.draw(frame))
     }
 
@@ -204,6 +200,10 @@ impl Runner {
                 self.app.receive_report(report);
                 None
             }
+            News::Settings(report) => {
+                self.app.receive_settings(report);
+                None
+            }
             News::Drill(report) => Some(Effect::Drill(self.app.receive_drill(report))),
         };
         match effect {
@@ -215,6 +215,7 @@ impl Runner {
             Some(Effect::Keep(keeping)) => self.errands.keep(*keeping)?,
             Some(Effect::LoadPolicy(folder)) => self.errands.load_policy(folder)?,
             Some(Effect::Drill(errands)) => self.errands.practise(errands)?,
+            Some(Effect::Settings(errand)) => self.errands.set(*errand)?,
             Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}
         }

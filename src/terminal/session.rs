@@ -74,6 +74,17 @@ impl Session {
         self.terminal.resize(Rect::from((Position::ORIGIN, size)))
     }
 
+    /// Takes the mouse or leaves it to the terminal, where that is not so already.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn want_mouse(&mut self, mouse: bool) -> io::Result<()> {
+        if std::mem::replace(&mut self.mouse, mouse) == mouse {
+            return Ok(());
+        }
+        execute!(self.output, Print(if mouse { ENABLE_MOUSE } else { DISABLE_MOUSE }))
+    }
+
     /// Gives the terminal back.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The one line that says what has just happened or what was refused.
+//! What is told: news, answers, refusals and failures.
 
 /// What kind of news a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,11 +7,13 @@ pub enum Tone {
     Plain,
     /// Something has worked.
     Good,
-    /// Something was refused or has failed.
+    /// An answer that is not what one had hoped for.
+    Poor,
+    /// Something was refused or has failed: where it is news it becomes a toast.
     Warning,
 }
 
-/// A sentence for the status line.
+/// A sentence for the status line or a toast.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
     /// What kind of news it is.
@@ -29,6 +31,11 @@ impl Message {
     /// Good news.
     pub fn good(text: impl Into<String>) -> Self {
         Self { tone: Tone::Good, text: text.into() }
+    }
+
+    /// A bad answer.
+    pub fn poor(text: impl Into<String>) -> Self {
+        Self { tone: Tone::Poor, text: text.into() }
     }
 
     /// A refusal or a failure.

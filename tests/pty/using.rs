@@ -1,10 +1,14 @@
 //! A session from start to end, and what it writes meanwhile.
 
-use std::{process::Command, time::Duration};
+use std::{
+    process::Command,
+    thread,
+    time::{Duration, Instant},
+};
 
 use portable_pty::CommandBuilder;
 
-use super::session::{OPENING, Session};
+use super::session::{OPENING, PATIENCE, Session, carom};
 
 /// What every frame begins with.
 const FRAME: &[u8] = b"\x1b[?2026h";
@@ -18,11 +22,11 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.wait_for("white at x -710.0 mm, y -110.0 mm");
     session.send("\r");
     session.wait_for("Events 0/");
-    session.wait_for("paused");
+    session.wait_for("‖");
     session.send(".");
     session.wait_for("Events 1/");
     session.send(" ");
-    session.wait_for("playing");
+    session.wait_until("it plays", |screen| !screen.contents().contains('‖'));
     session.wait_until("the next event", |screen| !screen.contents().contains("Events 1/"));
     session.send(" ?");
     session.wait_for("Placing the balls");
@@ -105,6 +109,53 @@ fn a_user_may_keep_the_mouse() {
     let mut session = Session::start_command(command, 80, 24);
     session.wait_for("placing balls");
     assert_eq!(session.screen().mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+}
+
+#[test]
+fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
+    let home = tempfile::tempdir().unwrap();
+    let mut session = Session::start_at(home.path(), carom(), 80, 24);
+    session.wait_for(OPENING);
+    session.send("\x1b[15~");
+    session.wait_for("what is set holds at once");
+    // The last setting is the mouse.
+    session.send("\x1b[F\x1b[C");
+    session.wait_until("the mouse is left to the terminal", |screen| {
+        screen.mouse_protocol_mode() == vt100::MouseProtocolMode::None
+    });
+    let file = home.path().join("config/carom/config.toml");
+    let start = Instant::now();
+    while !std::fs::read_to_string(&file).unwrap_or_default().contains("mouse = false") {
+        assert!(start.elapsed() < PATIENCE, "it is not written");
+        thread::sleep(Duration::from_millis(20));
+    }
+    session.send("\x1bOQ");
+    session.wait_for(OPENING);
+    session.send("u");
+    session.wait_for("there is nothing to take back");
+    session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to take back"));
+    assert!(session.screen().contents().contains(OPENING));
+    session.count(Duration::from_millis(200));
+    assert_eq!(session.count(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_note_is_kept_that_was_made_just_before_the_end() {
+    let home = tempfile::tempdir().unwrap();
+    let mut save = Command::new(env!("CARGO_BIN_EXE_carom"));
+    save.args(["drill", "save", "mine", "--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5", "--rule", "three-cushion"]);
+    assert!(save.env("XDG_DATA_HOME", home.path().join("data")).output().unwrap().status.success());
+    let mut session = Session::start_at(home.path(), carom(), 80, 24);
+    session.wait_for(OPENING);
+    // The library's last category holds the position, of which the coach begins to think when it is opened.
+    session.send("d\x1b[D");
+    session.wait_for("mine");
+    session.send("\rmq");
+    assert!(session.assert_left_without_trace().success());
+    let sessions = home.path().join("data/carom/sessions");
+    assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 1);
 }
 
 #[test]

@@ -23,6 +23,11 @@ pub const SHOT: &str = "-0.2,0.2,6,82.6,2.5";
 pub const OTHERS: [&str; 2] = ["0.362,-0.11,0.467,107.632,5.525", "0.295,0.308,3.879,107.102,2.182"];
 pub const NEXT: &str = "-0.051,0.323,7.533,-146.013,6";
 
+/// Whether a toast says `part`.
+pub fn is_toast(app: &App, part: &str) -> bool {
+    app.toasts().shown().iter().any(|toast| toast.text.contains(part))
+}
+
 pub struct Player {
     pub app: App,
     pub asked: Option<Box<Job>>,
@@ -74,8 +79,9 @@ impl Player {
         match effect {
             Some(Effect::Recommend(job)) => self.asked = Some(job),
             Some(Effect::Study(job)) => self.study = Some(job),
-            Some(other) => panic!("{other:?}"),
-            None => {}
+            Some(other @ (Effect::Quit | Effect::Suspend)) => panic!("{other:?}"),
+            // What other screens want is another matter.
+            _ => {}
         }
     }
 
@@ -132,5 +138,10 @@ impl Player {
 
     pub fn text(&self, width: u16, height: u16) -> String {
         self.draw(width, height).backend().to_string()
+    }
+
+    /// In a toast.
+    pub fn warns(&self, part: &str) {
+        assert!(is_toast(&self.app, part), "{part}\n{}", self.text(120, 40));
     }
 }

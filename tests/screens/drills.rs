@@ -113,7 +113,7 @@ fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
 /// The player aims as the exercise teaches it.
 fn taught(player: Player) -> Player {
     let turn = player.app.drills().turn.as_ref().unwrap();
-    let degrees = turn.stroke.phi.to_degrees();
+    let degrees = turn.stroke().phi.to_degrees();
     let fine = ((degrees - 82.6) * 5.0).round() as usize;
     let keys = vec!["Right"; fine].join(" ");
     player.press(&keys).press("C-Right").press(&"l ".repeat(12)).press(&"k ".repeat(12)).press("+ + + + + +")
@@ -366,7 +366,7 @@ fn the_help_tells_every_key() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
-    fn no_keys_whatever_break_the_screens(keys in prop::collection::vec(0..48_usize, 1..60)) {
+    fn no_keys_whatever_break_the_screens(keys in prop::collection::vec(0..54_usize, 1..60)) {
         let mut player = Player::with(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history()).press("Left");
         for key in keys {
             let code = match key {
@@ -379,6 +379,7 @@ proptest! {
                 31 => KeyCode::Tab,
                 32 => KeyCode::Backspace,
                 33 => KeyCode::End,
+                48..=53 => KeyCode::F(key as u8 - 46),
                 34..=38 => KeyCode::Char(' '),
                 _ => KeyCode::Char("<>,.+-/0123vmnux"[key - 34..].chars().next().unwrap()),
             };

@@ -32,7 +32,7 @@ fn words_narrow_it_and_enter_does_what_is_marked() {
     assert_ne!(*player.app.layout(), moved, "the move was taken back");
     assert_eq!(player.app.finder().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
-    assert!(player.text(80, 24).contains("there is nothing to take back"), "letters are keys again");
+    player.warns("there is nothing to take back");
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn what_may_not_be_used_now_says_why_and_stays() {
     let player = opened(TRUE_COLOUR);
     assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
     let player = player.press("p l a y Space p a u s e Enter");
-    assert!(player.text(80, 24).contains("there is no shot yet; Enter asks the coach"));
+    player.warns("there is no shot yet; Enter asks the coach");
     assert!(player.app.finder().is_some() && player.app.shot().is_none());
     let player = player.press("x x x x");
     assert!(player.text(80, 24).contains("nothing here is called like that"));

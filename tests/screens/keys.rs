@@ -19,7 +19,11 @@ pub fn key(word: &str) -> KeyEvent {
         "Tab" => KeyCode::Tab,
         "End" => KeyCode::End,
         "Backspace" => KeyCode::Backspace,
+        "BackTab" => KeyCode::BackTab,
+        "Delete" => KeyCode::Delete,
+        "Home" => KeyCode::Home,
         "Space" => KeyCode::Char(' '),
+        function if function.len() > 1 && function.starts_with('F') => KeyCode::F(function[1..].parse().unwrap()),
         letter => KeyCode::Char(letter.chars().next().unwrap()),
     };
     KeyEvent::new(code, modifiers)

@@ -3,7 +3,7 @@
 use crate::coach_player::{NO_COLOUR, Player, TRUE_COLOUR};
 use carom::{
     table::Table,
-    terminal::{Advised, App, Mapping, Report},
+    terminal::{Advised, App, Mapping, Overlay, Report, Screen},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -96,9 +96,9 @@ fn balls_of_a_shot_that_plays_are_not_taken_but_those_of_one_that_waits_are() {
     let start = *player.app.layout();
     let player = at_the_table(player).point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
     assert_eq!(*player.app.layout(), start);
-    assert!(player.text(120, 40).contains("a shot is being watched; Esc goes back to the balls"));
+    player.warns("a shot is being watched; Esc goes back to the balls");
     let thinking = at_the_table(Player::new().press("Enter")).point(PRESS, cell);
-    assert!(thinking.text(120, 40).contains("the coach is thinking; Esc stops it"));
+    thinking.warns("the coach is thinking; Esc stops it");
 }
 
 #[test]
@@ -128,10 +128,27 @@ fn a_click_on_a_shot_of_the_list_shows_it() {
 #[test]
 fn the_wheel_scrolls_the_help_and_moves_the_mark_of_the_commands() {
     let player = at_the_table(Player::new().press("?")).point(MouseEventKind::ScrollDown, (3, 3));
-    assert_eq!(player.app.help(), Some(3));
-    assert_eq!(player.point(PRESS, (60, 15)).app.help(), Some(3), "what lies below is not reached");
+    assert_eq!(player.app.help(), Some((Overlay::Help, 3)));
+    assert_eq!(player.point(PRESS, (60, 15)).app.help(), Some((Overlay::Help, 3)), "what lies below is not reached");
     let player = at_the_table(Player::new().press(":")).point(MouseEventKind::ScrollDown, (3, 3));
     assert_eq!(player.app.finder().unwrap().mark(9), 1);
+}
+
+#[test]
+fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
+    for width in [80, 120, 200] {
+        let mut player = Player::new();
+        for screen in [Screen::Settings, Screen::Drills, Screen::Training, Screen::Coach] {
+            player.picture(width, 40);
+            let row = player.text(width, 40).lines().next().unwrap().to_owned();
+            // The text has quotes around its lines.
+            let column = row.find(screen.title()).unwrap() as u16 - 1;
+            player = player.point(PRESS, (column, 0));
+            assert_eq!(player.app.screen(), screen, "{width}");
+        }
+        player.picture(width, 40);
+        assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen(), Screen::Coach);
+    }
 }
 
 #[test]
@@ -148,6 +165,20 @@ fn the_mark_of_the_library_follows_wheel_and_click() {
     let title = player.app.drills().catalogue.marked().unwrap().title.clone();
     let row = text.lines().nth(7).unwrap();
     assert!(row.contains(title.split_whitespace().next().unwrap()), "{title}: {row}");
+}
+
+#[test]
+fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
+    let player = at_the_table(Player::new().press("F5"));
+    let row = |player: &Player, part: &str| player.text(120, 40).lines().position(|line| line.contains(part)).unwrap();
+    let speed = row(&player, "speed") as u16;
+    let player = at_the_table(player.point(PRESS, (5, speed)));
+    assert_eq!(player.app.settings().marked().key, "speed");
+    let player = at_the_table(player.point(MouseEventKind::ScrollDown, (5, speed)).press("Tab"));
+    assert_eq!(player.app.settings().marked().key, "mouse");
+    let random = row(&player, "put the balls anywhere") as u16;
+    let player = player.point(PRESS, (5, random)).press("Enter");
+    assert!(player.text(120, 40).contains("press the key that is to do this: put the balls anywhere"));
 }
 
 #[test]

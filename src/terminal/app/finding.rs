@@ -4,7 +4,6 @@ use super::{App, Effect};
 use crate::terminal::{
     finder::{Command, Finder, commands},
     keymap::FinderAction,
-    status::Message,
 };
 
 impl App {
@@ -22,7 +21,7 @@ impl App {
             FinderAction::Choose => {
                 let command = found.get(finder.mark(found.len()))?;
                 if let Some(reason) = self.refusal(command.when) {
-                    *self.message_mut() = Some(Message::warning(reason));
+                    self.toasts.push(reason.to_owned(), true);
                     return None;
                 }
                 self.finder = None;
@@ -34,7 +33,7 @@ impl App {
 
     /// What can be done at the place below the command palette, what may be used now first.
     pub fn commands(&self) -> Vec<Command> {
-        let mut commands = commands(self.place_below(), &self.keys, self.look);
+        let mut commands = commands(self.place_below(), self.keys(), self.look);
         commands.sort_by_key(|command| self.refusal(command.when).is_some());
         commands
     }

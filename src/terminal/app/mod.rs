@@ -3,7 +3,11 @@
 //! What its screens share is here; each screen has a state of its own. [`view`] is what drawing reads.
 
 mod finding;
+mod keys;
 mod mouse;
+mod news;
+mod settings;
+mod tabs;
 mod view;
 
 use std::{
@@ -11,22 +15,22 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crossterm::event::{KeyEvent, KeyEventKind};
 use ratatui::{Frame, layout::Rect};
 
 use super::{
     coach::CoachScreen,
-    drills::{Balls, DrillReport, DrillScreen, Errand},
+    drills::{Balls, DrillScreen, Errand},
     finder::Finder,
-    keymap::{self, Action, CoachAction, Place, When},
+    keymap::{Action, CoachAction},
     last::Last,
-    look::{Depth, Glyphs, Look},
-    recommender::{Answer, Job},
+    look::{Glyphs, Look},
+    recommender::Job,
     screens,
-    settings::{Complaint, Keys, Settings},
+    settings::{Complaint, Settings, SettingsErrand, SettingsScreen},
     status::Message,
     theme::{Palette, Theme},
-    training::{Keeping, Launch, Report, TrainingScreen, Wanted},
+    toasts::Toasts,
+    training::{Keeping, Launch, TrainingScreen, Wanted},
 };
 use crate::{
     coach::Skill,
@@ -61,6 +65,8 @@ pub enum Effect {
     LoadPolicy(PathBuf),
     /// Do these, one after the other; what comes of them goes to [`App::receive_drill`].
     Drill(Vec<Errand>),
+    /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`].
+    Settings(Box<SettingsErrand>),
     /// Put a text into the terminal's clipboard, where it allows that.
     Copy(String),
     /// Stop until the shell continues the program.
@@ -74,10 +80,36 @@ pub enum Effect {
 pub enum Screen {
     /// The table, and what the coach recommends.
     Coach,
-    /// Runs, and how they learn.
-    Training,
     /// Exercises, and the player at them.
     Drills,
+    /// Runs, and how they learn.
+    Training,
+    /// What is set once and for all.
+    Settings,
+}
+
+impl Screen {
+    /// All of them, in the order of their tabs.
+    pub const ALL: [Self; 4] = [Self::Coach, Self::Drills, Self::Training, Self::Settings];
+
+    /// What stands on its tab.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Coach => "Coach",
+            Self::Drills => "Drills",
+            Self::Training => "Training",
+            Self::Settings => "Settings",
+        }
+    }
+}
+
+/// A page that lies over the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Every key.
+    Help,
+    /// What was refused or has failed so far.
+    Messages,
 }
 
 /// The whole state of the terminal program.
@@ -87,11 +119,18 @@ pub struct App {
     coach: CoachScreen,
     training: TrainingScreen,
     drills: DrillScreen,
-    help: Option<u16>,
-    /// The first line of the help when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
+    settings: SettingsScreen,
+    /// The settings that hold.
+    in_force: Settings,
+    /// The screen before the settings.
+    before: Screen,
+    /// The page that lies over the screen, and its first line.
+    help: Option<(Overlay, u16)>,
+    /// The first line of that page when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
     help_end: Cell<u16>,
     /// The command palette while it is open.
     finder: Option<Finder>,
+    toasts: Toasts,
     /// Where the screen was drawn, to find what the mouse points at.
     area: Cell<Rect>,
     /// Whether the mouse is wanted.
@@ -103,8 +142,8 @@ pub struct App {
     finest: Glyphs,
     theme: Theme,
     palette: Palette,
-    /// Keys of the user's own.
-    keys: Keys,
+    /// Finds out what the terminal can show under some settings; without it that stays as at the start.
+    detect: Option<fn(&Settings) -> Look>,
 }
 
 impl App {
@@ -118,9 +157,13 @@ impl App {
             coach: CoachScreen::new(table, layout, seed)?,
             training: TrainingScreen::new(Places::of_this_user()),
             drills: DrillScreen::new(Places::of_this_user(), seed),
+            settings: SettingsScreen::new(Settings::path()),
+            in_force: Settings::default(),
+            before: Screen::Coach,
             help: None,
             help_end: Cell::new(u16::MAX),
             finder: None,
+            toasts: Toasts::default(),
             area: Cell::default(),
             mouse: true,
             look,
@@ -128,7 +171,7 @@ impl App {
             finest: look.finest(),
             theme: Theme::new(look.depth),
             palette: Palette::default(),
-            keys: Keys::default(),
+            detect: None,
         })
     }
 
@@ -159,9 +202,24 @@ impl App {
     #[must_use]
     pub fn with_settings(mut self, settings: &Settings) -> Self {
         self.coach.take_settings(settings);
-        self.keys = settings.keys.clone();
+        self.settings.settings = settings.clone();
+        self.in_force = settings.clone();
         self.mouse = settings.mouse;
         self.choose_palette(settings.palette);
+        self
+    }
+
+    /// The same program with its settings in another file.
+    #[must_use]
+    pub fn with_settings_file(mut self, path: PathBuf) -> Self {
+        self.settings.path = path;
+        self
+    }
+
+    /// The same program, which asks `detect` what the terminal can show whenever that is set otherwise.
+    #[must_use]
+    pub fn with_detection(mut self, detect: fn(&Settings) -> Look) -> Self {
+        self.detect = Some(detect);
         self
     }
 
@@ -188,49 +246,10 @@ impl App {
     /// Says that something is wrong with the settings.
     #[must_use]
     pub fn with_complaints(mut self, file: &Path, complaints: &[Complaint]) -> Self {
-        if let Some(first) = complaints.first() {
-            let more = if complaints.len() > 1 { "; carom config --check says more" } else { "" };
-            *self.message_mut() = Some(Message::warning(format!("{}: {first}{more}", file.display())));
+        if let Some(sentence) = Complaint::sentence(file, complaints) {
+            self.toasts.push(sentence, false);
         }
         self
-    }
-
-    fn choose_palette(&mut self, palette: Palette) {
-        self.palette = palette;
-        let mono = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
-        self.look = if palette == Palette::Mono { mono } else { self.full_look };
-        self.theme = Theme::of(palette, self.look.depth);
-    }
-
-    /// A key was pressed.
-    pub fn handle(&mut self, key: &KeyEvent) -> Option<Effect> {
-        if key.kind == KeyEventKind::Release {
-            return None;
-        }
-        if let Some(finder) = &mut self.finder {
-            if finder.take_key(key) {
-                *self.message_mut() = None;
-                return None;
-            }
-        } else if self.help.is_none() {
-            let typed = match self.screen {
-                Screen::Coach => false,
-                Screen::Training => self.training.typed(key),
-                Screen::Drills => self.drills.typed(key),
-            };
-            if typed {
-                return None;
-            }
-        }
-        let found = keymap::find(&self.keys.translate(key), self.place(), |when| self.refusal(when))?;
-        *self.message_mut() = None;
-        match found {
-            Ok(action) => self.update(action),
-            Err(reason) => {
-                *self.message_mut() = Some(Message::warning(reason));
-                None
-            }
-        }
     }
 
     /// Does what an enabled binding asks for.
@@ -238,14 +257,12 @@ impl App {
         match action {
             Action::Quit => return Some(Effect::Quit),
             Action::Suspend => return Some(Effect::Suspend),
-            Action::OpenHelp => {
-                self.help = Some(0);
-                self.help_end.set(u16::MAX);
-            }
+            Action::OpenHelp => self.lay_over(Overlay::Help),
+            Action::OpenMessages => self.lay_over(Overlay::Messages),
             Action::CloseHelp => self.help = None,
             Action::ScrollHelp(lines) => {
                 let end = self.help_end.get();
-                self.help = self.help.map(|top| top.min(end).saturating_add_signed(lines).min(end));
+                self.help = self.help.map(|(page, top)| (page, top.min(end).saturating_add_signed(lines).min(end)));
             }
             Action::NextGlyphs => {
                 self.look = self.look.with_next_glyphs(self.finest);
@@ -257,22 +274,12 @@ impl App {
                 self.choose_palette(self.palette.next());
                 *self.message_mut() = Some(Message::plain(format!("theme: {}", self.palette)));
             }
-            Action::OpenTraining => {
-                // What nobody watches does not play on.
-                self.coach.playback.pause();
-                self.training.open();
-                self.screen = Screen::Training;
-            }
-            Action::OpenDrills => {
-                self.coach.playback.pause();
-                self.screen = Screen::Drills;
-                return Some(self.drills.open(self.coach.tutor.skill));
-            }
+            Action::Open(screen) => return self.open(screen),
             Action::SavePosition => {
                 self.coach.playback.pause();
                 self.screen = Screen::Drills;
                 let shot = self.coach.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
-                let (table, layout) = (self.coach.table.clone(), *self.coach.layout());
+                let (table, layout) = (self.coach.table().clone(), *self.coach.layout());
                 let balls = Balls { table, layout, rule: self.coach.tutor.rule };
                 return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
             }
@@ -287,9 +294,7 @@ impl App {
                 let effect = self.drills.update(action);
                 let balls = self.drills.take_for_coach();
                 if balls.is_some() || self.drills.is_left() {
-                    self.screen = Screen::Coach;
-                    // Whoever was chosen there plays here too.
-                    self.coach.tutor.skill = self.drills.player.at_coach;
+                    self.open(Screen::Coach);
                 }
                 if let Some(Balls { table, layout, rule }) = balls {
                     self.coach.take_position(&table, layout, rule);
@@ -303,82 +308,15 @@ impl App {
                 }
                 return effect;
             }
+            Action::Settings(action) => {
+                let effect = self.settings.update(action);
+                if self.settings.is_left() {
+                    return self.open(self.before);
+                }
+                return self.set(effect);
+            }
         }
         None
-    }
-
-    /// Back to the coach, or to the shell where the program began with the training screen.
-    fn leave_training(&mut self) -> Option<Effect> {
-        if self.training.alone {
-            return Some(Effect::Quit);
-        }
-        self.screen = Screen::Coach;
-        None
-    }
-
-    /// Why a binding may not be used now; `None` where it may.
-    pub fn refusal(&self, when: When) -> Option<&'static str> {
-        match when {
-            When::Help => self.help.is_none().then_some("the help is not open"),
-            _ if self.help.is_some() => Some("close the help first: Esc"),
-            When::Always => None,
-            When::Coach(when) => self.coach.refusal(when),
-            When::Training(when) => self.training.refusal(when),
-            When::Drill(when) => self.drills.refusal(when),
-        }
-    }
-
-    /// What is on the screen. The help is that of what lies below it.
-    pub fn place(&self) -> Place {
-        if self.finder.is_some() { Place::Finder } else { self.place_below() }
-    }
-
-    /// The same without the command palette.
-    pub(super) fn place_below(&self) -> Place {
-        match self.screen {
-            Screen::Coach => Place::Coach,
-            Screen::Training if self.help.is_some() => self.training.page().place(),
-            Screen::Training => self.training.place(),
-            Screen::Drills if self.help.is_some() => Place::Drill(self.drills.page_place()),
-            Screen::Drills => Place::Drill(self.drills.place()),
-        }
-    }
-
-    /// The coach has something to say. Late answers to cancelled questions are dropped.
-    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
-        self.coach.receive(answer)
-    }
-
-    /// The thread that thinks is gone, and with it the answer.
-    pub fn coach_lost(&mut self) {
-        self.coach.lost();
-    }
-
-    /// Something has come of what the training screen wanted.
-    pub fn receive_report(&mut self, report: Report) {
-        if let Some((table, tutor)) = self.training.receive(report) {
-            self.coach.take_tutor(&table, tutor);
-            self.training.alone = false;
-            self.screen = Screen::Coach;
-            self.help = None;
-            self.finder = None;
-        }
-    }
-
-    /// Something has come of an errand of the drill screens; gives what is to be done next.
-    pub fn receive_drill(&mut self, report: DrillReport) -> Vec<Errand> {
-        let errands = self.drills.receive(report);
-        self.coach.own = self.drills.player.own.or(self.coach.own);
-        errands
-    }
-
-    /// Text was pasted.
-    pub fn paste(&mut self, text: &str) {
-        if let Some(finder) = &mut self.finder {
-            finder.take_text(text);
-        } else if self.screen == Screen::Drills && self.help.is_none() {
-            self.drills.pasted(text);
-        }
     }
 
     /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_report`].
@@ -388,10 +326,12 @@ impl App {
 
     /// Lets `seconds` pass for whatever moves on the screen.
     pub fn tick(&mut self, seconds: f64) {
+        self.toasts.tick(seconds);
         match self.screen {
             Screen::Coach => self.coach.tick(seconds),
             Screen::Training => self.training.tick(seconds),
             Screen::Drills => self.drills.tick(seconds),
+            Screen::Settings => {}
         }
     }
 
@@ -401,6 +341,7 @@ impl App {
             Screen::Coach => self.coach.frame_interval(),
             Screen::Training => self.training.frame_interval(),
             Screen::Drills => self.drills.frame_interval(),
+            Screen::Settings => None,
         }
     }
 

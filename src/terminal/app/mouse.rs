@@ -6,10 +6,10 @@ use super::{App, Effect};
 use crate::terminal::{
     geometry::Mapping,
     keymap::{
-        Action, CoachAction, CoachWhen, DrillAction, DrillWhen, FinderAction, Place, TrainingAction, TrainingWhen, When,
+        Action, CoachAction, CoachWhen, DrillAction, DrillWhen, FinderAction, Place, SettingsAction, SettingsWhen,
+        TrainingAction, TrainingWhen, When,
     },
     screens::{Target, table_mapping, target},
-    status::Message,
     widgets::ball_at,
 };
 
@@ -24,6 +24,12 @@ impl App {
 
     /// The mouse was used somewhere on the screen that was drawn last.
     pub fn mouse(&mut self, event: MouseEvent) -> Option<Effect> {
+        let effect = self.point(event);
+        self.gather(true);
+        effect
+    }
+
+    fn point(&mut self, event: MouseEvent) -> Option<Effect> {
         match event.kind {
             Kind::Down(Left) => self.click(event),
             Kind::ScrollUp => self.wheel(event, -1),
@@ -42,6 +48,7 @@ impl App {
 
     fn click(&mut self, event: MouseEvent) -> Option<Effect> {
         match self.target(event)? {
+            Target::Tab(screen) => self.attempt(When::Tabs, Action::Open(screen)),
             Target::Table(mapping) => self.take_ball(&mapping, event),
             Target::Shot(shot) => self.attempt(When::Coach(CoachWhen::Choice), Action::Coach(CoachAction::Show(shot))),
             Target::List(lines) => self.move_mark(lines?),
@@ -61,7 +68,7 @@ impl App {
                 let action = if notch < 0 { CoachAction::Faster } else { CoachAction::Slower };
                 self.attempt(When::Coach(CoachWhen::Watching), Action::Coach(action))
             }
-            Target::Shot(_) => None,
+            Target::Shot(_) | Target::Tab(_) => None,
             Target::List(_) => self.move_mark(isize::from(notch)),
         }
     }
@@ -90,6 +97,7 @@ impl App {
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let (when, action) = match self.place() {
             Place::Drill(_) => (When::Drill(DrillWhen::Marked), Action::Drill(DrillAction::Line(lines))),
+            Place::Settings(_) => (When::Settings(SettingsWhen::Here), Action::Settings(SettingsAction::Line(lines))),
             _ => (When::Training(TrainingWhen::Marked), Action::Training(TrainingAction::Line(lines))),
         };
         self.attempt(when, action)
@@ -97,7 +105,12 @@ impl App {
 
     /// Does what a key would do that may be used at such a time, or says why not.
     fn attempt(&mut self, when: When, action: Action) -> Option<Effect> {
-        *self.message_mut() = self.refusal(when).map(Message::warning);
-        if self.message().is_some() { None } else { self.update(action) }
+        *self.message_mut() = None;
+        self.toasts.go_on();
+        if let Some(reason) = self.refusal(when) {
+            self.toasts.push(reason.to_owned(), true);
+            return None;
+        }
+        self.update(action)
     }
 }

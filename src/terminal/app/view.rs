@@ -2,12 +2,20 @@
 
 use std::sync::Arc;
 
-use super::{App, Mode, Screen};
+use super::{App, Mode, Overlay, Screen};
 use crate::{
     table::{Layout, Table},
     terminal::{
-        coach::CoachScreen, drills::DrillScreen, finder::Finder, look::Look, playback::Playback, settings::Keys,
-        shot::Shot, status::Message, theme::Theme, training::TrainingScreen,
+        coach::CoachScreen,
+        drills::DrillScreen,
+        finder::Finder,
+        look::Look,
+        playback::Playback,
+        settings::{Keys, SettingsScreen},
+        shot::Shot,
+        status::Message,
+        theme::Theme,
+        training::TrainingScreen,
     },
 };
 
@@ -32,9 +40,14 @@ impl App {
         &self.drills
     }
 
+    /// The settings' screen.
+    pub const fn settings(&self) -> &SettingsScreen {
+        &self.settings
+    }
+
     /// The table that is played on.
-    pub const fn table(&self) -> &Table {
-        &self.coach.table
+    pub fn table(&self) -> &Table {
+        self.coach.table()
     }
 
     /// Where the balls lie before the shot.
@@ -83,6 +96,7 @@ impl App {
             Screen::Coach => self.coach.message.as_ref(),
             Screen::Training => self.training.message.as_ref(),
             Screen::Drills => self.drills.message.as_ref(),
+            Screen::Settings => self.settings.message.as_ref(),
         }
     }
 
@@ -91,15 +105,16 @@ impl App {
             Screen::Coach => &mut self.coach.message,
             Screen::Training => &mut self.training.message,
             Screen::Drills => &mut self.drills.message,
+            Screen::Settings => &mut self.settings.message,
         }
     }
 
-    /// The first line of the help, while it is open.
-    pub const fn help(&self) -> Option<u16> {
+    /// The page that lies over the screen, if one does, with its first line.
+    pub const fn help(&self) -> Option<(Overlay, u16)> {
         self.help
     }
 
-    /// Drawing tells the help's first line when it is scrolled to its end.
+    /// Drawing tells that page's first line when it is scrolled to its end.
     pub fn set_help_end(&self, line: u16) {
         self.help_end.set(line);
     }
@@ -116,7 +131,7 @@ impl App {
 
     /// Keys of the user's own.
     pub const fn keys(&self) -> &Keys {
-        &self.keys
+        &self.settings.settings.keys
     }
 
     /// The colours.

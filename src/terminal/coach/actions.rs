@@ -1,5 +1,7 @@
 //! What each action does to the state.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::{CoachScreen, Position, STEPS};
@@ -34,9 +36,9 @@ impl CoachScreen {
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
             Action::LargerStep => self.choose_step(self.step + 1),
             Action::SmallerStep => self.choose_step(self.step.saturating_sub(1)),
-            Action::Opening => self.place(Layout::opening(&self.table)),
+            Action::Opening => self.place(Layout::opening(self.table())),
             Action::Random => {
-                let layout = Layout::random(&self.table, &mut self.rng);
+                let layout = Layout::random(&self.balls.present().table, &mut self.rng);
                 self.place(layout);
             }
             Action::Undo => self.travel(History::undo),
@@ -54,7 +56,7 @@ impl CoachScreen {
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
             // The app goes on with what was practised.
             Action::Resume => drop(self.resume()),
-            Action::Bundled => self.take_tutor(&self.table.clone(), Tutor::default()),
+            Action::Bundled => self.take_tutor(&self.table().clone(), Tutor::default()),
             other => self.play(other),
         }
         None
@@ -94,7 +96,7 @@ impl CoachScreen {
 
     fn move_ball(&mut self, direction: DVec2, scale: f64) {
         let step = direction * (0.001 * self.step_mm() * scale);
-        let slide = placing::slide(&self.table, self.layout(), self.selected, step);
+        let slide = placing::slide(self.table(), self.layout(), self.selected, step);
         if slide.layout != *self.layout() {
             self.place(slide.layout);
         }
@@ -113,12 +115,19 @@ impl CoachScreen {
     /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
     pub(super) fn place(&mut self, layout: Layout) {
         self.drop_ball();
-        self.balls.push(Position { layout, advised: None });
+        self.balls.push(self.position(layout));
         self.rest();
+    }
+
+    /// The same table and policy with the balls elsewhere, on which there is no advice yet.
+    pub(super) fn position(&self, layout: Layout) -> Position {
+        let Position { table, policy, .. } = self.balls.present();
+        Position { table: Arc::clone(table), policy: policy.clone(), layout, advised: None }
     }
 
     fn travel(&mut self, step: impl Fn(&mut History<Position>) -> bool) {
         step(&mut self.balls);
+        self.tutor.policy.clone_from(&self.balls.present().policy);
         self.rest();
     }
 

@@ -52,7 +52,7 @@ impl CoachScreen {
         self.questions += 1;
         Job {
             id: self.questions,
-            table: self.table.clone(),
+            table: self.table().clone(),
             layout: *self.layout(),
             tutor: self.tutor.clone(),
             shot,
@@ -153,7 +153,7 @@ impl CoachScreen {
     pub(super) fn go_on(&mut self) -> Option<Effect> {
         let choice = self.advised()?.choice();
         let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
-        if let Err(error) = end.validate(&self.table) {
+        if let Err(error) = end.validate(self.table()) {
             self.message = Some(Message::warning(error.to_string()));
             return None;
         }
@@ -208,7 +208,7 @@ fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor) -> Message {
     if !shot.solved {
         let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
         let source = &shot.source;
-        return Message::warning(format!("no point found{tried}; this is the best attempt ({source}{took}){contact}"));
+        return Message::poor(format!("no point found{tried}; this is the best attempt ({source}{took}){contact}"));
     }
     let Some(made) = proposal.made.filter(|_| !tutor.skill.is_perfect()) else {
         return Message::good(format!("makes the point ({}{took}){contact}", shot.source));

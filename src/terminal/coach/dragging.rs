@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{CoachScreen, Position};
+use super::CoachScreen;
 use crate::terminal::{app::Effect, placing};
 
 /// A ball that is held; it is the selected one.
@@ -24,19 +24,19 @@ impl CoachScreen {
     /// Moves the ball that is held, if any, with the mouse.
     pub fn drag_ball(&mut self, pointer: DVec2) -> Option<Effect> {
         let drag = self.drag?;
-        let reach = self.table.reach();
+        let reach = self.table().reach();
         let mut layout = *self.layout();
         let ball = layout.balls[self.selected];
         // The hand carries it over the others; where there is no room it stops at what is in the way.
         let goal = (pointer + drag.grip).clamp(-reach, reach);
         layout.balls[self.selected] = goal;
-        if layout.validate(&self.table).is_err() {
-            layout = placing::slide(&self.table, self.layout(), self.selected, goal - ball).layout;
+        if layout.validate(self.table()).is_err() {
+            layout = placing::slide(self.table(), self.layout(), self.selected, goal - ball).layout;
         }
         if layout == *self.layout() {
             return None;
         }
-        let position = Position { layout, advised: None };
+        let position = self.position(layout);
         if drag.is_begun {
             *self.balls.present_mut() = position;
         } else {

@@ -31,6 +31,7 @@ use crate::{
     coach::Skill,
     drills::Session,
     game::Rule,
+    learning::Policy,
     table::{Layout, LayoutError, Table},
 };
 
@@ -42,9 +43,11 @@ const FIRST_STEP: usize = 2;
 /// Seconds a picture of the spinner stays.
 const SPINNER_INTERVAL: f64 = 0.1;
 
-/// The balls and the advice on them.
+/// Everything that a step back brings back: where the balls lie, on which table, who is asked, and the advice on them.
 #[derive(Clone, Debug)]
 struct Position {
+    table: Arc<Table>,
+    policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
     advised: Option<Advised>,
 }
@@ -78,8 +81,6 @@ impl View {
 /// The state of the coach's screen.
 #[derive(Debug)]
 pub struct CoachScreen {
-    /// The table that is played on.
-    pub table: Table,
     /// What the arrow keys are for.
     pub mode: Mode,
     /// The ball that the arrow keys move.
@@ -116,7 +117,6 @@ impl CoachScreen {
     pub fn new(table: Table, layout: Layout, seed: u64) -> Result<Self, LayoutError> {
         layout.validate(&table)?;
         Ok(Self {
-            table,
             mode: Mode::Placing,
             selected: 0,
             playback: Playback::default(),
@@ -124,7 +124,7 @@ impl CoachScreen {
             tutor: Tutor::default(),
             own: None,
             view: View::default(),
-            balls: History::new(Position { layout, advised: None }),
+            balls: History::new(Position { table: Arc::new(table), policy: None, layout, advised: None }),
             drag: None,
             before: None,
             step: FIRST_STEP,
@@ -139,7 +139,7 @@ impl CoachScreen {
     /// Offers to go on from where the last session ended, if that is somewhere else.
     pub fn offer(&mut self, last: Option<Last>) {
         let is_elsewhere =
-            |last: &Last| last.layout != *self.layout() || last.table != self.table || last.practice.is_some();
+            |last: &Last| last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some();
         self.before = last.filter(is_elsewhere);
         if self.before.is_some() {
             self.message = Some(Message::plain("c goes on from where the last session ended"));
@@ -150,7 +150,7 @@ impl CoachScreen {
     /// start.
     pub fn last(&self, practice: Option<Session>) -> Option<Last> {
         let Tutor { rule, skill, plan, .. } = self.tutor;
-        let last = || Last::new(self.table.clone(), *self.layout(), rule, skill, plan);
+        let last = || Last::new(self.table().clone(), *self.layout(), rule, skill, plan);
         (self.is_begun() || practice.is_some()).then(|| last().with_practice(practice))
     }
 
@@ -173,35 +173,89 @@ impl CoachScreen {
         let Settings { rule, skill, plan, .. } = *settings;
         self.tutor = Tutor { rule, skill, plan, ..self.tutor.clone() };
         self.budget = Duration::from_millis(settings.think_ms);
-        self.step = STEPS.iter().position(|step| *step == settings.step_mm).unwrap_or(FIRST_STEP);
+        self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
+    }
+
+    /// Takes what has been set otherwise since `before`, and leaves all else as it is.
+    ///
+    /// # Errors
+    /// A sentence where the table cannot be read; everything else is taken.
+    pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
+        self.budget = Duration::from_millis(settings.think_ms);
+        if before.step_mm != settings.step_mm {
+            self.set_step(settings.step_mm);
+        }
+        if before.speed != settings.speed {
+            self.playback.set_speed(settings.speed);
+        }
+        let mut tutor = self.tutor.clone();
+        if before.rule != settings.rule {
+            tutor.rule = settings.rule;
+        }
+        if before.skill != settings.skill {
+            tutor.skill = settings.skill;
+        }
+        if before.plan != settings.plan {
+            tutor.plan = settings.plan;
+        }
+        if tutor != self.tutor {
+            self.cancel();
+            self.tutor = tutor;
+            self.rest();
+        }
+        if before.table != settings.table {
+            let table = settings.table()?;
+            if table != *self.table() {
+                self.take_tutor(&table, Tutor { policy: None, ..self.tutor.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets somebody else play from now on.
+    pub fn choose_skill(&mut self, skill: Skill) {
+        if skill != self.tutor.skill {
+            self.cancel();
+            self.tutor.skill = skill;
+            self.rest();
+        }
+    }
+
+    fn set_step(&mut self, step_mm: f64) {
+        self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
     }
 
     /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
     pub fn take_tutor(&mut self, table: &Table, tutor: Tutor) {
-        self.cancel();
-        if self.table == *table {
-            let layout = *self.layout();
-            self.place(layout);
-        } else {
-            self.balls = History::new(Position { layout: Layout::opening(table), advised: None });
-            self.table = table.clone();
-            self.rest();
-        }
-        self.message = Some(Message::good(format!("the coach plays with {}; Enter asks it", tutor.name())));
-        self.tutor = Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor };
+        let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
+        let news = format!("the coach plays with {}; Enter asks it", tutor.name());
+        self.take(table, layout, Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor });
+        self.message = Some(Message::good(news));
     }
 
     /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
-        if self.table != *table {
-            self.take_tutor(table, Tutor::default());
-        }
-        self.cancel();
-        self.tutor.rule = rule;
-        self.place(layout);
+        let policy = self.tutor.policy.clone().filter(|_| self.table() == table);
+        self.take(table, layout, Tutor { policy, rule, ..self.tutor.clone() });
         self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
+    }
+
+    /// Puts balls on a table, as a step that can be taken back, for `tutor` to be asked.
+    fn take(&mut self, table: &Table, layout: Layout, tutor: Tutor) {
+        self.cancel();
+        self.drop_ball();
+        let known = &self.balls.present().table;
+        let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
+        self.balls.push(Position { table, policy: tutor.policy.clone(), layout, advised: None });
+        self.tutor = tutor;
+        self.rest();
+    }
+
+    /// The table that is played on.
+    pub fn table(&self) -> &Table {
+        &self.balls.present().table
     }
 
     /// Where the balls lie before the shot.

@@ -156,7 +156,7 @@ impl DrillScreen {
         match self.question.take() {
             Some(Question::Search(_)) => self.catalogue.find_text(""),
             // One has come from the coach for this alone.
-            Some(Question::Name(..)) => self.pages.clear(),
+            Some(Question::Name(..)) => self.is_left = true,
             _ => {}
         }
     }

@@ -122,6 +122,7 @@ pub struct DrillScreen {
     for_coach: Option<Balls>,
     /// The pages one has come through; the last one is open.
     pages: Vec<Page>,
+    is_left: bool,
     rng: Xoshiro256PlusPlus,
 }
 
@@ -142,6 +143,7 @@ impl DrillScreen {
             wishes: Wishes { goal: Goal::Free, shifted: false },
             for_coach: None,
             pages: Vec::new(),
+            is_left: false,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
     }
@@ -150,6 +152,7 @@ impl DrillScreen {
     /// again.
     pub fn open(&mut self, skill: Skill) -> Effect {
         self.message = None;
+        self.is_left = false;
         let mut errands = vec![self.load()];
         if skill != self.player.at_coach {
             self.player.choose(skill);
@@ -185,11 +188,9 @@ impl DrillScreen {
         self.turn.as_ref().map(|turn| &turn.session).filter(|session| !session.is_over())
     }
 
-    /// Opens the library and asks under which name the position on the coach's table is to be saved.
+    /// Opens the page that was open last and asks under which name the position on the coach's table is to be saved.
     pub fn open_to_save(&mut self, balls: Balls, skill: Skill, shot: Option<CueInputs>) -> Effect {
         let Balls { table, layout, rule } = balls;
-        self.leave_turn();
-        self.pages = vec![Page::Library];
         let position = Exercise { shot, ..Exercise::own("", rule, &table.name, layout) };
         let effect = self.open(skill);
         match position.table() {
@@ -205,9 +206,9 @@ impl DrillScreen {
         effect
     }
 
-    /// Whether one has gone back from the first page.
+    /// Whether one has gone back to the coach: from the first page, or from what one had come for.
     pub const fn is_left(&self) -> bool {
-        self.pages.is_empty()
+        self.is_left || self.pages.is_empty()
     }
 
     /// Balls that are to go to the coach's table; asked once.

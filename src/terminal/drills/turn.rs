@@ -2,9 +2,12 @@
 //!
 //! [`super::turn_actions`] is what each key does to it.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, AtomicU64, Ordering},
+use std::{
+    mem::Discriminant,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
 };
 
 use super::{
@@ -17,7 +20,7 @@ use crate::{
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{playback::Playback, shot::Shot, status::Message},
+    terminal::{history::History, keymap::DrillAction, playback::Playback, shot::Shot, status::Message},
 };
 
 /// Numbers of the questions to the coach, whatever exercise they are about: an answer may come when another is open.
@@ -71,8 +74,6 @@ pub struct Turn {
     pub table: Table,
     /// Where the balls lie.
     pub layout: Layout,
-    /// The stroke that is set.
-    pub stroke: CueInputs,
     /// What is going on.
     pub stage: Stage,
     /// The stroke that is taught.
@@ -83,6 +84,10 @@ pub struct Turn {
     pub is_helped: bool,
     /// The session as it will be once all notes are saved.
     ahead: Option<Session>,
+    /// The stroke that is set, with what it was before.
+    strokes: History<CueInputs>,
+    /// What has changed it last: one input that is changed several times over is one step back.
+    changed_by: Option<Discriminant<DrillAction>>,
     position: u64,
     cancel: Arc<AtomicBool>,
 }
@@ -97,7 +102,8 @@ impl Turn {
             return Ok(None);
         };
         Ok(Some(Self {
-            stroke: aiming::first_stroke(&layout),
+            strokes: History::new(aiming::first_stroke(&layout)),
+            changed_by: None,
             session,
             exercise,
             table,
@@ -110,6 +116,36 @@ impl Turn {
             position: 0,
             cancel: Arc::default(),
         }))
+    }
+
+    /// The stroke that is set.
+    pub const fn stroke(&self) -> &CueInputs {
+        self.strokes.present()
+    }
+
+    /// Sets another stroke, as `action` wants it.
+    pub(super) fn set_stroke(&mut self, stroke: CueInputs, action: DrillAction) {
+        let changed_by = Some(std::mem::discriminant(&action));
+        if stroke == *self.stroke() {
+            return;
+        }
+        if self.changed_by == changed_by {
+            *self.strokes.present_mut() = stroke;
+        } else {
+            self.strokes.push(stroke);
+        }
+        self.changed_by = changed_by;
+    }
+
+    /// Sets the stroke as it was before its last change, or after it again.
+    pub(super) fn travel(&mut self, step: impl Fn(&mut History<CueInputs>) -> bool) {
+        step(&mut self.strokes);
+        self.changed_by = None;
+    }
+
+    /// Whether the stroke can be set as it was before its last change, and after it again.
+    pub(super) const fn can_travel(&self) -> (bool, bool) {
+        (self.strokes.can_undo(), self.strokes.can_redo())
     }
 
     /// Whose strokes are played.
@@ -143,7 +179,7 @@ impl Turn {
 
     /// The line of aim, while the stroke is set.
     pub fn sight(&self) -> Option<Sight> {
-        self.is_aiming().then(|| sight(&self.table, &self.layout, self.stroke.phi))
+        self.is_aiming().then(|| sight(&self.table, &self.layout, self.stroke().phi))
     }
 
     /// The stroke that is taught, if it is known and there is one.
@@ -214,12 +250,13 @@ impl Turn {
 
     /// What plays the stroke that is set.
     pub(super) fn play(&mut self) -> Errand {
+        self.changed_by = None;
         self.stage = Stage::Waiting;
         self.is_helped |= self.shows_hint;
         self.shows_hint = false;
         Errand::Play(Box::new(Stroke {
             session: self.session.clone(),
-            meant: self.stroke,
+            meant: *self.stroke(),
             helped: self.is_helped,
             position: self.position,
         }))
@@ -234,7 +271,7 @@ impl Turn {
         let mut playback = Playback::default();
         let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
         playback.toggle(duration);
-        let mut watched = Watched { outcome, meant: self.stroke, chance: None, playback, is_settled: false };
+        let mut watched = Watched { outcome, meant: *self.stroke(), chance: None, playback, is_settled: false };
         watched.settle();
         self.stage = Stage::Watching(Box::new(watched));
     }
@@ -302,7 +339,8 @@ impl Turn {
         let is_other = exercise.name != self.exercise.name;
         let is_moved = is_other || layout != self.layout;
         if is_other || is_moved && self.session.is_game() {
-            self.stroke = aiming::first_stroke(&layout);
+            self.strokes = History::new(aiming::first_stroke(&layout));
+            self.changed_by = None;
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.stage = Stage::Aiming;

@@ -7,6 +7,7 @@ use crate::{
     physics::CueInputs,
     terminal::{
         app::Effect,
+        history::History,
         keymap::{DrillAction as Action, DrillWhen as When},
         status::Message,
         words::skill_word,
@@ -42,6 +43,11 @@ impl Turn {
             (_, When::Advised) => refuse(self.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
                 .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
+            (Stage::Aiming, When::StrokeChanged) => refuse(!self.can_travel().0, "the stroke is as it was at first"),
+            (Stage::Aiming, When::StrokeUndone) => {
+                refuse(!self.can_travel().1, "no change of the stroke was taken back")
+            }
+            (_, When::StrokeChanged | When::StrokeUndone) => self.refusal(When::Aiming),
             (_, When::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
             _ => None,
         }
@@ -60,19 +66,22 @@ impl DrillScreen {
     /// What the keys do to the exercise that is practised.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
-        let cue = turn.stroke;
+        let cue = *turn.stroke();
         match action {
-            Action::Turn(degrees) => turn.stroke = aiming::turned(&cue, degrees),
+            Action::Turn(degrees) => turn.set_stroke(aiming::turned(&cue, degrees), action),
             Action::AimAtBall => {
-                turn.stroke = aiming::at_ball(&cue, &turn.layout, aiming::next_ball(&cue, &turn.layout));
+                let ball = aiming::next_ball(&cue, &turn.layout);
+                turn.set_stroke(aiming::at_ball(&cue, &turn.layout, ball), action);
             }
             Action::Tip(left, up) => match aiming::tip_moved(&turn.table, &cue, left, up) {
-                Some(moved) => turn.stroke = moved,
+                Some(moved) => turn.set_stroke(moved, action),
                 None => self.message = Some(Message::warning("further out the tip would slip off the ball")),
             },
-            Action::Centre => turn.stroke = CueInputs { a: 0.0, b: 0.0, ..cue },
-            Action::Raise(degrees) => turn.stroke = aiming::raised(&cue, degrees),
-            Action::Faster(by) => turn.stroke = aiming::faster(&cue, by),
+            Action::Centre => turn.set_stroke(CueInputs { a: 0.0, b: 0.0, ..cue }, action),
+            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&cue, degrees), action),
+            Action::Faster(by) => turn.set_stroke(aiming::faster(&cue, by), action),
+            Action::StrokeBack => turn.travel(History::undo),
+            Action::StrokeAgain => turn.travel(History::redo),
             Action::Play => return self.play(),
             Action::Next => return self.next(),
             Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),

@@ -9,7 +9,7 @@ mod trainer;
 use std::{
     io,
     path::PathBuf,
-    sync::mpsc::Sender,
+    sync::mpsc::{Sender, channel},
     thread::{self, JoinHandle},
     time::Duration,
 };
@@ -18,6 +18,7 @@ use self::{polling::Poll, recorder::Recorder};
 use super::{
     drills::Errand,
     inbox::News,
+    settings::{SettingsErrand, SettingsFile},
     training::{Keeping, Launch, Reel, Report, Slot, Wanted},
 };
 use crate::{
@@ -47,12 +48,14 @@ pub struct Errands {
     followed: [Option<Poll>; 2],
     /// The thread of the drill screens, which starts with the first errand, and the way to it.
     clerk: Option<(Sender<Errand>, JoinHandle<()>)>,
+    /// To the thread of the settings' file, likewise.
+    setter: Option<Sender<SettingsErrand>>,
 }
 
 impl Errands {
     /// Nothing is wanted yet.
     pub fn new(to_screen: Sender<News>) -> Self {
-        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], clerk: None }
+        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], clerk: None, setter: None }
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -120,6 +123,21 @@ impl Errands {
         Ok(())
     }
 
+    /// Reads or changes the settings' file, one errand after the other.
+    ///
+    /// # Errors
+    /// As [`Errands::train`].
+    pub fn set(&mut self, errand: SettingsErrand) -> io::Result<()> {
+        let setter = match self.setter.take() {
+            Some(setter) => setter,
+            None => start_setter(self.to_screen.clone())?,
+        };
+        // The thread ends with the program alone.
+        let _ = setter.send(errand);
+        self.setter = Some(setter);
+        Ok(())
+    }
+
     /// Waits until what the player has noted is on the disk: the screen may close before.
     pub fn finish(self) {
         if let Some((errands, thread)) = self.clerk {
@@ -182,6 +200,23 @@ impl Errands {
         })?;
         Ok(())
     }
+}
+
+/// Starts the thread of the settings' file.
+///
+/// # Errors
+/// A thread that could not be started.
+fn start_setter(to_screen: Sender<News>) -> io::Result<Sender<SettingsErrand>> {
+    let (sender, errands) = channel::<SettingsErrand>();
+    thread::Builder::new().name("settings".into()).spawn(move || {
+        let mut file = SettingsFile::default();
+        for errand in errands {
+            if to_screen.send(News::Settings(file.run(&errand))).is_err() {
+                break;
+            }
+        }
+    })?;
+    Ok(sender)
 }
 
 /// Lists the runs, and reports where anything has changed.

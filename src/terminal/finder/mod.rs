@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::{
-    chord::keys_text,
+    chord::{Chord, keys_text},
     keymap::{Action, FinderAction, Place, When, bindings},
     look::Look,
     settings::Keys,
@@ -14,6 +14,8 @@ use super::{
 pub struct Command {
     /// Its keys as they are written on the screen.
     pub keys: String,
+    /// The keys that it has by default.
+    pub chords: Vec<Chord>,
     /// What it does.
     pub description: &'static str,
     /// Its word in the hint line, or nothing.
@@ -44,9 +46,11 @@ pub fn commands(place: Place, keys: &Keys, look: Look) -> Vec<Command> {
             if commands[from..].iter().any(|known| known.action == *action) {
                 continue;
             }
-            let chords = binding.keys.iter().filter(|(_, other)| other == action);
+            let chords: Vec<Chord> =
+                binding.keys.iter().filter(|(_, other)| other == action).map(|(chord, _)| *chord).collect();
             commands.push(Command {
-                keys: keys_text(chords.flat_map(|(chord, _)| keys.for_work_of(*chord)), look),
+                keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), look),
+                chords,
                 description: binding.description,
                 hint: binding.hint.map_or("", |(word, _)| word),
                 title: binding.section.title(),

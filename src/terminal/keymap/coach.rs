@@ -7,7 +7,7 @@ use super::{
     Section::{self, Balls, Program, Shot},
     When, entry,
 };
-use crate::terminal::chord::Chord;
+use crate::terminal::{app::Screen, chord::Chord};
 
 /// What a key does on the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,9 +178,9 @@ pub const COACH: &[Binding] = &[
         "make a change again that was taken back"),
     bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots"),
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
-    bind(Program, W::Anytime, &[(Chord::char('d'), Action::OpenDrills)], Some(("drills", 1)),
+    bind(Program, W::Anytime, &[(Chord::char('d'), Action::Open(Screen::Drills))], Some(("drills", 1)),
         "practise: exercises, exams, and your own positions"),
     bind(Balls, W::Anytime, &[(Chord::char('s'), Action::SavePosition)], None, "save the balls as a position to practise"),
-    bind(Program, W::Anytime, &[(Chord::char('t'), Action::OpenTraining)], Some(("train", 1)),
+    bind(Program, W::Anytime, &[(Chord::char('t'), Action::Open(Screen::Training))], Some(("train", 1)),
         "train agents and watch them learn"),
 ];

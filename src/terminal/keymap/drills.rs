@@ -76,6 +76,10 @@ pub enum DrillAction {
     Log(bool),
     /// Takes the last note back.
     Undo,
+    /// Takes the last change of the stroke back.
+    StrokeBack,
+    /// Makes it again.
+    StrokeAgain,
     /// Shows the record of all exercises, or of the one again.
     Scope,
     /// Takes the estimated skill as the player's own.
@@ -115,6 +119,10 @@ pub enum DrillWhen {
     Advised,
     /// Where there is a note that can be taken back.
     Undoable,
+    /// Where the stroke was changed.
+    StrokeChanged,
+    /// Where a change of the stroke was taken back.
+    StrokeUndone,
     /// Where the page of an exercise is beneath.
     OfExercise,
     /// Where there is an estimate of the skill.
@@ -258,6 +266,9 @@ pub const EXERCISE: &[Binding] = &[
     bind(Stroke, W::Aiming, &[key(Tab, A::AimAtBall)], Some(("at a ball", 1)),
         "aim full at the first object ball, then at the other"),
     bind(Stroke, W::Aiming, &[letter('0', A::Centre)], None, "put the tip in the middle"),
+    bind(Stroke, W::StrokeChanged, &[letter('z', A::StrokeBack)], None, "take the last change of the stroke back"),
+    bind(Stroke, W::StrokeUndone, &[letter('Z', A::StrokeAgain), on(Chord::ctrl(KeyCode::Char('r')), A::StrokeAgain)], None,
+        "make a change of the stroke again that was taken back"),
     bind(Stroke, W::Aiming, &[letter('-', A::Raise(-1.0)), letter('+', A::Raise(1.0)), letter('=', A::Raise(1.0))], None,
         "lower, raise the cue by 1 degree"),
     bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/missed at a table", 2)),

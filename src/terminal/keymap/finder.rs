@@ -37,7 +37,7 @@ use FinderAction as A;
 /// What opens it, wherever letters are not typed.
 pub const OPEN: Binding = bind(
     &[(Chord::char(':'), Action::Finder(A::Open)), (Chord::ctrl(KeyCode::Char('p')), Action::Finder(A::Open))],
-    None,
+    Some(("commands", 1)),
     "find what can be done here by its words, and do it",
 );
 

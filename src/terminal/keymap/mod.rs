@@ -1,8 +1,11 @@
 //! The tables of keys: dispatch, the hint line and the help all read them, so that they cannot disagree.
 
 mod coach;
+mod document;
 mod drills;
 mod finder;
+mod section;
+mod settings;
 mod training;
 
 use crossterm::event::{
@@ -10,11 +13,14 @@ use crossterm::event::{
     KeyEvent,
 };
 
-use super::chord::Chord;
+use super::{app::Screen, chord::Chord};
 
 pub use coach::{CoachAction, CoachWhen};
+pub use document::document;
 pub use drills::{DrillAction, DrillPlace, DrillWhen};
 pub use finder::FinderAction;
+pub use section::Section;
+pub use settings::{SettingsAction, SettingsPlace, SettingsWhen};
 pub use training::{TrainingAction, TrainingWhen};
 
 /// What a key does.
@@ -36,10 +42,10 @@ pub enum Action {
     NextGlyphs,
     /// Shows the next of the themes.
     NextPalette,
-    /// Opens the training screen.
-    OpenTraining,
-    /// Opens the library of exercises.
-    OpenDrills,
+    /// Opens a screen, where it was left.
+    Open(Screen),
+    /// Shows what was refused or has failed so far.
+    OpenMessages,
     /// Asks under which name the balls are to be saved.
     SavePosition,
     /// Something on the coach's screen.
@@ -48,6 +54,8 @@ pub enum Action {
     Training(TrainingAction),
     /// Something on the drill screens.
     Drill(DrillAction),
+    /// Something on the settings' screen.
+    Settings(SettingsAction),
 }
 
 /// When a binding may be used; the app knows whether it holds, and why not.
@@ -57,12 +65,16 @@ pub enum When {
     Always,
     /// While the help is open.
     Help,
+    /// Where there are other screens to go to.
+    Tabs,
     /// As the coach's screen says.
     Coach(CoachWhen),
     /// As the training screen says.
     Training(TrainingWhen),
     /// As the drill screens say.
     Drill(DrillWhen),
+    /// As the settings' screen says.
+    Settings(SettingsWhen),
 }
 
 /// What is on the screen: each has its own keys.
@@ -84,39 +96,27 @@ pub enum Place {
     Name,
     /// One of the drill screens.
     Drill(DrillPlace),
+    /// One of the settings' pages, or what is asked there.
+    Settings(SettingsPlace),
     /// The command palette, over any of them.
     Finder,
 }
 
-/// Headings of the help, in its order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Section {
-    /// Keys that move balls.
-    Balls,
-    /// Keys that ask the coach and play the shot.
-    Shot,
-    /// Keys of the list of runs.
-    List,
-    /// Keys of the form.
-    Form,
-    /// Keys that choose what is drawn of a run.
-    Charts,
-    /// Keys that steer a run and use what it has learnt.
-    Run,
-    /// Keys of the replay.
-    Replay,
-    /// Keys of the list of exercises.
-    Library,
-    /// Keys that set and play a stroke.
-    Stroke,
-    /// Keys of what is counted.
-    Score,
-    /// Keys of where the balls lie.
-    Position,
-    /// Keys of the page of records.
-    Record,
-    /// All others.
-    Program,
+impl Place {
+    /// The pages with their names, in the order of the screens.
+    pub const PAGES: [(Self, &'static str); 11] = [
+        (Self::Coach, "Coach"),
+        (Self::Drill(DrillPlace::Library), "Drills: library"),
+        (Self::Drill(DrillPlace::Exercise), "Drills: exercise"),
+        (Self::Drill(DrillPlace::Result), "Drills: result of an exam"),
+        (Self::Drill(DrillPlace::Record), "Drills: record"),
+        (Self::Runs, "Training: runs"),
+        (Self::Form, "Training: new run"),
+        (Self::Watch, "Training: a run"),
+        (Self::Compare, "Training: compare"),
+        (Self::Settings(SettingsPlace::Values), "Settings"),
+        (Self::Settings(SettingsPlace::Keys), "Settings: keys"),
+    ];
 }
 
 /// One line of a table.
@@ -132,44 +132,6 @@ pub struct Binding {
     pub when: When,
     /// Its heading in the help.
     pub section: Section,
-}
-
-impl Section {
-    /// All headings, in the help's order.
-    pub const ALL: [Self; 13] = [
-        Self::Balls,
-        Self::Shot,
-        Self::List,
-        Self::Form,
-        Self::Charts,
-        Self::Run,
-        Self::Replay,
-        Self::Library,
-        Self::Stroke,
-        Self::Score,
-        Self::Position,
-        Self::Record,
-        Self::Program,
-    ];
-
-    /// The heading.
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Balls => "Placing the balls",
-            Self::Shot => "The shot",
-            Self::List => "The list of runs",
-            Self::Form => "A new run",
-            Self::Charts => "The charts",
-            Self::Run => "The run",
-            Self::Replay => "The replay",
-            Self::Library => "The library",
-            Self::Stroke => "Your stroke",
-            Self::Score => "The score",
-            Self::Position => "The position",
-            Self::Record => "The record",
-            Self::Program => "The program",
-        }
-    }
 }
 
 const fn entry(
@@ -207,10 +169,20 @@ const HELP: &[Binding] = &[
         Some(("scroll", 2)), "scroll the help"),
 ];
 
+/// The keys that all screens have, where letters are typed too.
+#[rustfmt::skip]
+const TABS: &[Binding] = &[
+    entry(Program, When::Tabs, &[key(F(2), A::Open(Screen::Coach))], None, "the coach's table, as it was left"),
+    entry(Program, When::Tabs, &[key(F(3), A::Open(Screen::Drills))], None, "the drills, as they were left"),
+    entry(Program, When::Tabs, &[key(F(4), A::Open(Screen::Training))], None, "the training, as it was left"),
+    entry(Program, When::Tabs, &[key(F(5), A::Open(Screen::Settings))], None, "the settings, and keys of your own"),
+];
+
 /// The keys that all screens have.
 #[rustfmt::skip]
 const PROGRAM: &[Binding] = &[
     entry(Program, When::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
+    entry(Program, When::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
     finder::OPEN,
     entry(Program, When::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
     entry(Program, When::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
@@ -221,6 +193,8 @@ const PROGRAM: &[Binding] = &[
 /// Those of them that mean nothing else where letters are answers.
 #[rustfmt::skip]
 const LEAVE: &[Binding] = &[
+    entry(Program, When::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
+    entry(Program, When::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
     entry(Program, When::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     entry(Program, When::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
@@ -236,14 +210,43 @@ pub fn bindings(place: Place) -> impl Iterator<Item = &'static Binding> {
         Place::Question => training::QUESTION,
         Place::Name => training::NAME,
         Place::Drill(place) => place.bindings(),
+        Place::Settings(place) => place.bindings(),
         Place::Finder => finder::FINDER,
     };
     let (help, program) = match place {
         Place::Question | Place::Name | Place::Finder => (&[][..], LEAVE),
         Place::Drill(place) if place.takes_letters() => (&[][..], LEAVE),
+        Place::Settings(place) if place.takes_letters() => (&[][..], LEAVE),
         _ => (HELP, PROGRAM),
     };
-    help.iter().chain(own).chain(program)
+    help.iter().chain(own).chain(TABS).chain(program)
+}
+
+/// The key that asks for `action` at `place`, if one does.
+pub fn chord_of(place: Place, action: Action) -> Option<Chord> {
+    let all = bindings(place).flat_map(|binding| binding.keys);
+    all.into_iter().find(|(_, known)| *known == action).map(|(chord, _)| *chord)
+}
+
+/// The key that opens `screen` from everywhere.
+pub fn chord_of_tab(screen: Screen) -> Option<Chord> {
+    let all = TABS.iter().flat_map(|binding| binding.keys);
+    all.into_iter().find(|(_, known)| *known == Action::Open(screen)).map(|(chord, _)| *chord)
+}
+
+/// Everything that a key does anywhere: the page's name and what it does there, in the order of the pages.
+pub fn works_of(chord: Chord) -> Vec<(&'static str, &'static str)> {
+    let mut works = Vec::new();
+    for (place, page) in Place::PAGES {
+        let own = bindings(place).filter(|binding| binding.when != When::Help);
+        for binding in own.filter(|binding| binding.keys.iter().any(|(known, _)| *known == chord)) {
+            // What all pages have is told once.
+            if works.iter().all(|(_, known)| *known != binding.description) {
+                works.push((page, binding.description));
+            }
+        }
+    }
+    works
 }
 
 /// What `event` asks for at `place`: the first binding that may be used now, or else the reason why the last one may
@@ -281,7 +284,7 @@ mod tests {
     ];
 
     fn places() -> impl Iterator<Item = Place> {
-        PLACES.into_iter().chain(DrillPlace::ALL.map(Place::Drill))
+        PLACES.into_iter().chain(DrillPlace::ALL.map(Place::Drill)).chain(SettingsPlace::ALL.map(Place::Settings))
     }
 
     #[test]
@@ -309,10 +312,22 @@ mod tests {
     }
 
     #[test]
-    fn the_program_can_be_left_from_everywhere() {
+    fn the_program_and_each_screen_can_be_left_from_everywhere() {
         let event = KeyEvent::new(KeyCode::Char('c'), crossterm::event::KeyModifiers::CONTROL);
         for place in places() {
             assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
+            for (number, screen) in (2..).zip(Screen::ALL) {
+                let event = KeyEvent::from(KeyCode::F(number));
+                assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Open(screen))), "{place:?}");
+            }
         }
+    }
+
+    #[test]
+    fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
+        let pages = |letter| works_of(Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
+        assert_eq!(pages('u'), ["Coach", "Drills: exercise"]);
+        assert_eq!(works_of(Chord::char('q')).len(), 1, "quitting");
+        assert!(pages('%').is_empty());
     }
 }

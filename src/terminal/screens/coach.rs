@@ -25,8 +25,8 @@ use crate::{
     },
 };
 
-/// Draws the screen.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+/// Draws the screen; gives the first row of what stands below the picture.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
     let panes = Panes::new(app.table(), area);
     let (theme, look) = (app.theme(), app.look());
     draw_header(app, panes.header, buffer);
@@ -49,8 +49,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     draw_table(&view, panes.table, buffer);
     draw_panels(app, &panes, buffer);
     let standing = || Message::plain(standing(app));
-    draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, theme, look, buffer);
     draw_hints(app, panes.hints, buffer);
+    draw_status(&app.message().cloned().unwrap_or_else(standing), panes.status, theme, look, buffer)
 }
 
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as

@@ -4,7 +4,6 @@ use ratatui::{
     buffer::Buffer,
     layout::Rect,
     style::Modifier,
-    symbols::border,
     text::{Line, Span},
     widgets::{Block, Clear, Widget},
 };
@@ -13,7 +12,7 @@ use crate::terminal::{
     app::App,
     finder::{Command, Finder},
     status::Message,
-    widgets::{cut, draw_status, wrap, write_right},
+    widgets::{cut, draw_status, frame, wrap, write_right},
 };
 
 /// Columns of the box at most, and beside it at least; its rows at most.
@@ -28,20 +27,9 @@ const BELOW: u16 = 3;
 const KEYS: u16 = 16;
 /// Columns of the row of what is typed that are the prompt's and the counts'.
 const COUNTS: usize = 16;
-/// The frame where there are only plain characters.
-const ASCII_FRAME: border::Set = border::Set {
-    top_left: "+",
-    top_right: "+",
-    bottom_left: "+",
-    bottom_right: "+",
-    vertical_left: "|",
-    vertical_right: "|",
-    horizontal_top: "-",
-    horizontal_bottom: "-",
-};
-
-/// Draws the palette over the screen in `area`, which has the smallest size at least.
-pub fn draw(app: &App, finder: &Finder, area: Rect, buffer: &mut Buffer) {
+/// Draws the palette over the screen in `area`, which has the smallest size at least; gives the first row of what stands
+/// below it.
+pub fn draw(app: &App, finder: &Finder, area: Rect, buffer: &mut Buffer) -> u16 {
     let (theme, look) = (app.theme(), app.look());
     let all = app.commands();
     let count = all.len();
@@ -52,9 +40,8 @@ pub fn draw(app: &App, finder: &Finder, area: Rect, buffer: &mut Buffer) {
     let place = Rect::new(area.x + (area.width - width) / 2, area.y + 1, width, height);
     Clear.render(place, buffer);
     buffer.set_style(place, theme.text());
-    let frame =
-        Block::bordered().border_style(theme.faint()).title(Span::styled(" What can be done here ", theme.text()));
-    let frame = if look.unicode { frame } else { frame.border_set(ASCII_FRAME) };
+    let title = Span::styled(" What can be done here ", theme.text());
+    let frame = frame(Block::bordered(), look).border_style(theme.faint()).title(title);
     let inner = frame.inner(place);
     frame.render(place, buffer);
     // Of what is typed the end is to be seen.
@@ -76,7 +63,7 @@ pub fn draw(app: &App, finder: &Finder, area: Rect, buffer: &mut Buffer) {
         draw_command(app, command, n == mark, Rect { y, height: 1, ..rows }, buffer);
     }
     let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);
-    draw_status(&standing(app, found.get(mark)), status, theme, look, buffer);
+    draw_status(&standing(app, found.get(mark)), status, theme, look, buffer)
 }
 
 /// Draws one command: its keys, what it does, and why it may not be used now.
@@ -84,6 +71,8 @@ fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, buffe
     let (theme, look) = (app.theme(), app.look());
     let refusal = app.refusal(command.when);
     let (keys, words) = if refusal.is_some() { (theme.faint(), theme.faint()) } else { (theme.accent(), theme.text()) };
+    // The mark has to be read, whatever may be done.
+    let words = if is_marked { theme.text() } else { words };
     let text = sentence(command, refusal);
     let room = usize::from(area.width.saturating_sub(KEYS + 4));
     buffer.set_stringn(area.x + 2, area.y, &command.keys, usize::from(KEYS), keys);
@@ -99,16 +88,15 @@ fn sentence(command: &Command, refusal: Option<&str>) -> String {
     refusal.map_or_else(|| command.description.to_owned(), |reason| format!("{}: {reason}", command.description))
 }
 
-/// What the status line says: the marked command in full, or why it was refused.
+/// What the status line says: the marked command in full.
 fn standing(app: &App, marked: Option<&Command>) -> Message {
-    if let Some(refused) = app.message().filter(|message| message.is_warning()) {
-        return refused.clone();
-    }
     marked.map_or_else(
         || Message::plain("nothing here is called like that"),
         |command| {
-            let words = sentence(command, app.refusal(command.when));
-            Message::plain(words).after(command.title)
+            let refusal = app.refusal(command.when);
+            let words = sentence(command, refusal);
+            let message = if refusal.is_some() { Message::poor(words) } else { Message::plain(words) };
+            message.after(command.title)
         },
     )
 }

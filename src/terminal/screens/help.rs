@@ -1,4 +1,5 @@
-//! The help: every key with what it does, read from the table of keys, and a few words on what is drawn.
+//! The pages that lie over a screen: every key with what it does, read from the table of keys, and a few words on what is
+//! drawn; or all that was refused or has failed so far.
 
 use ratatui::{
     buffer::Buffer,
@@ -9,10 +10,10 @@ use ratatui::{
 use crate::{
     learning::run::quantity::Quantity,
     terminal::{
-        app::App,
+        app::{App, Overlay},
         chord::keys_text,
         keymap::{Place, Section, When, bindings},
-        widgets::{draw_hints, wrap},
+        widgets::{draw_hints, draw_tabs, wrap},
     },
 };
 
@@ -37,6 +38,13 @@ const COACH_NOTES: [&str; 6] = [
      place where a level cue would have to meet it to give it the spin that it has at its speed; a rolling ball has it two \
      fifths above the middle.",
     "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
+];
+
+const SETTINGS_NOTES: [&str; 3] = [
+    "Whatever is set holds at once and stands in the file that is named above, where comments, order and all that carom does \
+     not understand stay as they are. What somebody else has changed there meanwhile is read, and never written over.",
+    "A setting without a mark is as it is by default. carom config prints all of them, with what each means and accepts.",
+    "A key of your own does the work of the one that it is given, on every page; what it did itself it does no more.",
 ];
 
 const TRAINING_NOTES: [&str; 4] = [
@@ -65,6 +73,7 @@ fn notes(place: Place) -> Vec<String> {
     match place {
         Place::Coach => return COACH_NOTES.map(str::to_owned).to_vec(),
         Place::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
+        Place::Settings(_) => return SETTINGS_NOTES.map(str::to_owned).to_vec(),
         _ => {}
     }
     let quantities: Vec<_> =
@@ -73,10 +82,14 @@ fn notes(place: Place) -> Vec<String> {
     TRAINING_NOTES.map(str::to_owned).into_iter().chain(rows).collect()
 }
 
-/// Draws the help from its line `top` on.
-pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
-    let page = Rect::new(area.x + 2, area.y + 1, area.width.saturating_sub(4), area.height.saturating_sub(3));
-    let lines = lines(app, usize::from(page.width));
+/// Draws the page `what` from its line `top` on; gives the first row of what stands below it.
+pub fn draw(app: &App, what: Overlay, top: u16, area: Rect, buffer: &mut Buffer) -> u16 {
+    let page = Rect::new(area.x + 2, area.y + 2, area.width.saturating_sub(4), area.height.saturating_sub(4));
+    draw_tabs(app, Rect { height: 1, ..area }, buffer);
+    let lines = match what {
+        Overlay::Help => lines(app, usize::from(page.width)),
+        Overlay::Messages => messages(app, usize::from(page.width)),
+    };
     let last = lines.len().saturating_sub(usize::from(page.height));
     app.set_help_end(last as u16);
     let first = usize::from(top).min(last);
@@ -89,6 +102,29 @@ pub fn draw(app: &App, top: u16, area: Rect, buffer: &mut Buffer) {
         buffer.set_string(page.x, page.bottom(), more, app.theme().faint());
     }
     draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, buffer);
+    page.bottom()
+}
+
+/// What was refused or has failed so far, the newest first.
+fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
+    let (theme, look) = (app.theme(), app.look());
+    let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];
+    if app.toasts().past().len() == 0 {
+        lines.push(Line::styled("Nothing was refused, and nothing has failed so far.", theme.text()));
+    }
+    for text in app.toasts().past() {
+        for (n, line) in wrap(text, width.saturating_sub(2)).into_iter().enumerate() {
+            let mark = if n == 0 { look.pick("•", "-") } else { " " };
+            lines.push(Line::from(vec![
+                Span::styled(format!("{mark} "), theme.warning()),
+                Span::styled(line, theme.text()),
+            ]));
+        }
+    }
+    lines.push(Line::default());
+    let log = format!("With their times, and from earlier sessions too: {}", app.training().places.log.display());
+    lines.extend(wrap(&log, width).into_iter().map(|line| Line::styled(line, theme.faint())));
+    lines
 }
 
 fn lines(app: &App, width: usize) -> Vec<Line<'static>> {

@@ -5,13 +5,17 @@ mod drills;
 mod finder;
 mod help;
 mod panes;
+mod settings;
 mod target;
 mod too_small;
 mod training;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::app::{App, Screen};
+use super::{
+    app::{App, Screen},
+    widgets::draw_toasts,
+};
 
 pub use coach::table_mapping;
 pub use target::{Target, target};
@@ -24,16 +28,20 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     buffer.set_style(area, app.theme().text());
     if area.width < SMALLEST.0 || area.height < SMALLEST.1 {
         too_small::draw(app, area, buffer);
-    } else if let Some(top) = app.help() {
-        help::draw(app, top, area, buffer);
-    } else {
-        match app.screen() {
-            Screen::Coach => coach::draw(app, area, buffer),
-            Screen::Training => training::draw(app, area, buffer),
-            Screen::Drills => drills::draw(app, area, buffer),
-        }
-        if let Some(finder) = app.finder() {
-            finder::draw(app, finder, area, buffer);
-        }
+        return;
     }
+    // Whatever is to be read or answered begins there; toasts stay above it.
+    let mut foot = match (app.help(), app.screen()) {
+        (Some((page, top)), _) => help::draw(app, page, top, area, buffer),
+        (None, Screen::Coach) => coach::draw(app, area, buffer),
+        (None, Screen::Training) => training::draw(app, area, buffer),
+        (None, Screen::Drills) => drills::draw(app, area, buffer),
+        (None, Screen::Settings) => settings::draw(app, area, buffer),
+    };
+    if let Some(finder) = app.finder() {
+        foot = finder::draw(app, finder, area, buffer);
+    }
+    // The first row is the header's.
+    let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));
+    draw_toasts(app, room, buffer);
 }

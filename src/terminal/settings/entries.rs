@@ -6,22 +6,29 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::Settings;
 use crate::{
+    coach::Skill,
+    game::Rule,
     table::PRESETS,
     terminal::{
         coach::STEPS,
         look::{Depth, Glyphs},
         playback::SPEEDS,
+        theme::Palette,
     },
 };
 
 /// One key of the file.
 pub struct Entry {
+    /// Its heading on the screen; those that have the same stand together.
+    pub group: &'static str,
     /// Its name.
     pub key: &'static str,
     /// What it is for.
     pub about: &'static str,
     /// What it accepts.
     pub accepted: &'static str,
+    /// Values to step through, as TOML, all of which it accepts.
+    pub choices: fn() -> Vec<String>,
     /// Its value as TOML.
     pub get: fn(&Settings) -> String,
     /// Takes a value; `None` if it is refused.
@@ -46,12 +53,17 @@ const GLYPHS: [(&str, Option<Glyphs>); 5] = [
     ("letters", Some(Glyphs::Letters)),
 ];
 
+/// Thinking times to step through, ms.
+const THINKING: [u64; 10] = [100, 250, 500, 1000, 2000, 3000, 5000, 10_000, 30_000, 60_000];
+
 /// All keys, in the order of the file.
 pub const ENTRIES: &[Entry] = &[
     Entry {
+        group: "Looks",
         key: "theme",
         about: "Colours of the screen.",
         accepted: "\"dark\", \"light\", \"high-contrast\", \"colour-blind\", \"mono\"",
+        choices: || Palette::ALL.map(|palette| quoted(palette.name())).to_vec(),
         get: |settings| quoted(settings.palette.name()),
         set: |settings, value| {
             settings.palette = value.as_str()?.parse().ok()?;
@@ -59,9 +71,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Looks",
         key: "colours",
         about: "How many colours the terminal has; auto looks at NO_COLOR, COLORTERM and TERM.",
         accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
+        choices: || DEPTHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&DEPTHS, &settings.depth)),
         set: |settings, value| {
             settings.depth = named(&DEPTHS, value.as_str()?)?;
@@ -69,9 +83,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Looks",
         key: "glyphs",
         about: "What the table is drawn with; auto looks at the locale and never takes octants, which few fonts have. CAROM_GLYPHS overrides it.",
         accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
+        choices: || GLYPHS.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
         set: |settings, value| {
             settings.glyphs = named(&GLYPHS, value.as_str()?)?;
@@ -79,9 +95,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Game",
         key: "table",
         about: "The table that is played on.",
         accepted: "\"match\", \"thesis\" or the path of a TOML file that is there",
+        choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),
         set: |settings, value| {
             value
@@ -92,9 +110,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Game",
         key: "rule",
         about: "What counts as a point.",
         accepted: "\"straight\", \"one-cushion\", \"three-cushion\"",
+        choices: || Rule::ALL.map(|rule| quoted(rule.name())).to_vec(),
         get: |settings| quoted(settings.rule.name()),
         set: |settings, value| {
             settings.rule = value.as_str()?.parse().ok()?;
@@ -102,9 +122,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Game",
         key: "skill",
         about: "Who plays: the errors that the coach reckons with.",
         accepted: "\"perfect\", \"expert\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"",
+        choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(settings.skill.to_string()),
         set: |settings, value| {
             settings.skill = value.as_str()?.parse().ok()?;
@@ -112,9 +134,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Game",
         key: "plan",
         about: "Whether the coach looks for shots that leave the next point easy.",
         accepted: "true, false",
+        choices: truths,
         get: |settings| settings.plan.to_string(),
         set: |settings, value| {
             settings.plan = value.as_bool()?;
@@ -122,9 +146,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Game",
         key: "think_ms",
         about: "How long the coach may think, in milliseconds.",
         accepted: "10 to 60000",
+        choices: || THINKING.map(|time| time.to_string()).to_vec(),
         get: |settings| settings.think_ms.to_string(),
         set: |settings, value| {
             settings.think_ms = number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0)? as u64;
@@ -132,9 +158,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Handling",
         key: "step_mm",
         about: "How far an arrow key moves a ball, in millimetres.",
         accepted: "1, 5, 10, 50 or 100",
+        choices: || STEPS.map(decimal).to_vec(),
         get: |settings| decimal(settings.step_mm),
         set: |settings, value| {
             settings.step_mm = one_of(value, &STEPS)?;
@@ -142,9 +170,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Handling",
         key: "speed",
         about: "How fast shots are played, 1 as on the table.",
         accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
+        choices: || SPEEDS.map(decimal).to_vec(),
         get: |settings| decimal(settings.speed),
         set: |settings, value| {
             settings.speed = one_of(value, &SPEEDS)?;
@@ -152,9 +182,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
     Entry {
+        group: "Handling",
         key: "mouse",
         about: "Whether the mouse moves balls and lists; without it the terminal's own selection stays as it is.",
         accepted: "true, false",
+        choices: truths,
         get: |settings| settings.mouse.to_string(),
         set: |settings, value| {
             settings.mouse = value.as_bool()?;
@@ -162,6 +194,10 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
 ];
+
+fn truths() -> Vec<String> {
+    [false, true].map(|truth| truth.to_string()).to_vec()
+}
 
 fn quoted(value: impl Into<String>) -> String {
     toml::Value::String(value.into()).to_string()

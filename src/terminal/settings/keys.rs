@@ -33,6 +33,23 @@ impl Keys {
         meant.map_or(*event, |meant| KeyEvent { kind: event.kind, ..meant.event() })
     }
 
+    /// Gives `pressed` back the work that it has by default.
+    pub fn remove(&mut self, pressed: Chord) {
+        self.pairs.retain(|(known, _)| *known != pressed);
+    }
+
+    /// The key that was given to `pressed` to do its work, if one was.
+    pub fn work_of(&self, pressed: Chord) -> Option<Chord> {
+        self.pairs.iter().find(|(known, _)| *known == pressed).map(|(_, meant)| *meant)
+    }
+
+    /// Those that do not do what they do by default and have to do with `chords`: they do the work of one of these, or are
+    /// one of these and do other work.
+    pub fn about(&self, chords: &[Chord]) -> Vec<Chord> {
+        let is_about = |(pressed, meant): &&(Chord, Chord)| chords.contains(pressed) || chords.contains(meant);
+        self.pairs.iter().filter(is_about).map(|(pressed, _)| *pressed).collect()
+    }
+
     /// The keys that do the work of `meant`, the user's own first.
     pub fn for_work_of(&self, meant: Chord) -> impl Iterator<Item = Chord> {
         let own = self.pairs.iter().filter(move |(_, work)| *work == meant).map(|(pressed, _)| *pressed);
@@ -94,7 +111,7 @@ pub fn chord(text: &str) -> Option<Chord> {
 }
 
 /// How a key is written in the file.
-fn name(chord: Chord) -> String {
+pub fn name(chord: Chord) -> String {
     let event = chord.event();
     let prefix = match () {
         () if event.modifiers.contains(KeyModifiers::CONTROL) => "Ctrl-",

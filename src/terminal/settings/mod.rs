@@ -1,8 +1,12 @@
 //! What the user has chosen once and for all: a file in TOML, every key of it optional.
 
+mod change;
 mod entries;
+mod file;
 mod keys;
+mod own_keys;
 mod read;
+mod screen;
 
 use std::{
     fmt::Write,
@@ -16,10 +20,18 @@ use super::{
     look::{Depth, Glyphs},
     theme::Palette,
 };
-use crate::{coach::Skill, game::Rule};
+use crate::{
+    coach::Skill,
+    game::Rule,
+    table::{PRESETS, Table},
+};
 
+pub use change::Change;
+pub use entries::{ENTRIES, Entry};
+pub use file::{SettingsErrand, SettingsFile, SettingsReport};
 pub use keys::Keys;
 pub use read::Complaint;
+pub use screen::{Input, Page, SettingsScreen};
 
 /// What the program starts with.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,12 +99,43 @@ impl Settings {
         }
     }
 
+    /// The same with the setting called `key` at the value that `typed` is: as TOML, or a text without its quotes.
+    ///
+    /// # Errors
+    /// A sentence that names the value and what would be accepted.
+    pub fn with(&self, entry: &Entry, typed: &str) -> Result<Self, String> {
+        let quoted = toml::Value::String(typed.to_owned()).to_string();
+        for value in [typed, &quoted] {
+            let mut settings = self.clone();
+            if read::take_value(&mut settings, entry, value).is_some() {
+                if settings.table != self.table {
+                    settings.table()?;
+                }
+                return Ok(settings);
+            }
+        }
+        Err(format!("{} = {typed}; accepted is {}", entry.key, entry.accepted))
+    }
+
+    /// The table that is named.
+    ///
+    /// # Errors
+    /// A sentence where its file cannot be read or holds no table.
+    pub fn table(&self) -> Result<Table, String> {
+        if PRESETS.contains(&self.table.as_str()) {
+            return Table::preset(&self.table).map_err(|error| error.to_string());
+        }
+        let text = std::fs::read_to_string(&self.table).map_err(|error| error.to_string());
+        let table = text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string()));
+        table.map_err(|sentence| format!("{}: {sentence}", self.table))
+    }
+
     /// The settings as a file with everything that may stand in it, each key with what it means and accepts.
     pub fn document(&self) -> String {
         let mut text = String::from(
             "# Everything that carom can be told once and for all. A key that is left out has its default.\n",
         );
-        for entry in entries::ENTRIES {
+        for entry in ENTRIES {
             // Writing into a text never fails.
             let _ = write!(
                 text,

@@ -1,16 +1,20 @@
 //! Reading the file: every right key counts, every wrong one is named with its line and what would be accepted.
 
-use std::{fmt, io};
+use std::{fmt, io, path::Path};
 
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
 };
 
-use super::{Settings, entries::ENTRIES, keys::chord};
+use super::{
+    Settings,
+    entries::{ENTRIES, Entry},
+    keys::chord,
+};
 
 /// The name of the part with the keys.
-const KEYS: &str = "keys";
+pub const KEYS: &str = "keys";
 
 /// Something wrong in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,6 +29,12 @@ impl Complaint {
     /// A file that cannot be read.
     pub fn of_file(error: &io::Error) -> Self {
         Self { line: None, text: format!("it cannot be read: {error}; the defaults are used") }
+    }
+
+    /// The first of what is wrong with the file at `path`; `None` where all is right.
+    pub fn sentence(path: &Path, complaints: &[Self]) -> Option<String> {
+        let more = if complaints.len() > 1 { "; carom config --check says more" } else { "" };
+        complaints.first().map(|first| format!("{}: {first}{more}", path.display()))
     }
 }
 
@@ -41,7 +51,7 @@ impl fmt::Display for Complaint {
 pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
     let mut settings = Settings::default();
     let mut complaints = Vec::new();
-    let line = |start: usize| Some(text[..start.min(text.len())].matches('\n').count() + 1);
+    let line = |start: usize| Some(line_at(text, start));
     let (table, errors) = DeTable::parse_recoverable(text);
     for error in errors {
         let line = error.span().and_then(|span| line(span.start));
@@ -69,6 +79,21 @@ pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
     }
     complaints.sort_by_key(|complaint| complaint.line);
     (settings, complaints)
+}
+
+/// Takes `value`, a value as TOML writes it; `None` where it is none or is refused.
+pub fn take_value(settings: &mut Settings, entry: &Entry, value: &str) -> Option<()> {
+    let text = format!("value = {value}");
+    let table = DeTable::parse(&text).ok()?;
+    let mut values = table.get_ref().values();
+    // One value, and not more lines.
+    let value = values.next().filter(|_| values.next().is_none())?;
+    (entry.set)(settings, value.get_ref())
+}
+
+/// The number of the line with the byte at `place`, counted from 1. A place may lie within a letter.
+pub fn line_at(text: &str, place: usize) -> usize {
+    text.bytes().take(place).filter(|byte| *byte == b'\n').count() + 1
 }
 
 /// Reads the part with the keys; `complain` gets the place in the text of what is wrong.
@@ -128,6 +153,16 @@ mod tests {
         assert!(said[0].contains("speed = 9.5") && said[0].contains("4 or 8"), "{said:?}");
         assert!(said[2].contains("tempo") && said[2].contains("think_ms"), "{said:?}");
         assert!(said[4].contains("Hyper-x"), "{said:?}");
+    }
+
+    #[test]
+    fn a_mistake_among_letters_of_several_bytes_has_its_line_too() {
+        for text in ["#\u{20ac}\ntheme = \u{201c}dark\u{201d}\n", "rule = \"\u{fc}\"\n\u{fc} = 1\n", "x = '\u{1f3b1}\n"]
+        {
+            assert!(!read(text).1.is_empty(), "{text}");
+        }
+        let euro = "\n\u{20ac}\n";
+        assert_eq!([1, 2, 3, 4, 5, 99].map(|place| line_at(euro, place)), [2, 2, 2, 2, 3, 3]);
     }
 
     #[test]

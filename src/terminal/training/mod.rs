@@ -237,17 +237,15 @@ impl TrainingScreen {
     /// News of the run in `folder`.
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
-        let (before, was_at_work) = (watch.condition(), watch.is_at_work());
+        let before = watch.condition();
         watch.apply(update);
         let has_changed = !watch.condition().is_like(before);
-        let has_begun = watch.is_at_work() && !was_at_work;
         // Before it is seen for the first time it may have been as it was still.
         if has_changed && before != Condition::Unknown && self.is_launched(folder) {
             self.launched = None;
         }
-        // What was said of what was is no news any more; a failure stays until it is read, or somebody trains again.
-        let is_news = self.message.as_ref().is_some_and(|message| message.is_warning() && !has_begun);
-        if has_changed && !matches!(before, Condition::Stalled(_)) && !is_news {
+        // What was said of what was is no news any more.
+        if has_changed && !matches!(before, Condition::Stalled(_)) {
             self.message = None;
         }
         self.close_question();

@@ -10,7 +10,7 @@ use ratatui::{
 use crate::terminal::{
     app::App,
     chord::keys_text,
-    keymap::{Binding, Section, When, bindings},
+    keymap::{Action, Binding, FinderAction, Section, When, bindings},
     look::Look,
     status::{Message, Tone},
     theme::Theme,
@@ -24,20 +24,21 @@ const STATUS_ROWS: u16 = 3;
 const QUESTION_ROWS: u16 = 8;
 
 /// Draws a sentence into the row `area`; one that is longer takes some rows above it as well.
-pub fn draw_status(message: &Message, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
-    draw_rows(message, STATUS_ROWS, area, theme, look, buffer);
+/// Gives the first of them.
+pub fn draw_status(message: &Message, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> u16 {
+    draw_rows(message, STATUS_ROWS, area, theme, look, buffer)
 }
 
 /// Draws a question like a sentence; its end, which is answered, is to be seen however long it is.
-pub fn draw_question(question: &Message, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
-    draw_rows(question, QUESTION_ROWS, area, theme, look, buffer);
+pub fn draw_question(question: &Message, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> u16 {
+    draw_rows(question, QUESTION_ROWS, area, theme, look, buffer)
 }
 
-fn draw_rows(message: &Message, most: u16, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
+fn draw_rows(message: &Message, most: u16, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> u16 {
     let style = match message.tone {
         Tone::Plain => theme.text(),
         Tone::Good => theme.good(),
-        Tone::Warning => theme.warning(),
+        Tone::Poor | Tone::Warning => theme.warning(),
     };
     let width = area.width.saturating_sub(2);
     let most = most.min(area.bottom());
@@ -49,6 +50,7 @@ fn draw_rows(message: &Message, most: u16, area: Rect, theme: &Theme, look: Look
     for (line, row) in lines.iter().zip(place.y..place.bottom()) {
         buffer.set_stringn(place.x + 1, row, line, usize::from(width), style);
     }
+    place.y
 }
 
 /// The first `rows` lines; the last of them says by its end if there are more.
@@ -95,9 +97,12 @@ pub fn draw_hints(app: &App, area: Rect, buffer: &mut Buffer) {
         .collect();
     let room = usize::from(area.width.saturating_sub(1));
     let width = |hints: &[(&Binding, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
-    // The keys of the program itself stay to the last, but for the way from the coach to another screen; the others go
-    // from the end.
-    let stays = |binding: &Binding| binding.section == Section::Program && !matches!(binding.when, When::Coach(_));
+    // The keys of the program itself stay to the last, but for the command palette's and the way from the coach to another
+    // screen; the others go from the end.
+    let is_finder = |binding: &Binding| matches!(binding.keys, [(_, Action::Finder(FinderAction::Open)), ..]);
+    let stays = |binding: &Binding| {
+        binding.section == Section::Program && !matches!(binding.when, When::Coach(_)) && !is_finder(binding)
+    };
     while width(&hints) > room + GAP {
         let last = hints.iter().rposition(|(binding, _)| !stays(binding));
         hints.remove(last.unwrap_or(hints.len() - 1));

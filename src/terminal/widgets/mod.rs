@@ -14,13 +14,17 @@ mod shot;
 mod sight;
 mod spin;
 mod table;
+mod tabs;
 mod tip;
+mod toasts;
 
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
     style::Style,
+    symbols::border,
     text::{Line, Span},
+    widgets::Block,
 };
 
 use super::{look::Look, theme::Theme};
@@ -37,7 +41,9 @@ pub use shot::{draw_proposal, draw_shot};
 pub use sight::draw_sight;
 pub use spin::draw_spin;
 pub use table::{Spot, TableView, ball_at, draw_table};
+pub use tabs::{draw_tabs, tabs};
 pub use tip::draw_tip;
+pub use toasts::draw_toasts;
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
 pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) -> Rect {
@@ -53,6 +59,34 @@ pub fn draw_title(title: &Line, area: Rect, theme: &Theme, look: Look, buffer: &
         buffer.set_line(area.x + 1, area.y, &Line::from(spans), area.width.saturating_sub(1));
     }
     Rect { y: area.y + 1, height: area.height - 1, ..area }
+}
+
+/// The frame where there are only plain characters.
+const ASCII_FRAME: border::Set = border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
+
+/// `block` with a frame of characters that the terminal has.
+pub fn frame(block: Block, look: Look) -> Block {
+    if look.unicode { block } else { block.border_set(ASCII_FRAME) }
+}
+
+/// The end of `text`, as much as fits into `room` columns: the ends of names differ where their beginnings do not.
+pub fn end_of(text: &str, room: usize, look: Look) -> String {
+    let count = text.chars().count();
+    if count <= room {
+        return text.to_owned();
+    }
+    let more = look.pick("…", "...");
+    let kept = room.saturating_sub(more.chars().count());
+    format!("{more}{}", text.chars().skip(count - kept).collect::<String>()).chars().take(room).collect()
 }
 
 /// Says in a panel why it is empty: after a blank row, a line a row.

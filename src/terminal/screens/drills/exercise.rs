@@ -41,7 +41,7 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
     };
     draw_table(&view, panes.table, buffer);
     panels::draw_stroke(app, turn, panes.stroke, buffer);
-    let meant = turn.watched().map_or(&turn.stroke, |watched| &watched.meant);
+    let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
     draw_tip(Some(meant), &turn.table, panes.tip, theme, look, buffer);
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
@@ -78,7 +78,7 @@ fn meeting(turn: &Turn) -> Option<Meeting> {
 
 /// The line of aim with the ball at its end, and the cue.
 fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
-    let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke.phi));
+    let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke().phi));
     let dot = look.pick('·', '.');
     let sign = cue_sign(ahead, look);
     let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };

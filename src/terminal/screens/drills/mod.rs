@@ -11,7 +11,7 @@ mod score;
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
-    style::{Modifier, Style},
+    style::Style,
     text::{Line, Span},
 };
 
@@ -20,15 +20,15 @@ use crate::terminal::{
     drills::Page,
     look::Look,
     status::Message,
-    widgets::{cut, draw_hints, draw_question, draw_status, wrap, write_right},
+    widgets::{cut, draw_hints, draw_question, draw_status, draw_tabs, wrap, write_right},
     words::{self, skill_word},
 };
 
 /// Most columns of a line that is good to read.
 const READABLE: u16 = 80;
 
-/// Draws the page that is open.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+/// Draws the page that is open; gives the first row of what stands below it.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
     let drills = app.drills();
     let row = |y: u16| Rect::new(area.x, y, area.width, 1);
     let page = Rect::new(area.x, area.y + 1, area.width, area.height.saturating_sub(3));
@@ -40,25 +40,24 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     let (theme, look, status) = (app.theme(), app.look(), row(page.bottom()));
     let message = app.message().cloned();
+    draw_hints(app, row(page.bottom() + 1), buffer);
     match &drills.question {
         Some(question) => {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            draw_question(&Message::plain(before + &question.text()), status, theme, look, buffer);
+            draw_question(&Message::plain(before + &question.text()), status, theme, look, buffer)
         }
         None => draw_status(&message.unwrap_or(standing), status, theme, look, buffer),
     }
-    draw_hints(app, row(page.bottom() + 1), buffer);
 }
 
-/// The first row of a page: what it is, more about that, and who plays.
+/// The first row of a page behind the tabs: what it is, more about that, and who plays.
 fn draw_header(app: &App, title: &str, more: &str, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme();
+    let (theme, look) = (app.theme(), app.look());
+    let area = draw_tabs(app, area, buffer);
     let player = format!("player: {} ", skill_word(app.drills().player.skill));
     let room = usize::from(area.width).saturating_sub(player.chars().count() + 2);
-    let mut line = Line::from(vec![
-        Span::styled(" carom ", theme.accent().add_modifier(Modifier::REVERSED)),
-        Span::styled(format!(" {title}"), theme.text()),
-    ]);
+    let title = cut(wrap(title, room.saturating_sub(1)), 1, room.saturating_sub(1), look).swap_remove(0);
+    let mut line = Line::from(Span::styled(format!(" {title}"), theme.text()));
     let more = Span::styled(format!("  {more}"), theme.faint());
     if line.width() + more.width() <= room {
         line.push_span(more);

@@ -25,7 +25,7 @@ const FULL: f64 = 0.995;
 /// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
-    let cue = turn.watched().map_or(&turn.stroke, |watched| &watched.meant);
+    let cue = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
     let inner = draw_title(&Line::from(Span::styled("Your stroke", theme.text())), area, theme, look, buffer);
     let degree = look.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
@@ -114,7 +114,7 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, look: Look) -> Str
 /// How often the stroke is made that is taught, and how to set it.
 fn hint(turn: &Turn, taught: &Taught, look: Look) -> String {
     let advice = &taught.advice;
-    let changes = told(turn, [&turn.stroke, &advice.cue], "as it is set", look);
+    let changes = told(turn, [turn.stroke(), &advice.cue], "as it is set", look);
     format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
 }
 

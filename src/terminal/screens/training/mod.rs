@@ -9,22 +9,17 @@ mod replay;
 pub mod runs;
 mod watch;
 
-use ratatui::{
-    buffer::Buffer,
-    layout::Rect,
-    style::Modifier,
-    text::{Line, Span},
-};
+use ratatui::{buffer::Buffer, layout::Rect};
 
 use crate::terminal::{
     app::App,
     status::Message,
     training::Page,
-    widgets::{draw_hints, draw_question, draw_status},
+    widgets::{draw_hints, draw_question, draw_status, draw_tabs},
 };
 
-/// Draws the page that is open.
-pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+/// Draws the page that is open; gives the first row of what stands below it.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
     let training = app.training();
     let row = |y: u16| Rect::new(area.x, y, area.width, 1);
     let page = Rect::new(area.x, area.y + 1, area.width, area.height.saturating_sub(3));
@@ -49,23 +44,19 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     let message = app.message().cloned();
     let (theme, look, status) = (app.theme(), app.look(), row(page.bottom()));
+    draw_hints(app, row(page.bottom() + 1), buffer);
     match (&training.question, &training.watch) {
         (Some(question), Some(watch)) => {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
             let question = Message::warning(before + &question.text(watch));
-            draw_question(&question, status, theme, look, buffer);
+            draw_question(&question, status, theme, look, buffer)
         }
         _ => draw_status(&message.unwrap_or(standing), status, theme, look, buffer),
     }
-    draw_hints(app, row(page.bottom() + 1), buffer);
 }
 
 /// The first row of the pages that show no run.
 fn title(app: &App, words: &str, area: Rect, buffer: &mut Buffer) {
-    let theme = app.theme();
-    let line = Line::from(vec![
-        Span::styled(" carom ", theme.accent().add_modifier(Modifier::REVERSED)),
-        Span::styled(format!(" {words}"), theme.text()),
-    ]);
-    buffer.set_line(area.x, area.y, &line, area.width);
+    let area = draw_tabs(app, area, buffer);
+    buffer.set_stringn(area.x + 1, area.y, words, usize::from(area.width.saturating_sub(1)), app.theme().text());
 }

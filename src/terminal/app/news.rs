@@ -1,0 +1,70 @@
+//! What comes from outside, and what is told of it: sentences on the status line, refusals and failures as toasts.
+
+use super::{App, Screen};
+use crate::terminal::{
+    app::Effect,
+    drills::{DrillReport, Errand},
+    recommender::Answer,
+    toasts::Toasts,
+    training::Report,
+};
+
+impl App {
+    /// The coach has something to say. Late answers to cancelled questions are dropped.
+    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+        let effect = self.coach.receive(answer);
+        self.gather(false);
+        effect
+    }
+
+    /// The thread that thinks is gone, and with it the answer.
+    pub fn coach_lost(&mut self) {
+        self.coach.lost();
+        self.gather(false);
+    }
+
+    /// Something has come of what the training screen wanted.
+    pub fn receive_report(&mut self, report: Report) {
+        if let Some((table, tutor)) = self.training.receive(report) {
+            self.coach.take_tutor(&table, tutor);
+            self.training.alone = false;
+            self.screen = Screen::Coach;
+            self.help = None;
+            self.finder = None;
+        }
+        self.gather(false);
+    }
+
+    /// Something has come of an errand of the drill screens; gives what is to be done next.
+    pub fn receive_drill(&mut self, report: DrillReport) -> Vec<Errand> {
+        let errands = self.drills.receive(report);
+        self.coach.own = self.drills.player.own.or(self.coach.own);
+        self.gather(false);
+        errands
+    }
+
+    /// Makes toasts of what is refused or has failed since: the answer to a key, or something that came by itself.
+    pub(super) fn gather(&mut self, is_answer: bool) {
+        let Self { coach, training, drills, settings, toasts, .. } = self;
+        for message in [&mut coach.message, &mut training.message, &mut drills.message, &mut settings.message] {
+            if let Some(message) = message.take_if(|message| message.is_warning()) {
+                toasts.push(message.text, is_answer);
+            }
+        }
+    }
+
+    /// Refusals and failures, for as long as they are shown, and those before.
+    pub const fn toasts(&self) -> &Toasts {
+        &self.toasts
+    }
+
+    /// Seconds until a toast goes by itself; `None` while none is shown.
+    pub fn toast_time(&self) -> Option<f64> {
+        self.toasts.left()
+    }
+
+    /// Refusals and failures since this was asked last, for the log.
+    pub fn take_unwritten(&mut self) -> Vec<String> {
+        self.toasts.take_unwritten()
+    }
+}

@@ -1,0 +1,51 @@
+//! Going from screen to screen.
+
+use super::{App, Effect, Overlay, Screen};
+
+impl App {
+    pub(super) fn lay_over(&mut self, page: Overlay) {
+        self.finder = None;
+        self.help = Some((page, 0));
+        self.help_end.set(u16::MAX);
+    }
+
+    /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.
+    pub(super) fn open(&mut self, screen: Screen) -> Option<Effect> {
+        (self.help, self.finder) = (None, None);
+        // What nobody watches does not play on.
+        self.coach.playback.pause();
+        self.coach.drop_ball();
+        let before = std::mem::replace(&mut self.screen, screen);
+        if before == Screen::Drills {
+            // Whoever was chosen there plays at the coach's table too.
+            self.coach.choose_skill(self.drills.player.at_coach);
+        }
+        match screen {
+            _ if before == screen => None,
+            Screen::Coach => None,
+            Screen::Drills => Some(self.drills.open(self.coach.tutor.skill)),
+            Screen::Training => {
+                self.training.open();
+                None
+            }
+            Screen::Settings => {
+                self.before = before;
+                Some(self.settings.open())
+            }
+        }
+    }
+
+    /// Back to the coach, or to the shell where the program began with the training screen.
+    pub(super) fn leave_training(&mut self) -> Option<Effect> {
+        if self.training.alone {
+            return Some(Effect::Quit);
+        }
+        self.screen = Screen::Coach;
+        None
+    }
+
+    /// Whether there is no other screen to go to.
+    pub const fn stands_alone(&self) -> bool {
+        self.training.alone
+    }
+}

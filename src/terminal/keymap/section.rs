@@ -1,0 +1,78 @@
+//! What belongs together among the keys.
+
+/// Headings of the help, in its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// Keys that move balls.
+    Balls,
+    /// Keys that ask the coach and play the shot.
+    Shot,
+    /// Keys of the list of runs.
+    List,
+    /// Keys of the form.
+    Form,
+    /// Keys that choose what is drawn of a run.
+    Charts,
+    /// Keys that steer a run and use what it has learnt.
+    Run,
+    /// Keys of the replay.
+    Replay,
+    /// Keys of the list of exercises.
+    Library,
+    /// Keys that set and play a stroke.
+    Stroke,
+    /// Keys of what is counted.
+    Score,
+    /// Keys of where the balls lie.
+    Position,
+    /// Keys of the page of records.
+    Record,
+    /// Keys of the settings.
+    Settings,
+    /// Keys of the page of keys.
+    OwnKeys,
+    /// All others.
+    Program,
+}
+
+impl Section {
+    /// All headings, in the help's order.
+    pub const ALL: [Self; 15] = [
+        Self::Balls,
+        Self::Shot,
+        Self::List,
+        Self::Form,
+        Self::Charts,
+        Self::Run,
+        Self::Replay,
+        Self::Library,
+        Self::Stroke,
+        Self::Score,
+        Self::Position,
+        Self::Record,
+        Self::Settings,
+        Self::OwnKeys,
+        Self::Program,
+    ];
+
+    /// The heading.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Balls => "Placing the balls",
+            Self::Shot => "The shot",
+            Self::List => "The list of runs",
+            Self::Form => "A new run",
+            Self::Charts => "The charts",
+            Self::Run => "The run",
+            Self::Replay => "The replay",
+            Self::Library => "The library",
+            Self::Stroke => "Your stroke",
+            Self::Score => "The score",
+            Self::Position => "The position",
+            Self::Record => "The record",
+            Self::Settings => "The settings",
+            Self::OwnKeys => "The keys",
+            Self::Program => "The program",
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The user's file as it is read and written while the program runs, one errand after the other.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    Change, Complaint, Settings,
+    change::changed,
+    read::{line_at, read},
+};
+use crate::storage::write_atomic;
+
+/// Something that is to be done with the file.
+#[derive(Clone, Debug)]
+pub struct SettingsErrand {
+    /// Tells this errand's report from those of others.
+    pub number: u64,
+    /// The file.
+    pub path: PathBuf,
+    /// What is to be changed; otherwise the file is read.
+    pub change: Option<Change>,
+}
+
+/// What has come of an errand.
+#[derive(Clone, Debug)]
+pub struct SettingsReport {
+    /// The errand's number.
+    pub number: u64,
+    /// What the file says now; `None` where it is not as the program has it, because it cannot be written.
+    pub settings: Option<Settings>,
+    /// What is wrong, a sentence each.
+    pub troubles: Vec<String>,
+}
+
+/// The file, with what it said when it was read or written last.
+#[derive(Debug, Default)]
+pub struct SettingsFile {
+    seen: Option<Vec<u8>>,
+}
+
+impl SettingsFile {
+    /// Does an errand. What somebody else has changed since the last one is read, and not written over.
+    pub fn run(&mut self, errand: &SettingsErrand) -> SettingsReport {
+        let SettingsErrand { number, path, change } = errand;
+        let report = |settings, troubles| SettingsReport { number: *number, settings, troubles };
+        let unwritten = |sentence: String| {
+            let sentence =
+                format!("this holds until the program ends, but {} is left as it is: {sentence}", path.display());
+            report(None, vec![sentence])
+        };
+        let found = match content(path) {
+            Ok(found) => found,
+            Err(error) if change.is_some() => return unwritten(error.to_string()),
+            Err(error) => return report(None, vec![format!("{}: {}", path.display(), Complaint::of_file(&error))]),
+        };
+        let is_as_seen = found == self.seen;
+        self.seen.clone_from(&found);
+        let Some(change) = change else {
+            return report(Some(settings(found.as_deref())), troubles(path, found.as_deref()));
+        };
+        if !is_as_seen {
+            let sentence =
+                format!("{} has been changed by somebody else; it is read anew, change it again", path.display());
+            return report(Some(settings(found.as_deref())), vec![sentence]);
+        }
+        let text = found.as_deref().map(str::from_utf8).transpose();
+        let text = match text {
+            Ok(text) => text,
+            Err(error) => {
+                let line = line_at(&String::from_utf8_lossy(found.as_deref().unwrap_or_default()), error.valid_up_to());
+                return unwritten(format!("line {line} is no UTF-8"));
+            }
+        };
+        let new = match changed(text, change) {
+            Ok(new) => new,
+            Err(error) => return unwritten(error.to_string()),
+        };
+        if text != Some(&new) {
+            // What is linked from elsewhere stays linked.
+            let target = fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+            if let Err(error) = write_atomic(&target, new.as_bytes()) {
+                return unwritten(error.to_string());
+            }
+        }
+        let settings = settings(Some(new.as_bytes()));
+        self.seen = Some(new.into_bytes());
+        report(Some(settings), Vec::new())
+    }
+}
+
+/// The bytes of the file; `None` where there is none.
+fn content(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    match fs::read(path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+fn settings(bytes: Option<&[u8]>) -> Settings {
+    read(&String::from_utf8_lossy(bytes.unwrap_or_default())).0
+}
+
+/// The first mistake in the file.
+fn troubles(path: &Path, bytes: Option<&[u8]>) -> Vec<String> {
+    let (_, complaints) = read(&String::from_utf8_lossy(bytes.unwrap_or_default()));
+    Complaint::sentence(path, &complaints).into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::theme::Palette;
+
+    fn errand(path: &Path, change: impl Into<Option<Change>>) -> SettingsErrand {
+        SettingsErrand { number: 1, path: path.to_owned(), change: change.into() }
+    }
+
+    fn theme(name: &str) -> Change {
+        Change::Value("theme", format!("\"{name}\""))
+    }
+
+    #[test]
+    fn a_file_is_made_read_and_changed_and_links_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/config.toml");
+        let mut file = SettingsFile::default();
+        assert_eq!(file.run(&errand(&path, None)).settings, Some(Settings::default()));
+        let report = file.run(&errand(&path, theme("light")));
+        assert_eq!((report.settings.unwrap().palette, report.troubles.len()), (Palette::Light, 0));
+        let linked = folder.path().join("linked.toml");
+        std::os::unix::fs::symlink(&path, &linked).unwrap();
+        let mut file = SettingsFile::default();
+        file.run(&errand(&linked, None));
+        assert!(file.run(&errand(&linked, theme("mono"))).troubles.is_empty());
+        assert!(fs::symlink_metadata(&linked).unwrap().is_symlink());
+        assert!(fs::read_to_string(&path).unwrap().contains("theme = \"mono\""));
+    }
+
+    #[test]
+    fn what_others_write_meanwhile_is_read_and_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("config.toml");
+        let mut file = SettingsFile::default();
+        file.run(&errand(&path, None));
+        for text in ["speed = 2.0\n", "speed = \n", ""] {
+            fs::write(&path, text).unwrap();
+            let report = file.run(&errand(&path, theme("light")));
+            assert!(report.troubles[0].contains("changed by somebody else"), "{report:?}");
+            assert_eq!(report.settings, Some(read(text).0));
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        fs::remove_file(&path).unwrap();
+        assert!(file.run(&errand(&path, theme("light"))).troubles[0].contains("changed by somebody else"));
+        assert!(file.run(&errand(&path, theme("light"))).troubles.is_empty(), "once more does it");
+    }
+
+    #[test]
+    fn a_damaged_file_is_named_with_its_line_and_left_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("config.toml");
+        for (bytes, line) in [(&b"plan = true\nspeed = = 2\n"[..], "line 2"), (b"plan = true\n# \xff\n", "line 2")] {
+            fs::write(&path, bytes).unwrap();
+            let mut file = SettingsFile::default();
+            file.run(&errand(&path, None));
+            let report = file.run(&errand(&path, theme("light")));
+            assert!(report.settings.is_none() && report.troubles[0].contains(line), "{report:?}");
+            assert_eq!(fs::read(&path).unwrap(), bytes);
+        }
+        let report = SettingsFile::default().run(&errand(folder.path(), theme("light")));
+        assert!(report.settings.is_none() && report.troubles[0].contains("holds until the program ends"), "{report:?}");
+    }
+}

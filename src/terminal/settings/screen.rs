@@ -1,0 +1,281 @@
+//! The state of the settings' screen: which setting or key is marked, and what is typed, pressed or asked.
+//!
+//! Every change holds at once; [`SettingsErrand`] brings it into the file. [`super::own_keys`] is the page of the keys.
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::{Change, ENTRIES, Entry, Settings, SettingsErrand, SettingsReport, own_keys::OwnKeys};
+use crate::terminal::{
+    app::Effect,
+    chord::Chord,
+    keymap::{SettingsAction as Action, SettingsPlace, SettingsWhen},
+    status::Message,
+};
+
+/// Longest value that is typed, bytes: the path of a table is one.
+const LONGEST: usize = 1000;
+
+/// A page of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Page {
+    /// The settings.
+    Values,
+    /// The keys.
+    Keys,
+}
+
+/// What is being put in.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Input {
+    /// A value, as far as it is typed.
+    Value(String),
+    /// A key that is to be pressed.
+    Key,
+    /// Whether this key may give up what it does otherwise.
+    Taken(Chord),
+}
+
+/// The state of the screen.
+#[derive(Debug)]
+pub struct SettingsScreen {
+    /// The file.
+    pub path: PathBuf,
+    /// How all is set now.
+    pub settings: Settings,
+    /// The page that is open.
+    pub page: Page,
+    /// What is being put in.
+    pub input: Option<Input>,
+    /// The page of keys.
+    pub keys: OwnKeys,
+    /// What the status line says.
+    pub message: Option<Message>,
+    mark: usize,
+    /// The number of the last errand.
+    sent: u64,
+    is_left: bool,
+}
+
+impl SettingsScreen {
+    /// The screen before it is opened.
+    pub fn new(path: PathBuf) -> Self {
+        Self {
+            path,
+            settings: Settings::default(),
+            page: Page::Values,
+            input: None,
+            keys: OwnKeys::default(),
+            message: None,
+            mark: 0,
+            sent: 0,
+            is_left: false,
+        }
+    }
+
+    /// Opens the page that was open last; the file is read again.
+    pub fn open(&mut self) -> Effect {
+        self.message = None;
+        self.is_left = false;
+        self.errand(None)
+    }
+
+    /// Whether one has gone back.
+    pub const fn is_left(&self) -> bool {
+        self.is_left
+    }
+
+    /// Place of the marked setting among [`ENTRIES`].
+    pub const fn mark(&self) -> usize {
+        self.mark
+    }
+
+    /// The marked setting.
+    pub fn marked(&self) -> &'static Entry {
+        &ENTRIES[self.mark.min(ENTRIES.len() - 1)]
+    }
+
+    /// Whether a setting is not at its default.
+    pub fn is_changed(&self, entry: &Entry) -> bool {
+        (entry.get)(&self.settings) != (entry.get)(&Settings::default())
+    }
+
+    /// Whose keys are in force.
+    pub const fn place(&self) -> SettingsPlace {
+        match (&self.input, self.page) {
+            (Some(Input::Value(_)), _) => SettingsPlace::Typing,
+            (Some(Input::Key), _) => SettingsPlace::Pressing,
+            (Some(Input::Taken(_)), _) => SettingsPlace::Question,
+            (None, page) => Self::place_of(page),
+        }
+    }
+
+    /// The page's own keys, whatever is asked.
+    pub const fn page_place(&self) -> SettingsPlace {
+        Self::place_of(self.page)
+    }
+
+    const fn place_of(page: Page) -> SettingsPlace {
+        match page {
+            Page::Values => SettingsPlace::Values,
+            Page::Keys => SettingsPlace::Keys,
+        }
+    }
+
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn refusal(&self, when: SettingsWhen) -> Option<&'static str> {
+        let is_changed = match self.page {
+            Page::Values => self.is_changed(self.marked()),
+            Page::Keys => self.keys.is_changed(&self.settings.keys),
+        };
+        (when == SettingsWhen::Changed && !is_changed).then_some("this is as it is by default")
+    }
+
+    /// Takes a letter where letters are typed; `false` where it is none or none is typed.
+    pub fn typed(&mut self, key: &KeyEvent) -> bool {
+        let KeyCode::Char(letter) = key.code else { return false };
+        (key.modifiers - KeyModifiers::SHIFT).is_empty() && self.pasted(letter.encode_utf8(&mut [0; 4]))
+    }
+
+    /// Takes text that was typed or pasted; `false` where none is typed.
+    pub fn pasted(&mut self, text: &str) -> bool {
+        let Some(Input::Value(typed)) = &mut self.input else { return false };
+        for letter in text.chars().filter(|letter| !letter.is_control()) {
+            if typed.len() + letter.len_utf8() <= LONGEST {
+                typed.push(letter);
+            }
+        }
+        self.message = None;
+        true
+    }
+
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.is_left = true,
+            Action::Turn => self.page = if self.page == Page::Values { Page::Keys } else { Page::Values },
+            Action::Line(lines) if self.page == Page::Keys => self.keys.move_mark(lines),
+            Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
+            Action::Place(pages) => self.keys.choose_place(pages),
+            Action::Value(step) => return self.step(step),
+            Action::Type => self.input = Some(Input::Value(String::new())),
+            Action::Press => self.input = Some(Input::Key),
+            Action::Default if self.page == Page::Keys => {
+                let change = self.keys.to_default(&mut self.settings.keys);
+                return Some(self.errand(Some(change)));
+            }
+            Action::Default => {
+                let entry = self.marked();
+                let default = (entry.get)(&Settings::default());
+                return self.take(&default, Change::Default(entry.key, default.clone()));
+            }
+            Action::No => self.input = None,
+            Action::Erase => {
+                if let Some(Input::Value(typed)) = &mut self.input {
+                    typed.pop();
+                }
+            }
+            Action::Yes => return self.yes(),
+        }
+        None
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        match self.input.take()? {
+            Input::Taken(pressed) => Some(self.give(pressed)),
+            Input::Key => None,
+            // Nothing was typed: nothing is meant.
+            Input::Value(typed) if typed.trim().is_empty() => None,
+            Input::Value(typed) => {
+                let effect = self.set(typed.trim());
+                if effect.is_none() {
+                    // What was typed stays, to be mended.
+                    self.input = Some(Input::Value(typed));
+                }
+                effect
+            }
+        }
+    }
+
+    /// The value before or after the present one: of numbers the next smaller or larger, of names around the end.
+    fn step(&mut self, step: isize) -> Option<Effect> {
+        let entry = self.marked();
+        let (choices, now) = ((entry.choices)(), (entry.get)(&self.settings));
+        let number = |text: &String| text.parse::<f64>().ok();
+        let next = match number(&now) {
+            Some(now) if step > 0 => choices.iter().find(|choice| number(choice).is_some_and(|n| n > now)),
+            Some(now) => choices.iter().rfind(|choice| number(choice).is_some_and(|n| n < now)),
+            None => {
+                let count = choices.len();
+                let place = choices.iter().position(|choice| *choice == now);
+                let next = place.map_or(0, |place| (place + count).saturating_add_signed(step) % count);
+                choices.get(next)
+            }
+        };
+        let Some(next) = next.cloned() else {
+            self.message = Some(Message::warning(format!("{} = {now}; accepted is {}", entry.key, entry.accepted)));
+            return None;
+        };
+        self.set(&next)
+    }
+
+    /// Gives the marked setting a value that was chosen or typed.
+    fn set(&mut self, typed: &str) -> Option<Effect> {
+        let entry = self.marked();
+        match self.settings.with(entry, typed) {
+            Ok(settings) => {
+                let value = (entry.get)(&settings);
+                self.take(&value.clone(), Change::Value(entry.key, value))
+            }
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    /// Takes a value that is accepted.
+    fn take(&mut self, value: &str, change: Change) -> Option<Effect> {
+        match self.settings.with(self.marked(), value) {
+            Ok(settings) => self.settings = settings,
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                return None;
+            }
+        }
+        Some(self.errand(Some(change)))
+    }
+
+    /// A key was pressed that is to do what is marked.
+    pub fn pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
+        match self.keys.check(Chord::of(key), &self.settings.keys) {
+            Ok(chord) if self.keys.other_works(chord, &self.settings.keys).is_empty() => {
+                self.input = None;
+                return Some(self.give(chord));
+            }
+            Ok(chord) => self.input = Some(Input::Taken(chord)),
+            Err(sentence) => self.message = Some(Message::warning(sentence)),
+        }
+        None
+    }
+
+    fn give(&mut self, pressed: Chord) -> Effect {
+        let change = self.keys.give(pressed, &mut self.settings.keys);
+        self.errand(Some(change))
+    }
+
+    fn errand(&mut self, change: Option<Change>) -> Effect {
+        self.sent += 1;
+        Effect::Settings(Box::new(SettingsErrand { number: self.sent, path: self.path.clone(), change }))
+    }
+
+    /// Takes what has come of an errand, and gives what is wrong. What the file says counts, as long as nothing has been
+    /// changed since.
+    pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
+        if let Some(settings) = report.settings.filter(|_| report.number == self.sent) {
+            self.settings = settings;
+        }
+        report.troubles
+    }
+}

@@ -1,0 +1,138 @@
+//! Refusals and failures as toasts: each is shown for as long as it takes to read, and kept to be read again.
+
+use std::collections::VecDeque;
+
+/// Most toasts that are shown at once; before another one the oldest goes.
+const SHOWN: usize = 3;
+/// Most sentences that are kept.
+const KEPT: usize = 200;
+/// Letters that people read in a second, the slow ones too.
+const READING: f64 = 15.0;
+/// Seconds until one looks at the answer to a key, and at something that comes by itself.
+const LOOKING: (f64, f64) = (3.0, 8.0);
+
+/// A sentence that is shown for a while.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Toast {
+    /// The sentence.
+    pub text: String,
+    /// Whether it answers a key: then it goes with the next one that does something.
+    is_answer: bool,
+    /// Seconds until it goes.
+    left: f64,
+}
+
+/// The toasts that are shown, and what was told before.
+#[derive(Debug, Default)]
+pub struct Toasts {
+    shown: Vec<Toast>,
+    past: VecDeque<String>,
+    unwritten: Vec<String>,
+}
+
+impl Toasts {
+    /// Shows `text`; one that is shown already is shown for longer.
+    pub fn push(&mut self, text: String, is_answer: bool) {
+        let (answer, news) = LOOKING;
+        let left = text.chars().count() as f64 / READING + if is_answer { answer } else { news };
+        if let Some(known) = self.shown.iter_mut().find(|toast| toast.text == text) {
+            known.left = left;
+            return;
+        }
+        if self.shown.len() == SHOWN {
+            self.shown.remove(0);
+        }
+        self.past.push_front(text.clone());
+        self.past.truncate(KEPT);
+        self.unwritten.push(text.clone());
+        self.shown.push(Toast { text, is_answer, left });
+    }
+
+    /// The oldest first.
+    pub fn shown(&self) -> &[Toast] {
+        &self.shown
+    }
+
+    /// All sentences since the start, the newest first.
+    pub fn past(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.past.iter().map(String::as_str)
+    }
+
+    /// What has been told since this was asked last, for the log.
+    pub fn take_unwritten(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.unwritten)
+    }
+
+    /// Somebody goes on: the answers to keys have been read.
+    pub fn go_on(&mut self) {
+        self.shown.retain(|toast| !toast.is_answer);
+    }
+
+    /// Nothing is to be shown any more.
+    pub fn clear(&mut self) {
+        self.shown.clear();
+    }
+
+    /// Lets `seconds` pass.
+    pub fn tick(&mut self, seconds: f64) {
+        self.shown.retain_mut(|toast| {
+            toast.left -= seconds;
+            toast.left > 0.0
+        });
+    }
+
+    /// Seconds until one of them goes; `None` where none is shown.
+    pub fn left(&self) -> Option<f64> {
+        self.shown.iter().map(|toast| toast.left).min_by(f64::total_cmp)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(toasts: &Toasts) -> Vec<&str> {
+        toasts.shown().iter().map(|toast| toast.text.as_str()).collect()
+    }
+
+    #[test]
+    fn long_sentences_stay_longer_and_what_comes_by_itself_longer_than_answers() {
+        let time = |text: &str, is_answer| {
+            let mut toasts = Toasts::default();
+            toasts.push(text.to_owned(), is_answer);
+            toasts.left().unwrap()
+        };
+        assert!(time("no", true) > 3.0 && time("no", true) < time("no", false));
+        assert!(time(&"word ".repeat(60), true) > 20.0, "300 letters");
+    }
+
+    #[test]
+    fn each_goes_in_its_time_and_answers_with_the_next_key() {
+        let mut toasts = Toasts::default();
+        toasts.push("there is nothing to take back".to_owned(), true);
+        toasts.push("the disk is full".to_owned(), false);
+        toasts.tick(toasts.left().unwrap());
+        assert_eq!(texts(&toasts), ["the disk is full"]);
+        toasts.push("there is no shot yet".to_owned(), true);
+        toasts.go_on();
+        assert_eq!(texts(&toasts), ["the disk is full"]);
+        toasts.tick(60.0);
+        assert_eq!((texts(&toasts), toasts.left()), (Vec::new(), None));
+        assert_eq!(toasts.past().next(), Some("there is no shot yet"), "they can be read again");
+    }
+
+    #[test]
+    fn three_are_shown_the_same_once_and_all_of_them_are_written_down_once() {
+        let mut toasts = Toasts::default();
+        for text in ["one", "one", "two", "three", "four"] {
+            toasts.push(text.to_owned(), false);
+        }
+        assert_eq!(texts(&toasts), ["two", "three", "four"]);
+        assert_eq!(toasts.take_unwritten(), ["one", "two", "three", "four"]);
+        assert!(toasts.take_unwritten().is_empty());
+        for n in 0..300 {
+            toasts.push(n.to_string(), false);
+        }
+        assert_eq!(toasts.past().len(), KEPT);
+    }
+}

@@ -1,0 +1,46 @@
+//! Refusals and failures in boxes over the lower right of the picture, the newest lowest.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::Span,
+    widgets::{Block, Clear, Widget},
+};
+
+use super::{cut, frame, wrap};
+use crate::terminal::app::App;
+
+/// Columns of a box at most, and at most of a hundred of the screen's.
+const WIDTH: (u16, u16) = (64, 60);
+/// Most lines of one sentence; all of it is among the messages.
+const LINES: usize = 6;
+
+/// Draws the toasts at the bottom of `area`, as many of the newest as its lower half has room for.
+pub fn draw_toasts(app: &App, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let most = WIDTH.0.min(area.width * WIDTH.1 / 100);
+    let mut bottom = area.bottom();
+    for toast in app.toasts().shown().iter().rev() {
+        let room = usize::from(most.saturating_sub(4));
+        let all = wrap(&toast.text, room);
+        let is_cut = all.len() > LINES;
+        let lines = cut(all, LINES, room, look);
+        let width = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0) as u16 + 4;
+        let height = lines.len() as u16 + 2;
+        if bottom < area.y + area.height / 2 + height && bottom < area.bottom() || bottom < area.y + height {
+            break;
+        }
+        let place = Rect::new(area.right() - width, bottom - height, width, height);
+        Clear.render(place, buffer);
+        buffer.set_style(place, theme.text());
+        let mut block = frame(Block::bordered(), look).border_style(theme.warning());
+        if is_cut {
+            block = block.title_bottom(Span::styled(" F6 shows all of it ", theme.faint()));
+        }
+        block.render(place, buffer);
+        for (line, y) in lines.iter().zip(place.y + 1..) {
+            buffer.set_stringn(place.x + 2, y, line, room, theme.text());
+        }
+        bottom = place.y;
+    }
+}
