@@ -54,7 +54,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
 fn draw_header(app: &App, title: &str, more: &str, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     let area = draw_tabs(app, area, buffer);
-    let player = format!("player: {} ", skill_word(app.drills().player.skill));
+    let player = format!("player: {} ", skill_word(app.drills().skill()));
     let room = usize::from(area.width).saturating_sub(player.chars().count() + 2);
     let title = cut(wrap(title, room.saturating_sub(1)), 1, room.saturating_sub(1), look).swap_remove(0);
     let mut line = Line::from(Span::styled(format!(" {title}"), theme.text()));

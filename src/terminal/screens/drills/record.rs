@@ -65,7 +65,7 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
         return Message::plain("nothing is played yet");
     }
     Message::plain(match &drills.records.estimate {
-        Estimate::Known(..) => "w takes the estimated skill as your own",
+        Estimate::Known(Some(_), _) => "w takes the estimated skill as your own",
         Estimate::Working => "the skill is being estimated",
         _ => "",
     })
