@@ -44,14 +44,29 @@ pub enum Unchanged {
 /// [`Unchanged`]: the text stays as it is.
 pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged> {
     let text = text.unwrap_or(FIRST_LINE);
-    let mut document: DocumentMut = text.parse().map_err(|error| damaged(text, &error))?;
+    let document: DocumentMut = text.parse().map_err(|error| damaged(text, &error))?;
+    let new = if document.is_empty() && !text.is_empty() {
+        // Comments alone stay at the head of the file.
+        let end = if text.ends_with('\n') { "" } else { "\n" };
+        format!("{text}{end}{}", edited(DocumentMut::new(), text, change)?)
+    } else {
+        edited(document, text, change)?
+    };
+    let new = new.replace("\r\n", "\n");
+    // A file whose lines end as on Windows stays one; the library writes them all alike.
+    let is_windows = text.contains('\n') && text.matches("\r\n").count() == text.matches('\n').count();
+    Ok(if is_windows { new.replace('\n', "\r\n") } else { new })
+}
+
+/// The text of `document`, which was read from `text`, with the change.
+fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<String, Unchanged> {
     match change {
         Change::Default(key, _) if !document.contains_key(key) => {}
         Change::Value(key, value) | Change::Default(key, value) => put(document.as_table_mut(), key, value, text)?,
         Change::Keys(gone, added) => {
             let is_gone = |written: &str| chord(written).is_some_and(|known| gone.contains(&known));
             if added.is_none() && !document.contains_key(KEYS) {
-                return Ok(text.to_owned());
+                return Ok(document.to_string());
             }
             let keys = document.as_table_mut().entry(KEYS).or_insert_with(|| Item::Table(Table::new()));
             let keys = keys.as_table_like_mut().ok_or_else(|| Unchanged::Misplaced(KEYS.to_owned()))?;
@@ -64,10 +79,7 @@ pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged>
             }
         }
     }
-    let new = document.to_string().replace("\r\n", "\n");
-    // A file whose lines end as on Windows stays one; the library writes them all alike.
-    let is_windows = text.contains('\n') && text.matches("\r\n").count() == text.matches('\n').count();
-    Ok(if is_windows { new.replace('\n', "\r\n") } else { new })
+    Ok(document.to_string())
 }
 
 /// Puts the value of `key` in place of the one that is there, with the comment behind it, or after all others.
@@ -135,7 +147,7 @@ mod tests {
         assert!(new.contains("[else]\ny = 1") && new.contains("# for the terrace"), "{new}");
         let gone = changed(Some(&new), &Change::Keys(vec![key("Ctrl-a")], None)).unwrap();
         assert_eq!(read(&gone).0.keys, super::super::Keys::default(), "{gone}");
-        assert_eq!(changed(Some("a = 1"), &Change::Keys(vec![key("x")], None)).unwrap(), "a = 1");
+        assert_eq!(changed(Some("a = 1\n"), &Change::Keys(vec![key("x")], None)).unwrap(), "a = 1\n");
     }
 
     #[test]
