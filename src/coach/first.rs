@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{anything, variation},
-    trial::{Course, Task},
+    trial::{Course, ENDLESS, PATIENCE, Task},
 };
 use crate::{
     game::{Rule, Tally},
@@ -76,8 +76,10 @@ impl<'a> Attempt<'a> {
 
     fn play(&mut self, cue: CueInputs, source: Source) {
         self.task.clock.count(1);
+        // Of the policy's shots there are a few; of the others there are always more, and one that takes long is given up.
+        let patience = if source == Source::Policy { ENDLESS } else { PATIENCE };
         // A shot that took too long has at least been thought of.
-        let course = self.task.play(&cue).unwrap_or_default();
+        let course = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
         if course.tally.is_point(self.task.rule) {
             self.solutions.push((suggestion, course));

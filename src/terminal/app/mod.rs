@@ -280,7 +280,7 @@ impl App {
                 if balls.is_some() || self.drills.is_left() {
                     self.screen = Screen::Coach;
                     // Whoever was chosen there plays here too.
-                    self.coach.tutor.skill = self.drills.player.at_coach;
+                    self.coach.take_skill(self.drills.player.at_coach);
                 }
                 if let Some(Balls { table, layout, rule }) = balls {
                     self.coach.take_position(&table, layout, rule);

@@ -186,6 +186,14 @@ impl CoachScreen {
         self.tutor = Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor };
     }
 
+    /// Plays for somebody else from now on; a shot for whoever it was before is shown no more.
+    pub fn take_skill(&mut self, skill: Skill) {
+        if self.tutor.skill != skill {
+            self.tutor.skill = skill;
+            self.rest();
+        }
+    }
+
     /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
@@ -220,7 +228,8 @@ impl CoachScreen {
 
     /// The shot that is shown: the best so far while the coach thinks, else the chosen one of its advice.
     pub fn proposal(&self) -> Option<&Proposal> {
-        let so_far = self.pending.as_ref().and_then(|pending| pending.so_far.as_ref());
+        let pending = self.pending.as_ref().filter(|pending| pending.tutor == self.tutor);
+        let so_far = pending.and_then(|pending| pending.so_far.as_ref());
         so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
     }
 
