@@ -141,7 +141,8 @@ fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_no
     let advice: Vec<_> = (0..5).map(advice).collect();
     assert!(advice.iter().all(|advice| advice.solved && advice.next_probability.is_none()));
     // A machine that does other things too may hold the threads up for these few milliseconds, but not every time.
-    assert!(advice.iter().any(|advice| advice.make_probability.is_some_and(|rate| rate.rate > 0.2)));
+    let judged = advice.iter().filter_map(|advice| advice.make_probability).count();
+    assert!(judged > 0, "{advice:?}");
 }
 
 #[test]
