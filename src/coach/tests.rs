@@ -172,6 +172,18 @@ fn time_is_kept_where_contacts_are_stiff() {
     }
 }
 
+/// Nearly every stroke at these balls ends in a contact that takes long, and of a thousand hardly one makes the point.
+#[test]
+fn a_rare_shot_is_found_among_stiff_contacts() {
+    let coach = Coach::new(Table::preset("thesis").unwrap()).unwrap();
+    let layout = Layout::parse("-0.9,0.1 0.3,0.3 0.6,-0.5", coach.table()).unwrap();
+    for seed in 1..=5 {
+        let budget = Duration::from_secs(2);
+        let request = Request { rule: Rule::ThreeCushion, budget, seed, ..Request::default() };
+        assert!(coach.recommend(&layout, &request).unwrap().solved, "seed {seed}");
+    }
+}
+
 #[test]
 fn a_player_without_errors_never_misses() {
     let coach = coach();
