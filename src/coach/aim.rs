@@ -49,13 +49,14 @@ pub struct Aim {
 /// What is wrong with the layout or the stroke.
 pub fn aim(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Aim, ShotError> {
     let recording = Recording::new(table, layout, cue)?;
-    let [ahead, behind] = line_of_aim(table, layout, cue);
+    let [ahead, behind] = line_of_aim(table, layout, cue.phi);
     Ok(Aim { ahead, behind, hit: first_hit(table, &recording) })
 }
 
-/// Where the cue points, and where it comes from: the line of aim meets the cushions there, ahead and behind.
-pub fn line_of_aim(table: &Table, layout: &Layout, cue: &CueInputs) -> [Mark; 2] {
-    let [from, direction] = [layout.balls[0], DVec2::from_angle(cue.phi)];
+/// Where a cue points in the direction `phi`, rad, and where it comes from: the line of aim meets the cushions there, ahead
+/// and behind.
+pub fn line_of_aim(table: &Table, layout: &Layout, phi: f64) -> [Mark; 2] {
+    let [from, direction] = [layout.balls[0], DVec2::from_angle(phi)];
     [mark(table, from, direction), mark(table, from, -direction)]
 }
 

@@ -7,12 +7,13 @@ use super::{
     clock::Clock,
     crew, errors,
     first::{Attempt, Found},
+    next::Prospect,
     pool::Candidate,
     search::Search,
-    trial::{ENDLESS, Task},
+    trial::{ENDLESS, PATIENCE, Task},
 };
 use crate::{
-    game::{Reward, Rule},
+    game::{Reward, Rule, scores},
     learning::{Policy, PolicyError, evaluation::SuccessRate},
     physics::CueInputs,
     table::{Layout, LayoutError, Table},
@@ -38,9 +39,6 @@ const ALTERNATIVES: usize = 5;
 /// Share of the best shot's probability below which another one is not listed: one that is made not even half as often is
 /// a gamble, and no choice for a player who wants the point.
 const WORTH_LISTING: f64 = 0.5;
-
-/// Steps of resting contacts after which a shot that is tried in a search is given up.
-const PATIENCE: u32 = 100;
 
 /// A coach for one table. Cheap to share between threads.
 #[derive(Clone, Debug)]
@@ -116,7 +114,7 @@ impl Coach {
             skill: request.skill,
             clock: &clock,
             until: clock.moment(1.0),
-            patience: ENDLESS,
+            patience: PATIENCE,
         };
         let policy = self.policy(request.rule);
         let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout));
@@ -126,8 +124,8 @@ impl Coach {
             first_point(&found)
         } else {
             let mut told = None;
-            let task = Task { patience: PATIENCE, ..task };
-            let pool = Search::new(task, request.plan, request.threads, request.seed).run(&strokes, &mut |leader| {
+            let search = Search::new(task, request.plan, request.threads, request.seed);
+            let pool = search.run(&strokes, &found.solutions, &mut |leader| {
                 // The same shot with more attempts is no news.
                 if told.replace(leader.shot.cue) != Some(leader.shot.cue) {
                     tell(&improvement(leader, &clock));
@@ -145,16 +143,9 @@ impl Coach {
     }
 }
 
-/// The answer for a player who errs: the head of the pool, judged by errors that took no part in the choice, and the
-/// heads of the other kinds.
+/// The answer for a player who errs: the head of the pool, which is not empty, judged by errors that took no part in the
+/// choice, and the heads of the other kinds.
 fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
-    if pool.is_empty() {
-        // Nobody has tried any of them.
-        let mut answer = first_point(found);
-        answer.make_probability = None;
-        answer.alternatives.iter_mut().for_each(|shot| shot.make_probability = None);
-        return answer;
-    }
     let best = pool[0];
     keep_one_of_each(&mut pool);
     pool.truncate(1 + ALTERNATIVES);
@@ -174,7 +165,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
-    let told_next = |next| (request.plan && Ease::is_known_on(task.table)).then_some(next);
+    let told_next = |next: Prospect| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
     let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     Recommendation {
@@ -271,7 +262,7 @@ pub fn make_probability(
         .iter()
         .filter(|errors| {
             let stroke = skill.stroke(table.radius, cue, errors);
-            stroke.tip_offset_squared() <= table.miscue_limit && crate::game::scores(rule, table, layout, &stroke)
+            !stroke.is_miscue(table) && scores(rule, table, layout, &stroke)
         })
         .count();
     SuccessRate::new(made, attempts)

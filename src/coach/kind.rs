@@ -7,7 +7,8 @@ use serde::Serialize;
 use super::trial::Course;
 use crate::physics::CueInputs;
 
-/// Strokes from this speed on are called hard, m/s. A ball struck so runs about twice the length of a `match` table.
+/// Strokes from this speed on are called hard, m/s. A ball struck so in its middle runs 7.3 to 8.4 m along a
+/// `match` table, between two and a half and three lengths.
 const HARD: f64 = 2.5;
 
 /// Cushions from which on the cue ball goes around the table.

@@ -199,7 +199,7 @@ pub fn map(
     Map { across, up, columns, rows, outcomes }
 }
 
-/// What comes of a stroke. A shot whose resting contacts take thousands of steps counts as decided by then.
+/// What comes of a stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.
 pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
     if !is_stroke(table, cue) {
         return Outcome::NoStroke;

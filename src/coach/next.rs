@@ -13,6 +13,32 @@ use crate::{
 /// Attempts of each shot that are followed to their end.
 const ATTEMPTS: usize = 12;
 
+/// The probability of the next point after a shot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prospect {
+    /// An estimate, from where the shot leaves the balls.
+    Known(f64),
+    /// Nobody has looked; it counts as this until somebody does.
+    Supposed(f64),
+}
+
+impl Prospect {
+    /// What it counts as.
+    pub const fn value(self) -> f64 {
+        match self {
+            Self::Known(value) | Self::Supposed(value) => value,
+        }
+    }
+
+    /// The estimate, where there is one.
+    pub const fn known(self) -> Option<f64> {
+        match self {
+            Self::Known(value) => Some(value),
+            Self::Supposed(_) => None,
+        }
+    }
+}
+
 /// The mean probability of the next point over the layouts that `cue` leaves under the first of these errors, those that
 /// make a point; nought where none does. `None` where time ran out.
 pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
@@ -27,12 +53,13 @@ pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> 
         }
     }
     task.clock.count(ATTEMPTS.min(errors.len()) as u64);
-    Some(if made == 0 { 0.0 } else { sum / f64::from(made) })
+    // The last attempt may have been broken off.
+    (!task.clock.is_past(task.until)).then_some(if made == 0 { 0.0 } else { sum / f64::from(made) })
 }
 
 /// Where a stroke leaves the balls if it makes the point.
 pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
-    if stroke.tip_offset_squared() > task.table.miscue_limit {
+    if stroke.is_miscue(task.table) {
         return None;
     }
     let mut whole = Whole { tally: Tally::default(), patience: Patience(task.patience), task, given_up: false };

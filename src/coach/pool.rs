@@ -4,10 +4,10 @@ use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED},
     errors::{Errors, spread},
-    next::prospect,
-    trial::Task,
+    next::{Prospect, prospect},
+    trial::{Course, Task},
 };
-use crate::{game::Rule, physics::CueInputs};
+use crate::physics::CueInputs;
 
 /// One in four of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
 /// forgives more.
@@ -35,7 +35,8 @@ impl Contest {
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
     pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
-        Some(Candidate { next: prospect(task, &candidate.shot.cue, &self.own)?, ..*candidate })
+        let next = Prospect::Known(prospect(task, &candidate.shot.cue, &self.own)?);
+        Some(Candidate { next, ..*candidate })
     }
 
     /// Tries a candidate at the errors up to the `count`th, a multiple of four; `None` where time ran out.
@@ -68,28 +69,33 @@ pub struct Candidate {
     pub made: usize,
     /// Points under the larger errors.
     pub wide: usize,
-    /// Probability of the next point, where that counts; else 1.
-    pub next: f64,
+    /// Probability of the next point; supposed to be 1 until candidates are looked at for it.
+    pub next: Prospect,
     /// What is taken off for a stroke that is hard to play, whatever its errors.
     pub burden: f64,
 }
 
 impl Candidate {
-    /// `cue` as a candidate, if it makes the point under `rule`; of two that make it as often, the softer and more level one
-    /// is better, by `weight`.
-    pub fn new(task: &Task, rule: Rule, cue: CueInputs, source: Source, weight: f64) -> Option<Self> {
+    /// `cue` as a candidate, if it makes the point; of two that make it as often, the softer and more level one is better, by
+    /// `weight`.
+    pub fn new(task: &Task, cue: CueInputs, source: Source, weight: f64) -> Option<Self> {
         let course = task.play(&cue)?;
         task.clock.count(1);
-        let shot = Suggestion { cue, source };
-        course.tally.is_point(rule).then(|| Self {
+        course.tally.is_point(task.rule).then(|| Self::of(Suggestion { cue, source }, &course, weight))
+    }
+
+    /// A shot that makes the point in this course.
+    pub fn of(shot: Suggestion, course: &Course, weight: f64) -> Self {
+        let cue = &shot.cue;
+        Self {
             shot,
-            kind: Kind::of(&course, &cue),
+            kind: Kind::of(course, cue),
             tried: 0,
             made: 0,
             wide: 0,
-            next: 1.0,
+            next: Prospect::Supposed(1.0),
             burden: weight * (cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED),
-        })
+        }
     }
 
     /// Share of points under the player's errors; it flatters whoever was chosen by it.
@@ -111,7 +117,16 @@ impl Candidate {
     pub fn score(&self) -> f64 {
         let wide = self.tried / 4;
         let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
-        (self.rate() + WORTH_OF_WIDE * share) * self.next - self.burden
+        (self.rate() + WORTH_OF_WIDE * share) * self.next.value() - self.burden
+    }
+}
+
+/// Those that nobody has looked at for the next point count as the worst of those that somebody has: time must not make a
+/// shot better.
+pub fn suppose_the_worst(candidates: &mut [Candidate]) {
+    let worst = candidates.iter().filter_map(|candidate| candidate.next.known()).fold(1.0, f64::min);
+    for candidate in candidates.iter_mut().filter(|candidate| candidate.next.known().is_none()) {
+        candidate.next = Prospect::Supposed(worst);
     }
 }
 
@@ -131,4 +146,33 @@ pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
         place += 1;
         place <= best || rank <= of_each
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::{Pace, Way};
+
+    #[test]
+    fn a_shot_that_nobody_has_looked_at_ranks_behind_those_that_leave_a_good_next_one() {
+        let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
+        let candidate = |made, next| Candidate {
+            shot: Suggestion { cue, source: Source::Search },
+            kind: Kind { first_ball: 1, cushion_first: false, way: Way::Direct, pace: Pace::Soft },
+            tried: 32,
+            made,
+            wide: 8,
+            next,
+            burden: 0.0,
+        };
+        let (good, bad, unseen) = (Prospect::Known(0.9), Prospect::Known(0.6), Prospect::Supposed(1.0));
+        let mut pool = vec![candidate(24, unseen), candidate(24, bad), candidate(22, good)];
+        suppose_the_worst(&mut pool);
+        keep(&mut pool, 3, 1);
+        assert_eq!(pool.iter().map(|shot| shot.next.known()).collect::<Vec<_>>(), [Some(0.9), None, Some(0.6)]);
+        // Where nobody was looked at, none is worse for it.
+        let mut pool = [candidate(24, unseen)];
+        suppose_the_worst(&mut pool);
+        assert_eq!(pool[0].next, unseen);
+    }
 }

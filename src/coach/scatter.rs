@@ -10,7 +10,7 @@ use super::{
     crew,
     errors::{self, Errors},
     next::end_of,
-    trial::Task,
+    trial::{PATIENCE, Task},
 };
 use crate::{
     game::Rule,
@@ -19,13 +19,10 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Steps of resting contacts after which an attempt is given up as a miss, as in a search.
-const PATIENCE: u32 = 100;
-
 /// What comes of many attempts at a shot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
-    /// Where the balls come to rest, for each attempt that makes the point.
+    /// Where the balls come to rest, m, for each attempt that makes the point.
     pub ends: Vec<Layout>,
     /// The share of attempts that make it.
     pub made: SuccessRate,

@@ -7,8 +7,9 @@ use super::{
     Source, Suggestion,
     candidates::{neighbour, stratified, variation},
     crew,
-    pool::{Candidate, Contest, keep},
-    trial::Task,
+    next::Prospect,
+    pool::{Candidate, Contest, keep, suppose_the_worst},
+    trial::{Course, Task},
 };
 use crate::physics::CueInputs;
 
@@ -25,7 +26,8 @@ const MOST_ERRORS: usize = LOOKS[4];
 /// each leader that are tried in a round.
 const STAGES: [(usize, f64, usize); 3] = [(THIRD_LOOK, 0.0, 10), (FOURTH_LOOK, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
 
-/// Share of the budget after which the net is hauled in, the refinement ends. What is left is for judging the answer.
+/// Shares of what is left of the budget when the search begins, after which the net is hauled in and the refinement ends. The
+/// rest is for judging the answer.
 const NET_ENDS: f64 = 0.3;
 const REFINEMENT_ENDS: f64 = 0.88;
 
@@ -53,6 +55,9 @@ const PIECE: usize = 32;
 pub struct Search<'a> {
     task: Task<'a>,
     threads: usize,
+    /// The two moments as shares of the whole budget.
+    net_ends: f64,
+    refinement_ends: f64,
     rng: Xoshiro256PlusPlus,
     plan: bool,
     contest: Contest,
@@ -60,34 +65,45 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// A search on a task, with so many threads; with a `plan` for the next point too.
+    /// A search on a task, with so many threads; with a `plan` for the next point too. It shares out the time that is left
+    /// now.
     pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let contest = Contest::new(MOST_ERRORS, rng.random());
-        Self { task, threads, rng, plan, contest, pool: Vec::new() }
+        let begins = task.clock.used().min(1.0);
+        let [net_ends, refinement_ends] = [NET_ENDS, REFINEMENT_ENDS].map(|share| begins + share * (1.0 - begins));
+        Self { task, threads, net_ends, refinement_ends, rng, plan, contest, pool: Vec::new() }
     }
 
-    /// Looks for shots, starting from `proposals`; the best comes first. `tell` hears of every new leader.
-    pub fn run(mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) -> Vec<Candidate> {
+    /// Looks for shots, starting from those that were `found` to make the point and from variations of `proposals`; the best
+    /// comes first, and where something was found there is one, however little time. `tell` hears of every new leader.
+    pub fn run(
+        mut self,
+        proposals: &[CueInputs],
+        found: &[(Suggestion, Course)],
+        tell: &mut dyn FnMut(&Candidate),
+    ) -> Vec<Candidate> {
+        self.task.until = self.task.clock.moment(self.net_ends);
+        let weight = self.weight();
+        let found: Vec<_> = found.iter().map(|(shot, course)| Candidate::of(*shot, course, weight)).collect();
+        self.pool = self.contested(&found, SECOND_LOOK);
         self.cast_nets(proposals, tell);
-        self.task.until = self.task.clock.moment(REFINEMENT_ENDS);
+        self.task.until = self.task.clock.moment(self.refinement_ends);
         self.narrow_down(tell);
         self.refine(tell);
         self.pool
     }
 
     fn cast_nets(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
-        self.task.until = self.task.clock.moment(NET_ENDS);
         let table = self.task.table;
-        let mut shots: Vec<Suggestion> =
-            proposals.iter().map(|&cue| Suggestion { cue, source: Source::Policy }).collect();
+        let mut shots = Vec::new();
         for cue in proposals.iter().take(4) {
             let varied =
                 (0..16).map(|_| Suggestion { cue: variation(table, cue, &mut self.rng), source: Source::Variation });
             shots.extend(varied);
         }
         let (mut drawn, mut cast) = (0, FIRST_CAST);
-        while self.task.clock.used() < NET_ENDS || drawn == 0 {
+        while self.task.clock.used() < self.net_ends || drawn == 0 {
             shots.extend((0..cast as u64).map(|n| Suggestion {
                 cue: stratified(table, self.task.layout, drawn + n, &mut self.rng),
                 source: Source::Search,
@@ -113,7 +129,7 @@ impl<'a> Search<'a> {
         let (task, contest, weight) = (&self.task, &self.contest, self.weight());
         let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
         let judge = |shot: &Suggestion| {
-            let candidate = Candidate::new(task, task.rule, shot.cue, shot.source, weight)?;
+            let candidate = Candidate::new(task, shot.cue, shot.source, weight)?;
             let candidate = contest.go_on(task, &candidate, FIRST_LOOK)?;
             if candidate.score() < bar { Some(candidate) } else { contest.go_on(task, &candidate, SECOND_LOOK) }
         };
@@ -141,6 +157,7 @@ impl<'a> Search<'a> {
         self.pool = crew::map(self.threads, &self.pool, |candidate| {
             self.contest.look_ahead(&self.task, candidate).unwrap_or(*candidate)
         });
+        suppose_the_worst(&mut self.pool);
     }
 
     /// The candidates tried at so many errors; those that time did not suffice for are left as they are.
@@ -154,10 +171,11 @@ impl<'a> Search<'a> {
     fn refine(&mut self, tell: &mut dyn FnMut(&Candidate)) {
         let mut stage = 0;
         loop {
-            let progress = (self.task.clock.used() - NET_ENDS) / (REFINEMENT_ENDS - NET_ENDS);
-            if progress >= 1.0 || self.pool.is_empty() {
+            let used = self.task.clock.used();
+            if used >= self.refinement_ends || self.pool.is_empty() {
                 break;
             }
+            let progress = (used - self.net_ends) / (self.refinement_ends - self.net_ends);
             if self.pool[0].is_flawless() && self.pool[0].tried >= STAGES[stage].0 {
                 // There is nothing to improve that these errors could show.
                 if stage + 1 == STAGES.len() && !self.plan {
@@ -191,8 +209,8 @@ impl<'a> Search<'a> {
         }
         let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
         // Until it is known, what comes next is what comes after the parent.
-        let mut candidate =
-            Candidate { next: parent.next, ..Candidate::new(task, task.rule, cue, source, self.weight())? };
+        let next = Prospect::Supposed(parent.next.value());
+        let mut candidate = Candidate { next, ..Candidate::new(task, cue, source, self.weight())? };
         for look in LOOKS.into_iter().take_while(|look| *look <= errors) {
             if candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried) {
                 return None;
@@ -206,7 +224,8 @@ impl<'a> Search<'a> {
     }
 
     fn tell(&self, tell: &mut dyn FnMut(&Candidate)) {
-        if let Some(best) = self.pool.iter().max_by(|a, b| a.score().total_cmp(&b.score())) {
+        let tried = self.pool.iter().filter(|candidate| candidate.tried > 0);
+        if let Some(best) = tried.max_by(|a, b| a.score().total_cmp(&b.score())) {
             tell(best);
         }
     }
@@ -215,4 +234,43 @@ impl<'a> Search<'a> {
 /// By how much a shot may lag behind its parent after so many errors and still be followed.
 fn slack(tried: usize) -> f64 {
     0.5 / (tried as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        coach::{Skill, clock::Clock, first::Attempt, trial::PATIENCE},
+        game::Rule,
+        table::{Layout, Table},
+    };
+    use std::{sync::atomic::AtomicBool, thread, time::Duration};
+
+    #[test]
+    fn a_search_that_begins_late_shares_out_what_is_left_of_the_time() {
+        let (table, cancel, budget) = (Table::default(), AtomicBool::new(false), Duration::from_secs(2));
+        let layout = Layout::opening(&table);
+        let clock = Clock::start(budget, u64::MAX, &cancel);
+        let task = Task {
+            table: &table,
+            layout: &layout,
+            rule: Rule::StraightRail,
+            skill: Skill::EXPERT,
+            clock: &clock,
+            until: clock.moment(1.0),
+            patience: PATIENCE,
+        };
+        let found = Attempt::new(task).run(&[], 1);
+        // As if the first shot had been hard to find.
+        thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
+        let mut told = 0;
+        let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| told += 1);
+        assert!(pool[0].tried > SECOND_LOOK && told > 1, "{told} {:?}", pool[0]);
+        assert!(pool.iter().any(|candidate| candidate.shot != found.solutions[0].0), "{pool:?}");
+        // No time at all: what was found is all there is.
+        cancel.store(true, std::sync::atomic::Ordering::Relaxed);
+        let pool = Search::new(task, true, 2, 1).run(&[], &found.solutions, &mut |_| panic!("nothing is known"));
+        assert_eq!(pool.iter().map(|candidate| candidate.shot).collect::<Vec<_>>(), [found.solutions[0].0]);
+        assert_eq!(pool[0].next.known(), None);
+    }
 }

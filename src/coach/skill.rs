@@ -49,6 +49,9 @@ pub enum SkillError {
     },
 }
 
+/// Steepest cue that errors lead to, rad: just below upright, unless the stroke is meant steeper.
+const STEEPEST: f64 = 89.9_f64.to_radians();
+
 /// The five errors as people say them: name, unit, SI units in one of it, and the largest that is accepted. A player who
 /// errs by more than a ball's radius, a right angle's half or 5 m/s plays no shot at all.
 const FORMS: [(&str, &str, f64, f64); 5] = [
@@ -105,8 +108,8 @@ impl Skill {
         CueInputs {
             a: cue.a + self.a / radius * errors[0],
             b: cue.b + self.b / radius * errors[1],
-            // A cue cannot be held below the cloth.
-            theta: (cue.theta + self.theta * errors[2]).max(0.0),
+            // A cue is held neither below the cloth nor over the back.
+            theta: (cue.theta + self.theta * errors[2]).clamp(0.0, STEEPEST.max(cue.theta)),
             phi: cue.phi + self.phi * errors[3],
             // Nor does a stroke go backwards.
             speed: (cue.speed + self.speed * errors[4]).max(1e-3),
@@ -220,5 +223,16 @@ mod tests {
         assert!((stroke.a - 0.15).abs() < 1e-12, "1.5 mm on a radius of 30 mm");
         assert_eq!((stroke.b, stroke.theta), (0.0, 0.0), "a cue is not held below the cloth");
         assert!((stroke.phi - 1.0).to_degrees() - 0.125 < 1e-12 && (stroke.speed - 1.925).abs() < 1e-12);
+    }
+
+    #[test]
+    fn errors_never_turn_a_raised_cue_over() {
+        for degrees in [80.0, 89.95_f64] {
+            let cue = CueInputs { a: 0.0, b: 0.0, theta: degrees.to_radians(), phi: 0.0, speed: 2.0 };
+            // 40° too steep by one standard error of a player who is off by so much.
+            let steepest = Skill { theta: 40.0_f64.to_radians(), ..Skill::CLUB }.stroke(0.03, &cue, &[1.0; 5]);
+            steepest.validate().unwrap();
+            assert!(steepest.theta >= cue.theta, "{steepest:?}");
+        }
     }
 }

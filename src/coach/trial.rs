@@ -39,6 +39,9 @@ pub struct Task<'a> {
     pub patience: u32,
 }
 
+/// Steps of resting contacts after which a shot that is one of many is given up as a miss.
+pub const PATIENCE: u32 = 100;
+
 /// A patience that follows every contact to its end.
 pub const ENDLESS: u32 = u32::MAX;
 
@@ -59,7 +62,7 @@ impl Task<'_> {
 
     /// Whether a stroke makes the point; a tip beyond the table's miscue limit makes none. `None` where time ran out.
     pub fn makes(&self, stroke: &CueInputs) -> Option<bool> {
-        if stroke.tip_offset_squared() > self.table.miscue_limit {
+        if stroke.is_miscue(self.table) {
             return Some(false);
         }
         self.play(stroke).map(|course| course.tally.is_point(self.rule))

@@ -181,8 +181,7 @@ impl Shot {
             let skill = Skill::EXPERT.scaled(scale(index as f64 / STEPS as f64));
             let makes = |errors: &&Errors| {
                 let stroke = skill.stroke(self.table.radius, &self.cue, errors);
-                stroke.tip_offset_squared() <= self.table.miscue_limit
-                    && scores(self.rule, &self.table, &self.layout, &stroke)
+                !stroke.is_miscue(&self.table) && scores(self.rule, &self.table, &self.layout, &stroke)
             };
             (errors.iter().filter(makes).count() as f64 + 0.5) / (errors.len() as f64 + 1.0)
         })

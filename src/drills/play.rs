@@ -4,15 +4,12 @@ use std::ops::ControlFlow;
 
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
-    coach::{Skill, errors},
+    coach::errors,
     game::{Rule, Tally},
     physics::{CueError, CueInputs, strike},
     simulation::{Event, Observer, simulate},
     table::{Layout, Table},
 };
-
-/// Steepest cue of a stroke that errors are added to, rad: just below upright.
-const STEEPEST: f64 = 89.9_f64.to_radians();
 
 /// Sets the errors of strokes apart from all else that is drawn from a session's seed: a coach who knew them would choose by
 /// them.
@@ -51,7 +48,7 @@ impl Played {
     /// Plays a stroke as it is.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         let mut watcher = Watcher::default();
-        let miscue = stroke.tip_offset_squared() > table.miscue_limit;
+        let miscue = stroke.is_miscue(table);
         let end =
             if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
         Self { stroke, miscue, tally: watcher.0, made: watcher.0.is_point(rule), end }
@@ -108,7 +105,7 @@ impl Session {
         let exercise = self.exercise().ok_or(PlayError::Over)?;
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
-        let stroke = with_errors(self.skill, &table, &meant, &errors);
+        let stroke = self.skill.stroke(table.radius, &meant, &errors);
         let played = Played::of(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),
@@ -156,10 +153,4 @@ impl Attempt {
             advised_chance: None,
         }
     }
-}
-
-/// What comes of a stroke with these standard normal errors.
-fn with_errors(skill: Skill, table: &Table, meant: &CueInputs, errors: &errors::Errors) -> CueInputs {
-    let stroke = skill.stroke(table.radius, meant, errors);
-    CueInputs { theta: stroke.theta.min(STEEPEST.max(meant.theta)), ..stroke }
 }

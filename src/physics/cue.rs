@@ -107,6 +107,11 @@ impl CueInputs {
         if offset <= limit { Ok(()) } else { Err(CueError::Tip { a: self.a, b: self.b, offset, limit }) }
     }
 
+    /// Whether the tip slips off the ball on this table: no ball is moved then, and no point is made.
+    pub fn is_miscue(&self, table: &Table) -> bool {
+        self.tip_offset_squared() > table.miscue_limit
+    }
+
     /// `a² + b²`, in units of R².
     pub fn tip_offset_squared(&self) -> f64 {
         self.a * self.a + self.b * self.b

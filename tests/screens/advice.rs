@@ -2,12 +2,16 @@
 
 use std::sync::atomic::Ordering;
 
-use crate::coach_player::{NEXT, OTHERS, Player, SHOT};
+use crate::{
+    coach_player::{NEXT, OTHERS, Player, SHOT, TRUE_COLOUR, advice, proposal},
+    drill_player,
+    keys::key,
+};
 use carom::{
-    coach::Skill,
+    coach::{Skill, Way},
     game::Rule,
     physics::CueInputs,
-    terminal::{Answer, Office, Tidings, View},
+    terminal::{Answer, Effect, Office, Tidings, View},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -52,6 +56,27 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
     // The errors that it was chosen by flatter it: no interval is told.
     let text = player.press("v").text(120, 40);
     assert!(text.contains("expert so far 89 %") && !text.contains("89 % ("), "{text}");
+}
+
+#[test]
+fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhile() {
+    let mut player = drill_player::Player::at_coach(TRUE_COLOUR, tempfile::tempdir().unwrap());
+    let Some(Effect::Recommend(job)) = player.event(&key("Enter")) else { panic!("the coach is asked") };
+    let so_far = proposal(&job.table, &job.layout, OTHERS[0], Way::OffCushion, 893);
+    player.app.receive(Answer { id: job.id, news: Tidings::Better(so_far) });
+    assert!(player.app.shot().is_some());
+    let mut player = player.press("d p Esc");
+    assert_eq!(job.tutor.skill, Skill::EXPERT);
+    assert_ne!(player.app.coach().tutor.skill, Skill::EXPERT);
+    assert!(player.app.shot().is_none(), "the best shot so far is an expert's");
+    let effect = player.app.receive(Answer { id: job.id, news: Tidings::Advice(advice(&job)) });
+    assert!(effect.is_none() && player.app.shot().is_none());
+    player.says("the coach has answered for expert; Enter asks it for");
+    // It is kept for the player whose shot it is.
+    let study = (0..Skill::NAMED.len()).find_map(|_| player.event(&key("S")));
+    assert!(matches!(study, Some(Effect::Study(_))));
+    assert_eq!(player.app.coach().tutor.skill, Skill::EXPERT);
+    player.says("the player: expert; the shot for it is known");
 }
 
 #[test]

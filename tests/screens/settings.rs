@@ -210,7 +210,7 @@ fn colours_and_characters_are_found_out_anew() {
     }
     let mut player = Player::new();
     player.app = player.app.with_detection(detect);
-    let player = player.press("Down Right Down Right Right");
+    let player = player.press("Down Right Down Right Right Right");
     assert_eq!(player.app.look(), Look { depth: Depth::True, glyphs: Glyphs::Half, unicode: true });
     let player = player.press("Up Right");
     assert_eq!(player.app.look().depth, Depth::Indexed);

@@ -17,13 +17,18 @@ const NUMBERS: usize = 8;
 /// layout is quite safe, and of two very easy ones one is still the easier.
 const SOFTNESS: f64 = 0.02;
 
+/// Length of the `match` table, m: the weights are for distances on a table of this length.
+const MATCH_LENGTH: f64 = 2.84;
+
 /// Players who err less than so many times as much as an expert are taken to err as much.
 const SMALLEST_SCALE: f64 = 0.1;
 
 /// How easy layouts are under a rule: a weighted sum of some numbers about them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ease {
-    /// What the numbers are weighed with for the share of misses with [`Ease::SCALE`] times an expert's errors.
+    /// What the numbers are weighed with for the share of misses with [`Ease::SCALE`] times an expert's errors: a constant;
+    /// the cue ball's distance a from the nearer object ball and that ball's distance c from the other, 1/m; a², c² and a c,
+    /// 1/m²; the cosine of the turn between those two ways, and its square.
     pub weights: [f64; NUMBERS],
     /// The expert's own share of misses is this power of it.
     pub power: f64,
@@ -71,7 +76,7 @@ impl Ease {
 
 /// What the estimate rests on. Distances are those on a table as long as `match`.
 fn numbers(table: &Table, layout: &Layout) -> [f64; NUMBERS] {
-    let [cue, mut near, mut far] = layout.balls.map(|ball| ball * (2.84 / table.length));
+    let [cue, mut near, mut far] = layout.balls.map(|ball| ball * (MATCH_LENGTH / table.length));
     if cue.distance_squared(near) > cue.distance_squared(far) {
         std::mem::swap(&mut near, &mut far);
     }

@@ -35,6 +35,7 @@ impl App {
         let looks = |settings: &Settings| (settings.palette, settings.depth, settings.glyphs);
         if looks(&before) != looks(&settings) {
             self.full_look = self.detect.map_or(self.full_look, |detect| detect(&settings));
+            self.finest = self.full_look.finest();
             self.choose_palette(settings.palette);
         }
     }

@@ -18,7 +18,7 @@ impl App {
         let before = std::mem::replace(&mut self.screen, screen);
         if before == Screen::Drills {
             // Whoever was chosen there plays at the coach's table too.
-            self.coach.choose_skill(self.drills.player.at_coach);
+            self.coach.take_skill(self.drills.player.at_coach);
         }
         match screen {
             _ if before == screen => None,

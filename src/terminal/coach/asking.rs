@@ -25,6 +25,8 @@ use crate::{
 pub struct Pending {
     id: u64,
     cancel: Arc<AtomicBool>,
+    /// What was asked: meanwhile somebody else may have been chosen to play.
+    pub tutor: Tutor,
     /// Seconds since it was asked.
     pub waited: f64,
     /// The best shot so far.
@@ -43,8 +45,8 @@ impl CoachScreen {
     pub(super) fn ask(&mut self) -> Effect {
         self.playback.pause();
         let job = self.job(None);
-        let cancel = Arc::clone(&job.cancel);
-        self.pending = Some(Pending { id: job.id, cancel, waited: 0.0, so_far: None });
+        let (cancel, tutor) = (Arc::clone(&job.cancel), job.tutor.clone());
+        self.pending = Some(Pending { id: job.id, cancel, tutor, waited: 0.0, so_far: None });
         Effect::Recommend(Box::new(job))
     }
 
@@ -68,38 +70,46 @@ impl CoachScreen {
         pending.cancel.store(true, Ordering::Relaxed);
         let mut words = "the coach has stopped thinking".to_owned();
         if let Some(so_far) = pending.so_far {
-            words += "; this is the best shot so far";
-            self.show(Advice { proposals: vec![so_far], effort: None });
+            if pending.tutor == self.tutor {
+                words += "; this is the best shot so far";
+            }
+            self.show(pending.tutor, Advice { proposals: vec![so_far], effort: None });
         }
         self.message = Some(Message::plain(words));
     }
 
     /// The coach has something to say. Late answers to cancelled questions are dropped.
     pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
-        let is_awaited = self.pending.as_ref().is_some_and(|pending| pending.id == answer.id);
+        let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
         let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
-        match answer.news {
-            Tidings::Better(proposal) if is_awaited => {
-                self.watch_from_the_stroke();
-                if let Some(pending) = &mut self.pending {
-                    pending.so_far = Some(proposal);
+        match (answer.news, awaited) {
+            (Tidings::Better(proposal), Some(pending)) => {
+                pending.so_far = Some(proposal);
+                if pending.tutor == self.tutor {
+                    self.watch_from_the_stroke();
                 }
             }
-            Tidings::Advice(advice) if is_awaited => {
+            (Tidings::Advice(advice), Some(pending)) => {
+                let tutor = pending.tutor.clone();
                 self.pending = None;
-                self.message = advice.proposals.first().map(|best| news(best, advice.effort, &self.tutor));
-                self.show(advice);
+                self.message = if tutor == self.tutor {
+                    advice.proposals.first().map(|best| news(best, advice.effort, &tutor))
+                } else {
+                    let [asked, now] = [tutor.skill, self.tutor.skill].map(skill_word);
+                    Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
+                };
+                self.show(tutor, advice);
             }
-            Tidings::Refused(sentence) if is_awaited => {
+            (Tidings::Refused(sentence), Some(_)) => {
                 self.cancel();
                 self.message = Some(Message::warning(sentence));
             }
-            Tidings::Study(study) if is_study => {
+            (Tidings::Study(study), _) if is_study => {
                 if let Some(advised) = self.advised_mut() {
                     advised.choice_mut().study = Some(study);
                 }
             }
-            Tidings::Next(next) if is_study => {
+            (Tidings::Next(next), _) if is_study => {
                 self.studying = None;
                 if let Some(advised) = self.advised_mut() {
                     let choice = advised.choice_mut();
@@ -111,10 +121,13 @@ impl CoachScreen {
         self.study()
     }
 
-    /// Shows advice on the layout from its best shot on.
-    pub(super) fn show(&mut self, advice: Advice) {
-        self.balls.present_mut().advised = Advised::new(self.tutor.clone(), advice);
-        self.watch_from_the_stroke();
+    /// Keeps the advice on the layout that `tutor` gave, and shows it from its best shot on if that is what is asked now.
+    fn show(&mut self, tutor: Tutor, advice: Advice) {
+        let is_asked = tutor == self.tutor;
+        self.balls.present_mut().advised = Advised::new(tutor, advice);
+        if is_asked {
+            self.watch_from_the_stroke();
+        }
     }
 
     fn watch_from_the_stroke(&mut self) {
@@ -160,7 +173,7 @@ impl CoachScreen {
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };
         self.message = next.proposals.first().map(|best| news(best, None, &self.tutor));
-        self.show(next);
+        self.show(self.tutor.clone(), next);
         None
     }
 

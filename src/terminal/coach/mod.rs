@@ -213,15 +213,6 @@ impl CoachScreen {
         Ok(())
     }
 
-    /// Lets somebody else play from now on.
-    pub fn choose_skill(&mut self, skill: Skill) {
-        if skill != self.tutor.skill {
-            self.cancel();
-            self.tutor.skill = skill;
-            self.rest();
-        }
-    }
-
     fn set_step(&mut self, step_mm: f64) {
         self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
     }
@@ -232,6 +223,14 @@ impl CoachScreen {
         let news = format!("the coach plays with {}; Enter asks it", tutor.name());
         self.take(table, layout, Tutor { skill: self.tutor.skill, plan: self.tutor.plan, ..tutor });
         self.message = Some(Message::good(news));
+    }
+
+    /// Plays for somebody else from now on; a shot for whoever it was before is shown no more.
+    pub fn take_skill(&mut self, skill: Skill) {
+        if self.tutor.skill != skill {
+            self.tutor.skill = skill;
+            self.rest();
+        }
     }
 
     /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
@@ -280,7 +279,8 @@ impl CoachScreen {
 
     /// The shot that is shown: the best so far while the coach thinks, else the chosen one of its advice.
     pub fn proposal(&self) -> Option<&Proposal> {
-        let so_far = self.pending.as_ref().and_then(|pending| pending.so_far.as_ref());
+        let pending = self.pending.as_ref().filter(|pending| pending.tutor == self.tutor);
+        let so_far = pending.and_then(|pending| pending.so_far.as_ref());
         so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
     }
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::{
-    coach::Hit,
+    coach::{Hit, Mark, line_of_aim},
     simulation::Rail,
     table::{BALLS, Layout, Table},
 };
@@ -13,8 +13,8 @@ use crate::{
 pub enum Meets {
     /// An object ball, and how.
     Ball(Hit),
-    /// A cushion, at so many diamonds: 0 to 8 from the left on a long one, 0 to 4 from below on a short one.
-    Cushion(Rail, f64),
+    /// A cushion, where the line goes on to its nose: the mark by which players aim.
+    Cushion(Mark),
 }
 
 /// The line of aim.
@@ -39,30 +39,30 @@ pub fn sight(table: &Table, layout: &Layout, phi: f64) -> Sight {
         is_met.then(|| (ball, (along - (diameter * diameter - aside * aside).sqrt()).max(0.0), aside))
     });
     let ball = ball.min_by(|one, other| one.1.total_cmp(&other.1));
-    let cushion = Rail::ALL.map(|rail| {
+    let room = Rail::ALL.map(|rail| {
         let approach = -direction.dot(rail.normal());
         let room = start.dot(rail.normal()) + table.reach().dot(rail.normal().abs());
         // A line along a cushion never meets it.
-        (rail, if approach > 1e-12 { room.max(0.0) / approach } else { f64::INFINITY })
+        if approach > 1e-12 { room.max(0.0) / approach } else { f64::INFINITY }
     });
-    let (rail, room) = cushion.into_iter().fold((Rail::Left, f64::INFINITY), |a, b| if b.1 < a.1 { b } else { a });
+    let room = room.into_iter().fold(f64::INFINITY, f64::min);
     if let Some((ball, way, aside)) = ball.filter(|ball| ball.1 <= room) {
         let end = start + way * direction;
         let hit = Hit { ball, place: end, fullness: 1.0 - aside.abs() / diameter, left: aside < 0.0 };
         return Sight { end, way, meets: Meets::Ball(hit) };
     }
-    let end = start + room * direction;
-    let along = match rail {
-        Rail::Left | Rail::Right => end.y + 0.5 * table.width,
-        Rail::Bottom | Rail::Top => end.x + 0.5 * table.length,
-    };
-    Sight { end, way: room, meets: Meets::Cushion(rail, along / table.diamond()) }
+    let [mark, _] = line_of_aim(table, layout, phi);
+    Sight { end: start + room * direction, way: room, meets: Meets::Cushion(mark) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{coach::first_hit, physics::CueInputs, simulation::Recording};
+    use crate::{
+        coach::{aim, first_hit},
+        physics::CueInputs,
+        simulation::{EventKind, Recording},
+    };
     use proptest::prelude::*;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
@@ -76,27 +76,32 @@ mod tests {
             let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: degrees.to_radians(), speed: 5.0 };
             let recording = Recording::new(&table, &layout, &cue).unwrap();
             let sight = sight(&table, &layout, cue.phi);
-            let first = recording.events().iter().find(|event| matches!(event.kind,
-                crate::simulation::EventKind::BallBall(0, _) | crate::simulation::EventKind::BallRail(0, _)));
+            let first = recording.events().iter()
+                .find(|event| matches!(event.kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _)));
             let first = first.expect("5 m/s reach the other end of the table");
             prop_assert!(recording.state(0, first.time).position.distance(sight.end) < 1e-6);
             match (first.kind, sight.meets) {
-                (crate::simulation::EventKind::BallBall(_, ball), Meets::Ball(hit)) => {
+                (EventKind::BallBall(_, ball), Meets::Ball(hit)) => {
                     let real = first_hit(&table, &recording).unwrap();
                     prop_assert_eq!((ball, real.left), (hit.ball, hit.left));
                     prop_assert!((real.fullness - hit.fullness).abs() < 1e-3, "{:?} {:?}", real, hit);
                 }
-                (crate::simulation::EventKind::BallRail(_, rail), Meets::Cushion(met, _)) => prop_assert_eq!(rail, met),
+                // One stroke is told as the same number wherever it is told.
+                (EventKind::BallRail(..), Meets::Cushion(mark)) =>
+                    prop_assert_eq!(mark, aim(&table, &layout, &cue).unwrap().ahead),
                 other => prop_assert!(false, "{:?}", other),
             }
         }
     }
 
     #[test]
-    fn cushions_are_counted_in_diamonds_from_the_lower_left_corner() {
+    fn a_cushion_is_marked_where_the_line_meets_its_nose_not_where_the_ball_stops() {
         let table = Table::default();
         let layout = Layout::parse("2d,2d 7d,3.5d 1d,0.5d", &table).unwrap();
-        let Meets::Cushion(rail, diamond) = sight(&table, &layout, 0.0).meets else { panic!("a ball is met") };
-        assert_eq!((rail, diamond), (Rail::Right, 2.0));
+        let sight = sight(&table, &layout, 45_f64.to_radians());
+        let Meets::Cushion(mark) = sight.meets else { panic!("a ball is met") };
+        // Two diamonds up are two to the right; the ball's centre stops a radius short of the cushion.
+        assert!(mark.rail == Rail::Top && (mark.diamond - 4.0).abs() < 1e-9, "{mark:?}");
+        assert!((sight.end.y - table.reach().y).abs() < 1e-9 && sight.end.x < -0.5 * table.radius);
     }
 }

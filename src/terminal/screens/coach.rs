@@ -151,7 +151,7 @@ fn standing(app: &App) -> String {
 fn aim_words(app: &App, shot: &Shot) -> String {
     let hit = shot.contact_words().unwrap_or_else(|| "hits no ball".to_owned());
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
-    let [ahead, behind] = line_of_aim(app.table(), app.layout(), &shot.cue).map(mark);
+    let [ahead, behind] = line_of_aim(app.table(), app.layout(), shot.cue.phi).map(mark);
     format!("{hit}; aim from {behind} to {ahead} diamonds")
 }
 

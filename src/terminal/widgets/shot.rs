@@ -83,7 +83,7 @@ pub fn draw_proposal(
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
-    let [ahead, behind] = line_of_aim(table, layout, &shot.cue).map(mark);
+    let [ahead, behind] = line_of_aim(table, layout, shot.cue.phi).map(mark);
     let aim = format!("{behind}{}{ahead}", look.pick("→", ">"));
     draw_rows(shot, aim, table, inner, theme, look, buffer);
 }

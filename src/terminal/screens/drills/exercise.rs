@@ -72,7 +72,7 @@ fn meeting(turn: &Turn) -> Option<Meeting> {
     let Some(sight) = turn.sight() else { return turn.shot().map(Shot::meeting) };
     Some(match sight.meets {
         Meets::Ball(hit) => Meeting::Ball(hit),
-        Meets::Cushion(rail, _) => Meeting::Rail(rail, None),
+        Meets::Cushion(mark) => Meeting::Rail(mark.rail, None),
     })
 }
 

@@ -90,8 +90,8 @@ fn sight_words(sight: &Sight) -> String {
             let side = sides[usize::from(hit.left)];
             format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
         }
-        Meets::Cushion(rail, diamond) => {
-            format!("{} at {} diamonds, {way} cm", rail_name(rail), fixed(diamond, 1))
+        Meets::Cushion(mark) => {
+            format!("{} at {} diamonds, {way} cm", rail_name(mark.rail), fixed(mark.diamond, 1))
         }
     }
 }
