@@ -211,7 +211,7 @@ fn first_point(found: &Found) -> Recommendation {
         is_new
     });
     let others: Vec<_> = others.skip(1).take(ALTERNATIVES).collect();
-    let certain = SuccessRate { layouts: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
+    let certain = SuccessRate { trials: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
     let first = found.solutions.first();
     let shot = first.map_or(found.attempt, |(shot, _)| *shot);
     Recommendation {

@@ -59,7 +59,7 @@ fn the_make_probability_is_that_of_a_hundred_thousand_plain_simulations() {
             let advice = coach.recommend(&layout, &Request { seed: layouts, ..request(rule, 3_000) }).unwrap();
             let said = advice.make_probability.unwrap();
             let plain = make_probability(Skill::EXPERT, rule, coach.table(), &layout, &advice.cue, 100_000, 99);
-            let deviation = (plain.rate * (1.0 - plain.rate) / said.layouts as f64).sqrt();
+            let deviation = (plain.rate * (1.0 - plain.rate) / said.trials as f64).sqrt();
             assert!((said.rate - plain.rate).abs() < 4.0 * deviation + 2e-3, "{rule}: {said:?} {plain:?}");
             within += u32::from(said.low <= plain.rate && plain.rate <= said.high);
             layouts += 1;

@@ -27,8 +27,9 @@ pub fn held_out_layouts(table: &Table, count: usize, seed: u64) -> Vec<Layout> {
 /// A share of successes and the interval in which the true one lies with 95 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SuccessRate {
-    /// Layouts tried.
-    pub layouts: usize,
+    /// Trials: layouts of a policy, or attempts of a player at one shot.
+    #[serde(rename = "layouts")]
+    pub trials: usize,
     /// Successes among them.
     pub successes: usize,
     /// Their share.
@@ -40,22 +41,22 @@ pub struct SuccessRate {
 }
 
 impl SuccessRate {
-    /// The share of `successes` among `layouts`, with Wilson's score interval: unlike the textbook's it stays within
+    /// The share of `successes` among `trials`, with Wilson's score interval: unlike the textbook's it stays within
     /// 0 to 1 and holds near its ends.
-    pub fn new(successes: usize, layouts: usize) -> Self {
+    pub fn new(successes: usize, trials: usize) -> Self {
         const Z: f64 = 1.959_963_984_540_054;
-        if layouts == 0 {
-            return Self { layouts, successes, rate: 0.0, low: 0.0, high: 1.0 };
+        if trials == 0 {
+            return Self { trials, successes, rate: 0.0, low: 0.0, high: 1.0 };
         }
-        let (n, rate) = (layouts as f64, successes as f64 / layouts as f64);
+        let (n, rate) = (trials as f64, successes as f64 / trials as f64);
         let centre = rate + Z * Z / (2.0 * n);
         let spread = Z * (rate * (1.0 - rate) / n + Z * Z / (4.0 * n * n)).sqrt();
         let scale = 1.0 + Z * Z / n;
         let bound = |value: f64| (value / scale).clamp(0.0, 1.0);
         // Exact at the ends, where rounding would spoil it.
         let low = if successes == 0 { 0.0 } else { bound(centre - spread) };
-        let high = if successes == layouts { 1.0 } else { bound(centre + spread) };
-        Self { layouts, successes, rate, low, high }
+        let high = if successes == trials { 1.0 } else { bound(centre + spread) };
+        Self { trials, successes, rate, low, high }
     }
 }
 

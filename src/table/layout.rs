@@ -28,7 +28,7 @@ pub struct Layout {
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum LayoutError {
     /// A coordinate is NaN or infinite.
-    #[error("ball {ball} is at ({x}, {y}); both coordinates must be finite numbers of metres")]
+    #[error("{} is at ({x}, {y}); both coordinates must be finite numbers of metres", BALL_NAMES[*ball])]
     NotFinite {
         /// Index of the ball.
         ball: usize,
@@ -39,7 +39,8 @@ pub enum LayoutError {
     },
     /// A ball is not on the table.
     #[error(
-        "ball {ball} at ({x:.4}, {y:.4}) m is outside the table; accepted are |x| <= {max_x:.4} and |y| <= {max_y:.4}"
+        "{} at ({x:.4}, {y:.4}) m is outside the table; accepted are |x| <= {max_x:.4} and |y| <= {max_y:.4}",
+        BALL_NAMES[*ball]
     )]
     Outside {
         /// Index of the ball.
@@ -54,7 +55,11 @@ pub enum LayoutError {
         max_y: f64,
     },
     /// Two balls overlap.
-    #[error("balls {first} and {second} are {distance:.4} m apart; at least {least:.4} m is needed")]
+    #[error(
+        "{} and {} are {distance:.4} m apart; at least {least:.4} m is needed",
+        BALL_NAMES[*first],
+        BALL_NAMES[*second]
+    )]
     Overlap {
         /// Index of one ball.
         first: usize,

@@ -119,7 +119,7 @@ impl Shot {
         let contact = self.contact?;
         let side = if contact.left { "left" } else { "right" };
         let percent = (100.0 * contact.fullness).round();
-        Some(format!("hits {} {percent}% full, {side} side", BALL_NAMES[contact.ball]))
+        Some(format!("hits {} {percent} % full, {side} side", BALL_NAMES[contact.ball]))
     }
 }
 
@@ -165,7 +165,7 @@ mod tests {
         let contact = half.contact.unwrap();
         assert_eq!(contact.ball, 1);
         assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
-        assert_eq!(half.contact_words().unwrap(), "hits yellow 50% full, left side");
+        assert_eq!(half.contact_words().unwrap(), "hits yellow 50 % full, left side");
     }
 
     #[test]

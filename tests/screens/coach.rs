@@ -37,7 +37,7 @@ fn a_ball_moved_by_plain_coarse_and_fine_steps() {
 fn an_overlap_is_refused_at_contact_with_the_same_sentence_as_everywhere() {
     let player = Player::new().press("S-Up S-Up");
     check("overlap_refused", &player);
-    player.warns("white stops in contact with yellow: beyond, balls 0 and 1 are");
+    player.warns("white stops in contact with yellow: beyond, white and yellow are");
     let text = player.text(80, 24);
     assert!(text.contains("121.0"), "the white ball touches the yellow one: 182.5 - 61.5\n{text}");
 }

@@ -291,7 +291,7 @@ mod tests {
         };
         let report = measure(&args, &table, "straight", Reward::R1, &mut at_the_first_ball);
         let success = report.success.unwrap();
-        assert_eq!((report.mean_reward, success.successes, success.layouts), (1.0, 50, 50));
+        assert_eq!((report.mean_reward, success.successes, success.trials), (1.0, 50, 50));
         assert!(success.low > 0.9 && report.layouts_per_second > 0.0);
     }
 

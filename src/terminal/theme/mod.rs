@@ -152,6 +152,12 @@ impl Theme {
         self.text().fg(self.warning).add_modifier(self.strong)
     }
 
+    /// Style of the letter of `ball` on the table: dark on the ball's own colour, which the cloth would swallow as a letter's.
+    pub fn ball_letter(&self, ball: usize) -> Style {
+        let ink = resolve(self.depth, 0x0010_1418, 16, Color::Black);
+        if self.is_mono() { Style::new() } else { Style::new().fg(ink).bg(self.balls[ball]) }
+    }
+
     /// The colour of a path that the ball has run: half of the path's, half of the cloth's.
     pub fn past(&self, ball: usize) -> Color {
         match (self.paths[ball], self.cloth) {

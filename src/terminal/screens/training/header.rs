@@ -32,7 +32,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
     };
     let words = format!("{:<CONDITION$}", condition.to_string());
     let share = watch.planned().map(|planned| (watch.own.run.shots() as f64 / planned.max(1) as f64).min(1.0));
-    let percent = share.map_or("    -".to_owned(), |share| format!("{:>4.0}%", (100.0 * share).floor()));
+    let percent = share.map_or("     -".to_owned(), |share| format!("{:>4.0} %", (100.0 * share).floor()));
     // The condition and the percentage come first: what they leave is the name's, then of what it is, then the bar's.
     let fixed = (words.chars().count() + percent.len() + 2) as u16;
     let room = area.width.saturating_sub(fixed + 1);

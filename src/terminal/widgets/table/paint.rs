@@ -96,7 +96,7 @@ fn in_letters(scene: &Scene, buffer: &mut Buffer) {
         let (x, y) = mapping.to_cell(scene.balls[ball]);
         let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
         let text = if wide { format!("({})", LETTERS[ball]) } else { LETTERS[ball].to_string() };
-        let mut style = Style::new().fg(theme.balls[ball]).add_modifier(Modifier::BOLD);
+        let mut style = theme.ball_letter(ball).add_modifier(Modifier::BOLD);
         if !scene.view.is_moving && ball == scene.view.front {
             style = style.add_modifier(Modifier::REVERSED);
         }
