@@ -100,7 +100,7 @@ mod tests {
             &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
         ];
         for (change, says) in
-            refused.into_iter().zip(["time 18446", "time 253", "attempt 2", "theta", "theta", "balls"])
+            refused.into_iter().zip(["time 18446", "time 253", "attempt 2", "theta", "theta", "white and yellow"])
         {
             let error = changed(change).unwrap_err().to_string();
             assert!(error.contains(says), "{error}");

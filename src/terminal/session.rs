@@ -2,7 +2,7 @@
 
 use std::{
     fs::File,
-    io::{self, IsTerminal},
+    io::{self, IsTerminal, Write},
     os::fd::AsFd,
     panic,
     sync::atomic::{AtomicBool, Ordering},
@@ -13,7 +13,7 @@ use crossterm::{
     clipboard::CopyToClipboard,
     cursor::{Hide, Show},
     event::{DisableBracketedPaste, EnableBracketedPaste},
-    execute,
+    execute, queue,
     style::Print,
     terminal::{
         EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
@@ -93,7 +93,7 @@ impl Session {
         if !TAKEN.swap(false, Ordering::SeqCst) {
             return Ok(());
         }
-        let shown = execute!(self.output, Print(DISABLE_MOUSE), DisableBracketedPaste, LeaveAlternateScreen, Show);
+        let shown = give_back(&mut self.output);
         disable_raw_mode().and(shown)
     }
 
@@ -128,6 +128,14 @@ pub fn has_terminal() -> bool {
     io::stdin().is_terminal() && io::stdout().is_terminal() && !dumb
 }
 
+/// Writes what gives the terminal back, in one piece: nobody sees half of it.
+fn give_back(output: &mut impl Write) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    queue!(bytes, EndSynchronizedUpdate, Print(DISABLE_MOUSE), DisableBracketedPaste, Show, LeaveAlternateScreen)?;
+    output.write_all(&bytes)?;
+    output.flush()
+}
+
 /// Lets a panic of this thread restore the terminal before it is reported. Panics of other threads are caught where
 /// they happen and told on the status line; a report in the middle of the picture would help nobody.
 fn restore_on_panic() {
@@ -137,14 +145,7 @@ fn restore_on_panic() {
         tracing::error!("{info}");
         if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
-            let _ = execute!(
-                io::stdout(),
-                EndSynchronizedUpdate,
-                Print(DISABLE_MOUSE),
-                DisableBracketedPaste,
-                LeaveAlternateScreen,
-                Show
-            );
+            let _ = give_back(&mut io::stdout());
         }
         if thread::current().id() == screen {
             report(info);

@@ -135,7 +135,7 @@ fn high_contrast(depth: Depth) -> Theme {
         paths: [
             ink(0x00d7_ffff, 195, Color::Gray),
             ink(0x00ff_ea80, 228, Color::Yellow),
-            ink(0x00ff_a8a0, 217, Color::LightRed),
+            ink(0x00ff_a8a0, 217, Color::LightMagenta),
         ],
         way: ink(0x005f_ff87, 84, Color::LightGreen),
         face: ink(0x00ff_ffff, 231, Color::White),
