@@ -131,11 +131,13 @@ impl DrillScreen {
 
     /// Begins the exercise that is open anew where somebody else is to play it.
     pub(super) fn change_player(&mut self) -> Vec<Errand> {
-        let is_other = |turn: &&Turn| !turn.is_exam() && turn.skill() != self.player.skill;
-        match self.turn.as_ref().filter(is_other).is_some().then(|| self.restart(None)).flatten() {
-            Some(Effect::Drill(errands)) => errands,
-            _ => Vec::new(),
+        let is_other = |turn: &Turn| !turn.is_exam() && turn.skill() != self.player.skill;
+        if self.turn.as_ref().is_some_and(is_other)
+            && let Some(Effect::Drill(errands)) = self.restart(None)
+        {
+            return errands;
         }
+        Vec::new()
     }
 
     /// Begins the same practice anew with the wishes as they are now.

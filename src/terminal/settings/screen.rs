@@ -86,7 +86,7 @@ impl SettingsScreen {
         self.is_left
     }
 
-    /// Place of the marked setting among [`ENTRIES`].
+    /// Place of the marked setting among all.
     pub const fn mark(&self) -> usize {
         self.mark
     }
