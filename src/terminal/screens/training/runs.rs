@@ -44,7 +44,8 @@ const COLUMNS: [Column; 9] = [
 ];
 
 fn percent(run: &Summary) -> String {
-    format!("{:.0}", 100.0 * run.shots as f64 / run.planned_shots.max(1) as f64)
+    // The last turn goes a little beyond the plan.
+    format!("{:.0}", (100.0 * run.shots as f64 / run.planned_shots.max(1) as f64).min(100.0))
 }
 
 fn reward(value: Option<f64>) -> String {
