@@ -11,7 +11,7 @@ use std::{env, error::Error, fs, path::Path};
 use carom::{
     simulation::EventKind,
     table::{Layout, Table},
-    terminal::{App, Depth, Effect, Glyphs, Look, Office, Tidings, keys_document},
+    terminal::{App, CoachNews, CoachWorker, Depth, Effect, Glyphs, Look, keys_document},
 };
 use crossterm::event::KeyCode::{self, Char, Enter};
 use ratatui::{Terminal, backend::TestBackend};
@@ -57,11 +57,11 @@ fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
 
 /// Asks the coach and shows what it says, but for what that has cost: no two runs take the same time.
 fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
-    let mut office = Office::unhurried(SIMULATIONS);
+    let mut worker = CoachWorker::unhurried(SIMULATIONS);
     let mut question = press(app, Enter);
     while let Some(Effect::Recommend(job) | Effect::Study(job)) = question.take() {
-        office.answer(&job, |mut answer| {
-            if let Tidings::Advice(advice) = &mut answer.news {
+        worker.answer(&job, |mut answer| {
+            if let CoachNews::Advice(advice) = &mut answer.news {
                 advice.effort = None;
             }
             question = app.receive(answer).or(question.take());

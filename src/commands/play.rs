@@ -2,7 +2,7 @@
 
 use super::{
     Failure,
-    drill::{Desk, Means, play, strokes},
+    drill::{PlayOptions, Workspace, play, strokes},
 };
 use crate::{
     drills::{Exercise, Goal},
@@ -39,7 +39,7 @@ pub struct Args {
     #[arg(long)]
     coach: bool,
     #[command(flatten)]
-    means: Means,
+    options: PlayOptions,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -50,7 +50,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
     let game = Exercise::own(GAME, args.rule, &table.name, layout);
-    let session = args.means.session(Goal::Game { innings: args.innings }, vec![game]);
-    let desk = Desk::open()?;
-    play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)
+    let session = args.options.session(Goal::Game { innings: args.innings }, vec![game]);
+    let workspace = Workspace::open()?;
+    play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }

@@ -58,7 +58,7 @@ pub use advice::{Advice, Effort, Proposal, Study, Tutor};
 pub use app::{App, Effect, Mode, Overlay, Screen};
 pub use coach::{Advised, View};
 pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
-pub use errands::Clerk;
+pub use errands::PracticeWorker;
 pub use finder::{Command, Finder};
 pub use geometry::Mapping;
 pub use keymap::{
@@ -67,7 +67,7 @@ pub use keymap::{
 };
 pub use last::Last;
 pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, Job, Office, Tidings};
+pub use recommender::{Answer, CoachNews, CoachWorker, Job};
 pub use settings::{Change, Complaint, Keys, Settings, SettingsErrand, SettingsFile, SettingsReport, SettingsScreen};
 pub use shot::Shot;
 pub use theme::{Palette, UnknownPalette};

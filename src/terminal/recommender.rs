@@ -69,12 +69,12 @@ pub struct Answer {
     /// The question's number.
     pub id: u64,
     /// What it says.
-    pub news: Tidings,
+    pub news: CoachNews,
 }
 
 /// What the coach says, bit by bit.
 #[derive(Clone, Debug)]
-pub enum Tidings {
+pub enum CoachNews {
     /// A better shot than any before; the search goes on.
     Better(Proposal),
     /// The end of the search.
@@ -89,14 +89,14 @@ pub enum Tidings {
 
 /// The coach, made when it is first asked: reading its networks must not delay the first picture.
 #[derive(Debug, Default)]
-pub struct Office {
+pub struct CoachWorker {
     coach: Option<(Tutor, Coach)>,
     /// Simulations that end a search instead of time.
     simulations: Option<u64>,
 }
 
-impl Office {
-    /// An office whose answers do not depend on time: so many simulations end a search.
+impl CoachWorker {
+    /// One whose answers do not depend on time: so many simulations end a search.
     pub const fn unhurried(simulations: u64) -> Self {
         Self { coach: None, simulations: Some(simulations) }
     }
@@ -108,12 +108,12 @@ impl Office {
             let study = || self.study(job, &cue, &mut tell);
             // Nobody asked for it: where it fails, there is nothing to see.
             let next = catch_unwind(AssertUnwindSafe(study)).unwrap_or(None);
-            return tell(Tidings::Next(next));
+            return tell(CoachNews::Next(next));
         }
-        let found = || self.advice(job, &job.layout, &mut |proposal| tell(Tidings::Better(proposal)));
+        let found = || self.advice(job, &job.layout, &mut |proposal| tell(CoachNews::Better(proposal)));
         let found = catch_unwind(AssertUnwindSafe(found))
             .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
-        tell(found.map_or_else(Tidings::Refused, Tidings::Advice));
+        tell(found.map_or_else(CoachNews::Refused, CoachNews::Advice));
     }
 
     fn advice(&mut self, job: &Job, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
@@ -149,9 +149,9 @@ impl Office {
     }
 
     /// Looks at a shot closely, then at the layout after it.
-    fn study(&mut self, job: &Job, cue: &CueInputs, tell: &mut dyn FnMut(Tidings)) -> Option<Advice> {
+    fn study(&mut self, job: &Job, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
         let study = Arc::new(study(job, cue)?);
-        tell(Tidings::Study(Arc::clone(&study)));
+        tell(CoachNews::Study(Arc::clone(&study)));
         // After a miss it is the other's turn.
         study.margins?;
         let shot = Shot::new(&job.table, &job.layout, *cue, true, "").ok()?;
@@ -224,10 +224,10 @@ fn study(job: &Job, cue: &CueInputs) -> Option<Study> {
 pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Box<Job>>> {
     let (sender, questions): (Sender<Box<Job>>, Receiver<Box<Job>>) = channel();
     thread::Builder::new().name("coach".into()).spawn(move || {
-        let mut office = Office::default();
+        let mut worker = CoachWorker::default();
         for job in questions {
             if !job.cancel.load(Ordering::Relaxed) {
-                office.answer(&job, &reply);
+                worker.answer(&job, &reply);
             }
         }
     })?;

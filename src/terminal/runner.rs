@@ -21,7 +21,7 @@ use super::{
     last::Last,
     log,
     pace::Pace,
-    recommender::{self, Answer, Job, Tidings},
+    recommender::{self, Answer, CoachNews, Job},
     session::Session,
     training::Report,
 };
@@ -77,7 +77,7 @@ const fn can_come_later(news: &News) -> bool {
     matches!(
         news,
         News::Report(Report::Followed(..) | Report::HasPolicy(..))
-            | News::Answer(Answer { news: Tidings::Better(_), .. })
+            | News::Answer(Answer { news: CoachNews::Better(_), .. })
     )
 }
 

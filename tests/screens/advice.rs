@@ -11,7 +11,7 @@ use carom::{
     coach::{Skill, Way},
     game::Rule,
     physics::CueInputs,
-    terminal::{Answer, Effect, Office, Tidings, View},
+    terminal::{Answer, CoachNews, CoachWorker, Effect, View},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -63,13 +63,13 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     let mut player = drill_player::Player::at_coach(TRUE_COLOUR, tempfile::tempdir().unwrap());
     let Some(Effect::Recommend(job)) = player.event(&key("Enter")) else { panic!("the coach is asked") };
     let so_far = proposal(&job.table, &job.layout, OTHERS[0], Way::OffCushion, 893);
-    player.app.receive(Answer { id: job.id, news: Tidings::Better(so_far) });
+    player.app.receive(Answer { id: job.id, news: CoachNews::Better(so_far) });
     assert!(player.app.shot().is_some());
     let mut player = player.press("d p Esc");
     assert_eq!(job.tutor.skill, Skill::EXPERT);
     assert_ne!(player.app.coach().tutor.skill, Skill::EXPERT);
     assert!(player.app.shot().is_none(), "the best shot so far is an expert's");
-    let effect = player.app.receive(Answer { id: job.id, news: Tidings::Advice(advice(&job)) });
+    let effect = player.app.receive(Answer { id: job.id, news: CoachNews::Advice(advice(&job)) });
     assert!(effect.is_none() && player.app.shot().is_none());
     player.says("the coach has answered for expert; Enter asks it for");
     // It is kept for the player whose shot it is.
@@ -174,12 +174,12 @@ fn the_plan_and_where_it_goes_on() {
 
 #[test]
 fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() {
-    let mut office = Office::unhurried(30_000);
+    let mut worker = CoachWorker::unhurried(30_000);
     let mut player = Player::new().press("Enter");
     let job = player.asked.clone().unwrap();
     let mut told = Vec::new();
-    office.answer(&job, |answer| told.push(answer));
-    assert!(told.len() > 1 && told[..told.len() - 1].iter().all(|one| matches!(one.news, Tidings::Better(_))));
+    worker.answer(&job, |answer| told.push(answer));
+    assert!(told.len() > 1 && told[..told.len() - 1].iter().all(|one| matches!(one.news, CoachNews::Better(_))));
     for Answer { id, news } in told {
         player = player.tell(id, news);
     }
@@ -187,7 +187,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.9) && best.next.is_some());
     let job = player.study.clone().unwrap();
     let mut told = Vec::new();
-    office.answer(&job, |answer| told.push(answer));
+    worker.answer(&job, |answer| told.push(answer));
     assert_eq!(told.len(), 2);
     for Answer { id, news } in told {
         player = player.tell(id, news);
@@ -197,16 +197,16 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     // Nobody waits any more: nothing but the end is told, at once.
     let mut told = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);
-    office.answer(&job, |answer| told.push(answer));
-    assert!(matches!(&told[..], [Answer { news: Tidings::Next(None), .. }]));
+    worker.answer(&job, |answer| told.push(answer));
+    assert!(matches!(&told[..], [Answer { news: CoachNews::Next(None), .. }]));
 }
 
 #[test]
 fn a_perfect_player_gets_the_first_point() {
     let player = Player::new().press("S S S Enter");
     let mut told = Vec::new();
-    Office::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
-    let [Answer { news: Tidings::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
+    CoachWorker::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
+    let [Answer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
     let player = told.into_iter().fold(player, |player, Answer { id, news }| player.tell(id, news));
     assert!(player.text(80, 24).contains("makes the point (policy"), "{}", player.text(80, 24));

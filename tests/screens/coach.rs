@@ -8,7 +8,7 @@ use std::{
 use crate::coach_player::{ASCII, NO_COLOUR, Player, SHOT, advice};
 use carom::{
     physics::CueInputs,
-    terminal::{Advice, Effort, Proposal, Shot, Tidings},
+    terminal::{Advice, CoachNews, Effort, Proposal, Shot},
 };
 use proptest::prelude::*;
 use ratatui::style::Color;
@@ -81,7 +81,7 @@ fn a_shot_without_a_point_is_said_to_be_one() {
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
     let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
-    let player = player.tell(job.id, Tidings::Advice(Advice { proposals: vec![attempt], effort }));
+    let player = player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], effort }));
     check("no_point", &player);
     assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
 }
@@ -90,7 +90,7 @@ fn a_shot_without_a_point_is_said_to_be_one() {
 fn what_the_coach_refuses_is_said_in_its_words() {
     let mut player = Player::new().press("Enter");
     let job = player.asked.take().unwrap();
-    let player = player.tell(job.id, Tidings::Refused("the weights file is corrupt".to_owned()));
+    let player = player.tell(job.id, CoachNews::Refused("the weights file is corrupt".to_owned()));
     player.warns("the weights file is corrupt");
 }
 
@@ -221,7 +221,7 @@ proptest! {
                 player = player.answer();
             }
             if let Some(job) = player.study.take_if(|_| key % 5 == 0) {
-                player = player.tell(job.id, Tidings::Next(Some(advice(&job))));
+                player = player.tell(job.id, CoachNews::Next(Some(advice(&job))));
             }
         }
         prop_assert!(player.app.layout().validate(player.app.table()).is_ok());

@@ -7,7 +7,7 @@ use carom::{
     learning::evaluation::SuccessRate,
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{Advice, Answer, App, Depth, Effect, Glyphs, Job, Look, Office, Proposal, Shot, Tidings},
+    terminal::{Advice, Answer, App, CoachNews, CoachWorker, Depth, Effect, Glyphs, Job, Look, Proposal, Shot},
 };
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
 
@@ -85,7 +85,7 @@ impl Player {
         }
     }
 
-    pub fn tell(mut self, id: u64, news: Tidings) -> Self {
+    pub fn tell(mut self, id: u64, news: CoachNews) -> Self {
         let effect = self.app.receive(Answer { id, news });
         self.take(effect);
         self
@@ -95,14 +95,14 @@ impl Player {
     pub fn answer(mut self) -> Self {
         let job = self.asked.take().expect("the coach was asked");
         let advice = advice(&job);
-        self.tell(job.id, Tidings::Advice(advice))
+        self.tell(job.id, CoachNews::Advice(advice))
     }
 
     /// The coach says that the shot with this cue is the best so far, with `made` of 1000 attempts.
     pub fn better(self, cue: &str, made: usize) -> Self {
         let job = self.asked.clone().expect("the coach was asked");
         let so_far = proposal(&job.table, &job.layout, cue, Way::OffCushion, made);
-        self.tell(job.id, Tidings::Better(Proposal { is_early: true, ..so_far }))
+        self.tell(job.id, CoachNews::Better(Proposal { is_early: true, ..so_far }))
     }
 
     /// The closer look at the shot that is shown, by the real coach, but for the next shot, which is [`NEXT`].
@@ -110,15 +110,15 @@ impl Player {
         // Even if nobody waits for it any more.
         let job = Job { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
         let mut study = None;
-        Office::unhurried(1).answer(&job, |answer| {
-            if let Tidings::Study(found) = answer.news {
+        CoachWorker::unhurried(1).answer(&job, |answer| {
+            if let CoachNews::Study(found) = answer.news {
                 study = Some(found);
             }
         });
         let end = self.app.shot().unwrap().recording.final_layout();
         let next = proposal(&job.table, &end, NEXT, Way::Direct, 1000);
-        self.tell(job.id, Tidings::Study(study.unwrap()))
-            .tell(job.id, Tidings::Next(Some(Advice { proposals: vec![next], effort: None })))
+        self.tell(job.id, CoachNews::Study(study.unwrap()))
+            .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], effort: None })))
     }
 
     pub fn wait(mut self, seconds: f64) -> Self {

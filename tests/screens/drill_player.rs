@@ -9,7 +9,7 @@ use carom::{
     physics::CueInputs,
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Clerk, Depth, DrillReport, Effect, Errand, Glyphs, Look},
+    terminal::{App, Depth, DrillReport, Effect, Errand, Glyphs, Look, PracticeWorker},
 };
 use crossterm::event::KeyEvent;
 use ratatui::{Terminal, backend::TestBackend};
@@ -27,7 +27,7 @@ pub const SHOT: &str = "-0.2,0.2,6,82.6,2.5";
 pub struct Player {
     pub app: App,
     pub copied: Vec<String>,
-    clerk: Clerk,
+    practice: PracticeWorker,
     folder: TempDir,
 }
 
@@ -90,7 +90,7 @@ impl Player {
     pub fn at_coach(look: Look, folder: TempDir) -> Self {
         let table = Table::default();
         let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap().with_places(places(&folder));
-        Self { app, copied: Vec::new(), clerk: Clerk::default(), folder }
+        Self { app, copied: Vec::new(), practice: PracticeWorker::default(), folder }
     }
 
     /// At the exercise from the opening.
@@ -144,7 +144,7 @@ impl Player {
                 Errand::Advise(position) if position.own.is_none() => {
                     reports.push(DrillReport::Advised(position.id, Ok(None)));
                 }
-                errand => self.clerk.run(errand, &mut |report| reports.push(report)),
+                errand => self.practice.run(errand, &mut |report| reports.push(report)),
             }
             for report in reports {
                 let more = self.app.receive_drill(report);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use carom::{
     physics::CueInputs,
-    terminal::{Advice, Glyphs, Look, Proposal, Shot, Tidings},
+    terminal::{Advice, CoachNews, Glyphs, Look, Proposal, Shot},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -18,7 +18,7 @@ fn shown(look: Look, cue: &str) -> Player {
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
     let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
-    player.tell(job.id, Tidings::Advice(Advice { proposals: vec![proposal], effort: None }))
+    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], effort: None }))
 }
 
 /// How many cells of the table have this colour before them.

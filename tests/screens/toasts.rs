@@ -7,7 +7,7 @@ use crate::{
     drill_player,
     training_player::{self, NAME, RUNS},
 };
-use carom::terminal::{Failure, Report, Tidings};
+use carom::terminal::{CoachNews, Failure, Report};
 use ratatui::style::Color;
 
 fn check(name: &str, text: impl Fn(u16, u16) -> String) {
@@ -22,7 +22,7 @@ fn refused(mut player: Player, words: &[usize]) -> Player {
         player = player.press("Enter");
         let id = player.asked.take().unwrap().id;
         let sentence = format!("the weights are damaged{}", ", and so is all else".repeat(*count));
-        player = player.tell(id, Tidings::Refused(sentence));
+        player = player.tell(id, CoachNews::Refused(sentence));
     }
     player
 }

@@ -17,7 +17,7 @@ use carom::{
         },
     },
     table::Table,
-    terminal::{App, Effect, Failure, Kept, Launch, Office, Place, Report, Slot},
+    terminal::{App, CoachWorker, Effect, Failure, Kept, Launch, Place, Report, Slot},
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
@@ -368,7 +368,7 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     player = player.press("Enter");
     let Some(Effect::Recommend(job)) = player.effects.pop() else { panic!("the coach is not asked") };
     assert_eq!(job.tutor.rule, Rule::ThreeCushion);
-    Office::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
+    CoachWorker::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
     assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
 }
 

@@ -1,7 +1,7 @@
 //! `carom drill try`, `run` and `exam`: exercises that are played here.
 
 use super::{
-    Desk, Means,
+    PlayOptions, Workspace,
     strokes::{Stroke, Strokes, play},
 };
 use crate::{
@@ -29,7 +29,7 @@ pub struct TryArgs {
     #[arg(long)]
     shifted: bool,
     #[command(flatten)]
-    means: Means,
+    options: PlayOptions,
 }
 
 /// Play an exercise until it was made so many times in a row.
@@ -52,7 +52,7 @@ pub struct RunArgs {
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     strokes: u32,
     #[command(flatten)]
-    means: Means,
+    options: PlayOptions,
 }
 
 /// Take an exam: twenty exercises, one attempt each.
@@ -67,30 +67,30 @@ pub struct ExamArgs {
     #[arg(long)]
     coach: bool,
     #[command(flatten)]
-    means: Means,
+    options: PlayOptions,
 }
 
 pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
     let stroke: Stroke = args.shot.parse()?;
-    let desk = Desk::open()?;
-    let mut session = args.means.session(Goal::Free, vec![desk.exercise(&args.name)?.clone()]);
+    let workspace = Workspace::open()?;
+    let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()]);
     session.shifted = args.shifted;
-    play(&desk.store, session, &args.means, Strokes::Same(stroke), args.repeat as usize)
+    play(&workspace.store, session, &args.options, Strokes::Same(stroke), args.repeat as usize)
 }
 
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let mut session = args.means.session(Goal::Run(args.goal), vec![desk.exercise(&args.name)?.clone()]);
+    let workspace = Workspace::open()?;
+    let mut session = args.options.session(Goal::Run(args.goal), vec![workspace.exercise(&args.name)?.clone()]);
     session.shifted = args.shifted;
-    play(&desk.store, session, &args.means, strokes(args.coach), args.strokes as usize)
+    play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }
 
 pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let mut session = args.means.session(Goal::Exam, Vec::new());
+    let workspace = Workspace::open()?;
+    let mut session = args.options.session(Goal::Exam, Vec::new());
     // The exam and the errors in it come from one seed.
-    session.exercises = draw(desk.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
-    play(&desk.store, session, &args.means, strokes(args.coach), LENGTH)
+    session.exercises = draw(workspace.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
+    play(&workspace.store, session, &args.options, strokes(args.coach), LENGTH)
 }
 
 /// The coach's strokes, or those of the standard input.

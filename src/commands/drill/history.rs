@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{
-    Desk, line,
+    Workspace, line,
     score::{Score, time, words},
 };
 use crate::{
@@ -69,7 +69,7 @@ struct Row {
 }
 
 #[derive(Serialize)]
-struct Sitting<'a> {
+struct SessionRow<'a> {
     session: &'a str,
     started: String,
     goal: Goal,
@@ -79,14 +79,14 @@ struct Sitting<'a> {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let sessions = desk.sessions();
+    let workspace = Workspace::open()?;
+    let sessions = workspace.sessions();
     match (&args.name, args.games) {
         (Some(name), _) => {
             let subject = Subject::Exercise(name.clone());
             // A name that nobody knows is a mistake; one that was never tried is none.
             if subject.record(&sessions).tried == 0 {
-                desk.exercise(name)?;
+                workspace.exercise(name)?;
             }
             one(&subject, &sessions, args.json)
         }
@@ -146,7 +146,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
     let mut rows = vec![["started (UTC)", "where", "goal", "made", "tried", "rate", "high run"].map(str::to_owned)];
     for (session, record) in &tried {
         if json {
-            json_line(&Sitting {
+            json_line(&SessionRow {
                 session: &session.id,
                 started: time(session.started),
                 goal: session.goal,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{
-    Desk, line,
+    Workspace, line,
     score::{Score, shot_text, words},
 };
 use crate::{
@@ -63,12 +63,12 @@ fn category_called(name: &str) -> Result<Category, String> {
 }
 
 pub fn list(args: &ListArgs) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let sessions = desk.sessions();
+    let workspace = Workspace::open()?;
+    let sessions = workspace.sessions();
     let ListArgs { category, grade, tag, .. } = args;
     let filter = Filter { category: *category, grade: *grade, tag: tag.clone(), text: None };
     let mut rows = vec![["name", "category", "grade", "rule", "made", "tried", "high run", "title"].map(str::to_owned)];
-    for exercise in desk.library.find(&filter) {
+    for exercise in workspace.library.find(&filter) {
         let record = Record::of_exercise(&sessions, &exercise.name);
         if args.json {
             json_line(&Entry { exercise, diamonds: None, code: None, record: record.into() })?;
@@ -95,11 +95,11 @@ pub fn list(args: &ListArgs) -> Result<(), Failure> {
 }
 
 pub fn show(args: &ShowArgs) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let exercise = desk.exercise(&args.name)?;
+    let workspace = Workspace::open()?;
+    let exercise = workspace.exercise(&args.name)?;
     let table = exercise.table().map_err(Failure::failed)?;
     let code = encode(exercise).map_err(Failure::failed)?;
-    let record = Record::of_exercise(&desk.sessions(), &exercise.name);
+    let record = Record::of_exercise(&workspace.sessions(), &exercise.name);
     let corner = 0.5 * glam::DVec2::new(table.length, table.width);
     let diamonds = exercise.layout.balls.map(|ball| ((ball + corner) / table.diamond()).to_array());
     if args.json {

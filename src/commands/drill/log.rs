@@ -5,11 +5,10 @@ use std::io::{self, BufRead, IsTerminal};
 use serde::Serialize;
 
 use super::{
-    Desk,
-    desk::player,
-    line,
+    Workspace, line,
     score::{Score, plural, words},
     strokes::prompt,
+    workspace::player,
 };
 use crate::{
     commands::{
@@ -64,10 +63,10 @@ impl Word {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let exercise = desk.exercise(&args.name)?.clone();
+    let workspace = Workspace::open()?;
+    let exercise = workspace.exercise(&args.name)?.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { desk, session, name: args.name.clone(), json: args.json };
+    let mut log = Log { workspace, session, name: args.name.clone(), json: args.json };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(
@@ -89,7 +88,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 struct Log {
-    desk: Desk,
+    workspace: Workspace,
     session: Session,
     /// The exercise's.
     name: String,
@@ -112,7 +111,7 @@ impl Log {
                 (earlier.venue, earlier.goal) == (Venue::Table, Goal::Free)
                     && earlier.attempts.last().is_some_and(|last| last.exercise == self.name)
             };
-            let mut earlier = self.desk.sessions().into_iter().rev();
+            let mut earlier = self.workspace.sessions().into_iter().rev();
             self.session =
                 earlier.find(is_noted).ok_or_else(|| Failure::wrong_input("there is no attempt to take back"))?;
         }
@@ -124,12 +123,12 @@ impl Log {
             self.session.undo();
         }
         // The next word may take back what stands in another session.
-        self.desk.store.save(&self.session).map_err(Failure::failed)
+        self.workspace.store.save(&self.session).map_err(Failure::failed)
     }
 
     /// Saves the session and tells the score.
     fn keep(&self) -> Result<(), Failure> {
-        self.desk.store.save(&self.session).map_err(Failure::failed)?;
+        self.workspace.store.save(&self.session).map_err(Failure::failed)?;
         let record = self.session.record();
         if self.json {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);

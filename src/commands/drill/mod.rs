@@ -1,23 +1,23 @@
 //! `carom drill`: exercises, sessions, scores.
 
 mod attempts;
-mod bout;
-mod desk;
 mod history;
 mod listing;
 mod log;
 mod own;
 mod score;
 mod skill;
+mod stroke_by_stroke;
 mod strokes;
 mod transfer;
+mod workspace;
 
 use clap::Subcommand;
 
 pub use self::{
     attempts::strokes,
-    desk::Desk,
-    strokes::{Means, line, play},
+    strokes::{PlayOptions, line, play},
+    workspace::Workspace,
 };
 use super::Failure;
 

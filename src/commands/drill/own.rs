@@ -1,6 +1,6 @@
 //! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
 
-use super::{Desk, line, strokes::Stroke};
+use super::{Workspace, line, strokes::Stroke};
 use crate::{
     commands::Failure,
     drills::{Exercise, check, decode, encode, store::StoreError},
@@ -85,8 +85,8 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
 }
 
 pub fn share(args: &ShareArgs) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    line(encode(desk.exercise(&args.name)?).map_err(Failure::failed)?)
+    let workspace = Workspace::open()?;
+    line(encode(workspace.exercise(&args.name)?).map_err(Failure::failed)?)
 }
 
 pub fn add(args: &AddArgs) -> Result<(), Failure> {
@@ -101,17 +101,17 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 }
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    if desk.library.is_bundled(&args.name) {
+    let workspace = Workspace::open()?;
+    if workspace.library.is_bundled(&args.name) {
         return Err(Failure::failed(format_args!("\"{}\" is bundled and cannot be removed", args.name)));
     }
-    desk.store.remove_position(&args.name).map_err(Failure::failed)?;
+    workspace.store.remove_position(&args.name).map_err(Failure::failed)?;
     line(format_args!("removed {}", args.name))
 }
 
 fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    desk.store.save_position(position, replaces).map_err(|error| match error {
+    let workspace = Workspace::open()?;
+    workspace.store.save_position(position, replaces).map_err(|error| match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
         StoreError::Taken(name) => Failure::failed(format_args!(
             "there is a position \"{name}\" already; --replace saves over it, another name beside it"

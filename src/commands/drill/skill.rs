@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Desk, line};
+use super::{Workspace, line};
 use crate::{
     coach::Skill,
     commands::{
@@ -45,12 +45,12 @@ struct Answer {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let desk = Desk::open()?;
-    let estimate = estimate(&desk.sessions()).map_err(Failure::failed)?;
+    let workspace = Workspace::open()?;
+    let estimate = estimate(&workspace.sessions()).map_err(Failure::failed)?;
     let Estimate { skill, scale, low, high, attempts, made, shots, left_out } = estimate;
     if args.keep {
         let skill = skill.ok_or_else(|| Failure::failed(format_args!("errors {}; {NO_SKILL}", estimate.words(2))))?;
-        desk.store.keep_skill(skill).map_err(Failure::failed)?;
+        workspace.store.keep_skill(skill).map_err(Failure::failed)?;
     }
     if args.json {
         let interval = [low, high];

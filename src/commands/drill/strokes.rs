@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, IsTerminal, Write};
 
-use super::{bout::Bout, desk::player, score::plural};
+use super::{score::plural, stroke_by_stroke::StrokeByStroke, workspace::player};
 use crate::{
     coach::Skill,
     commands::{Failure, named::skill_called},
@@ -15,7 +15,7 @@ const COACH: &str = "coach";
 
 /// Who plays, and how it is told.
 #[derive(Debug, clap::Args)]
-pub struct Means {
+pub struct PlayOptions {
     /// Who plays: perfect, expert, club, beginner, own, or standard errors in mm, degrees and m/s like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". Default: own where `carom drill skill --keep` has kept one, else expert.
     #[arg(long, value_parser = skill_called)]
@@ -31,7 +31,7 @@ pub struct Means {
     pub(super) json: bool,
 }
 
-impl Means {
+impl PlayOptions {
     /// A session that is played here.
     pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Session {
         let seed = self.seed.unwrap_or_else(rand::random);
@@ -73,13 +73,19 @@ impl std::str::FromStr for Stroke {
 }
 
 /// Plays a session until it is over, its input has ended, or it has `most` attempts.
-pub fn play(store: &Store, session: Session, means: &Means, strokes: Strokes, most: usize) -> Result<(), Failure> {
-    let mut bout = Bout::new(store, session, means, matches!(strokes, Strokes::Same(_)));
+pub fn play(
+    store: &Store,
+    session: Session,
+    options: &PlayOptions,
+    strokes: Strokes,
+    most: usize,
+) -> Result<(), Failure> {
+    let mut game = StrokeByStroke::new(store, session, options, matches!(strokes, Strokes::Same(_)));
     let mut input = io::stdin().lock().split(b'\n');
     let (mut lines, mut refused) = (0_usize, 0_usize);
-    while bout.session().attempts.len() < most {
-        let Some((table, layout)) = bout.session().position().map_err(Failure::failed)? else { break };
-        bout.show(&layout)?;
+    while game.session().attempts.len() < most {
+        let Some((table, layout)) = game.session().position().map_err(Failure::failed)? else { break };
+        game.show(&layout)?;
         let stroke = match strokes {
             Strokes::Coach => Ok(Stroke::Coach),
             Strokes::Same(stroke) => Ok(stroke),
@@ -96,9 +102,9 @@ pub fn play(store: &Store, session: Session, means: &Means, strokes: Strokes, mo
             }
         };
         let is_line = matches!(strokes, Strokes::Input);
-        let (failure, is_refused) = match stroke.and_then(|stroke| bout.stroke(&table, &layout, stroke)) {
+        let (failure, is_refused) = match stroke.and_then(|stroke| game.stroke(&table, &layout, stroke)) {
             Ok(true) => continue,
-            Ok(false) => (bout.no_point(), is_line),
+            Ok(false) => (game.no_point(), is_line),
             Err(failure) => {
                 let is_refused = is_line && failure.code() == 2;
                 (failure, is_refused)
@@ -107,13 +113,13 @@ pub fn play(store: &Store, session: Session, means: &Means, strokes: Strokes, mo
         // What cannot be played does not end a session that others go on with.
         if !is_refused {
             // What was played counts all the same.
-            bout.finish()?;
+            game.finish()?;
             return Err(failure);
         }
         refused += 1;
-        bout.refuse(lines, &failure)?;
+        game.refuse(lines, &failure)?;
     }
-    bout.finish()?;
+    game.finish()?;
     if refused > 0 && !io::stdin().is_terminal() {
         return Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))));
     }

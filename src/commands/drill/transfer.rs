@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{Desk, desk::note, line, score::plural};
+use super::{Workspace, line, score::plural, workspace::note};
 use crate::{
     commands::{
         Failure,
@@ -75,8 +75,8 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     };
     read.map_err(|error| Failure::failed(format_args!("{file}: {error}")))?;
     let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
-    let desk = Desk::open()?;
-    let imported = desk.store.import(&practice);
+    let workspace = Workspace::open()?;
+    let imported = workspace.store.import(&practice);
     let Imported { positions, sessions, longer, known, refused } = &imported;
     if args.json {
         json_line(&imported)?;

@@ -13,7 +13,7 @@ use crate::{
     terminal::{
         advice::{Advice, Effort, Proposal, Tutor},
         app::{Effect, Mode},
-        recommender::{Answer, Job, Tidings},
+        recommender::{Answer, CoachNews, Job},
         shot::Shot,
         status::Message,
         words::{chance_words, skill_word},
@@ -83,13 +83,13 @@ impl CoachScreen {
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
         let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
         match (answer.news, awaited) {
-            (Tidings::Better(proposal), Some(pending)) => {
+            (CoachNews::Better(proposal), Some(pending)) => {
                 pending.so_far = Some(proposal);
                 if pending.tutor == self.tutor {
                     self.watch_from_the_stroke();
                 }
             }
-            (Tidings::Advice(advice), Some(pending)) => {
+            (CoachNews::Advice(advice), Some(pending)) => {
                 let tutor = pending.tutor.clone();
                 self.pending = None;
                 self.message = if tutor == self.tutor {
@@ -100,16 +100,16 @@ impl CoachScreen {
                 };
                 self.show(tutor, advice);
             }
-            (Tidings::Refused(sentence), Some(_)) => {
+            (CoachNews::Refused(sentence), Some(_)) => {
                 self.cancel();
                 self.message = Some(Message::warning(sentence));
             }
-            (Tidings::Study(study), _) if is_study => {
+            (CoachNews::Study(study), _) if is_study => {
                 if let Some(advised) = self.advised_mut() {
                     advised.choice_mut().study = Some(study);
                 }
             }
-            (Tidings::Next(next), _) if is_study => {
+            (CoachNews::Next(next), _) if is_study => {
                 self.studying = None;
                 if let Some(advised) = self.advised_mut() {
                     let choice = advised.choice_mut();

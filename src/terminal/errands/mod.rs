@@ -32,7 +32,7 @@ use crate::{
     table::Table,
 };
 
-pub use practice::Clerk;
+pub use practice::PracticeWorker;
 
 /// Time between two looks at a run that is followed.
 const FOLLOW_INTERVAL: Duration = Duration::from_millis(100);
@@ -47,7 +47,7 @@ pub struct Errands {
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
     /// The thread of the drill screens, which starts with the first errand, and the way to it.
-    clerk: Option<(Sender<Errand>, JoinHandle<()>)>,
+    practice: Option<(Sender<Errand>, JoinHandle<()>)>,
     /// To the thread of the settings' file, likewise.
     setter: Option<Sender<SettingsErrand>>,
 }
@@ -55,7 +55,7 @@ pub struct Errands {
 impl Errands {
     /// Nothing is wanted yet.
     pub fn new(to_screen: Sender<News>) -> Self {
-        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], clerk: None, setter: None }
+        Self { to_screen, wanted: Wanted::default(), list: None, followed: [None, None], practice: None, setter: None }
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -109,16 +109,16 @@ impl Errands {
                 let to_screen = self.to_screen.clone();
                 thread::Builder::new()
                     .name("estimate".into())
-                    .spawn(move || Clerk::default().work(errand, &to_screen))?;
+                    .spawn(move || PracticeWorker::default().work(errand, &to_screen))?;
                 continue;
             }
-            let clerk = match self.clerk.take() {
-                Some(clerk) => clerk,
+            let practice = match self.practice.take() {
+                Some(practice) => practice,
                 None => practice::start(self.to_screen.clone())?,
             };
             // A thread that is gone has told so by its last report.
-            let _ = clerk.0.send(errand);
-            self.clerk = Some(clerk);
+            let _ = practice.0.send(errand);
+            self.practice = Some(practice);
         }
         Ok(())
     }
@@ -140,7 +140,7 @@ impl Errands {
 
     /// Waits until what the player has noted is on the disk: the screen may close before.
     pub fn finish(self) {
-        if let Some((errands, thread)) = self.clerk {
+        if let Some((errands, thread)) = self.practice {
             drop(errands);
             // A panic there was told when it happened.
             let _ = thread.join();

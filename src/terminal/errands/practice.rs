@@ -32,7 +32,7 @@ const BUDGET: Duration = Duration::from_millis(300);
 
 /// Does errands of the drill screens.
 #[derive(Debug, Default)]
-pub struct Clerk {
+pub struct PracticeWorker {
     store: Option<Store>,
     coach: Option<Coach>,
     /// The stroke that is taught, and in which position.
@@ -41,7 +41,7 @@ pub struct Clerk {
     last: Option<Session>,
 }
 
-impl Clerk {
+impl PracticeWorker {
     /// Does `errand` on this thread, and hands what comes of it to `reply`. A panic in a simulation becomes a sentence.
     pub fn run(&mut self, errand: Errand, reply: &mut dyn FnMut(DrillReport)) {
         let failed = "the program failed on this position; move a ball a little and try again";
@@ -188,9 +188,9 @@ impl Clerk {
 pub fn start(to_screen: Sender<News>) -> io::Result<(Sender<Errand>, JoinHandle<()>)> {
     let (sender, errands): (Sender<Errand>, Receiver<Errand>) = channel();
     let thread = thread::Builder::new().name("practice".into()).spawn(move || {
-        let mut clerk = Clerk::default();
+        let mut practice = PracticeWorker::default();
         for errand in errands {
-            clerk.work(errand, &to_screen);
+            practice.work(errand, &to_screen);
         }
     })?;
     Ok((sender, thread))

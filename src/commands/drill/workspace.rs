@@ -8,12 +8,12 @@ use crate::{
 };
 
 /// The user's store and the library with the user's own positions.
-pub struct Desk {
+pub struct Workspace {
     pub store: Store,
     pub library: Library,
 }
 
-impl Desk {
+impl Workspace {
     /// Reads the library; files that cannot be read are told on the standard error.
     pub fn open() -> Result<Self, Failure> {
         let store = Store::new(&Places::of_this_user());

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{
     score::{Score, layout_text, plural, shot_text, words},
-    strokes::{Means, Stroke, line},
+    strokes::{PlayOptions, Stroke, line},
 };
 use crate::{
     coach::{Coach, Request},
@@ -29,10 +29,10 @@ use crate::{
 type MakeCoach = fn(Table) -> Result<Coach, Failure>;
 
 /// A session that is being played.
-pub struct Bout<'a> {
+pub struct StrokeByStroke<'a> {
     store: &'a Store,
     session: Session,
-    means: &'a Means,
+    options: &'a PlayOptions,
     /// Whether every stroke is compared with the one that is taught, or else with the coach's: that takes the coach's time.
     compares: bool,
     coaches: ByTable<Coach, MakeCoach>,
@@ -121,10 +121,10 @@ fn percent(rate: &SuccessRate) -> String {
     format!("{:.1} %", 100.0 * rate.rate)
 }
 
-impl<'a> Bout<'a> {
-    pub fn new(store: &'a Store, session: Session, means: &'a Means, compares: bool) -> Self {
+impl<'a> StrokeByStroke<'a> {
+    pub fn new(store: &'a Store, session: Session, options: &'a PlayOptions, compares: bool) -> Self {
         let coaches = ByTable::new((|table| coach_for(table, "bundled")) as MakeCoach);
-        Self { store, session, means, compares, coaches, advice: None, shown: None }
+        Self { store, session, options, compares, coaches, advice: None, shown: None }
     }
 
     /// The session as far as it was played.
@@ -140,7 +140,7 @@ impl<'a> Bout<'a> {
             return Ok(());
         }
         let number = self.session.attempts.len() + 1;
-        if self.means.json {
+        if self.options.json {
             let rule = rule.name();
             json_line(&Position { kind: "position", number, exercise: name, title, rule, table, layout })?;
         } else {
@@ -189,7 +189,7 @@ impl<'a> Bout<'a> {
         let number = self.session.attempts.len();
         let (verdict, run) = (played.verdict(rule), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
-        if self.means.json {
+        if self.options.json {
             let turn = Turn {
                 kind: "attempt",
                 number,
@@ -228,7 +228,7 @@ impl<'a> Bout<'a> {
 
     /// Why the coach has not played.
     pub fn no_point(&self) -> Failure {
-        let budget = self.means.budget_ms;
+        let budget = self.options.budget_ms;
         Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may do"))
     }
 
@@ -248,7 +248,7 @@ impl<'a> Bout<'a> {
         let Session { skill, seed, .. } = self.session;
         // In a game the next point counts too.
         let plan = self.session.is_game();
-        let budget = Duration::from_millis(self.means.budget_ms);
+        let budget = Duration::from_millis(self.options.budget_ms);
         let request = Request { rule, skill, plan, budget, seed, ..Request::default() };
         let coach = self.coaches.get(&table.name)?;
         let advice = advise(coach, layout, &request).map_err(Failure::wrong_input)?;
@@ -257,7 +257,7 @@ impl<'a> Bout<'a> {
     }
 
     pub fn refuse(&self, number: usize, failure: &Failure) -> Result<(), Failure> {
-        if self.means.json {
+        if self.options.json {
             return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
         }
         tell(format_args!("line {number}: {failure}"));
@@ -269,7 +269,7 @@ impl<'a> Bout<'a> {
         let session = &self.session;
         let record = session.record();
         let mark = mark(session).filter(|_| session.goal == Goal::Exam);
-        if self.means.json {
+        if self.options.json {
             return Ok(json_line(&Outcome {
                 kind: "result",
                 session: session.id.clone(),
