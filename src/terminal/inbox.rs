@@ -15,7 +15,7 @@ use rustix::{
     termios::{Action, QueueSelector, tcflow, tcflush},
 };
 use signal_hook::{
-    consts::{SIGCONT, SIGHUP, SIGINT, SIGTERM, SIGTSTP, SIGWINCH},
+    consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH},
     iterator::Signals,
 };
 
@@ -53,14 +53,14 @@ pub enum News {
 pub fn open() -> io::Result<(Sender<News>, Receiver<News>)> {
     let (sender, receiver) = channel();
     // The input thread learns of a resize too, but only from its first read on: one before that would be lost.
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH])?;
+    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])?;
     let to_screen = sender.clone();
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
             if to_screen.send(News::Signal(signal)).is_err() {
                 break;
             }
-            if matches!(signal, SIGTERM | SIGINT | SIGHUP) {
+            if matches!(signal, SIGTERM | SIGINT | SIGHUP | SIGQUIT) {
                 free_the_screen();
             }
         }

@@ -58,7 +58,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     })?;
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
-    let mut runner = Runner { app, session, jobs, errands, places, ticked, remembered };
+    let mut runner = Runner { app, session, jobs, errands, places, ticked, remembered, forgotten: false };
     let end = runner.until_the_end(&news);
     runner.remember(true);
     info!(?end, "the screen closes");
@@ -91,6 +91,8 @@ struct Runner {
     ticked: Instant,
     /// What was last remembered of the session, and when.
     remembered: (Option<Last>, Instant),
+    /// Whether that could not be done.
+    forgotten: bool,
 }
 
 impl Runner {
@@ -158,7 +160,11 @@ impl Runner {
         if let Some(last) = last.as_ref().filter(|_| last != *before)
             && let Err(error) = last.save(&self.places.last)
         {
-            warn!(%error, path = %self.places.last.display(), "the session cannot be remembered");
+            // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
+            if !std::mem::replace(&mut self.forgotten, true) {
+                let path = self.places.last.display();
+                self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
+            }
         }
         self.remembered = (last, Instant::now());
     }

@@ -8,7 +8,7 @@ use super::session::{OPENING, PATIENCE, Session, carom};
 
 #[test]
 fn signals_restore_the_terminal_and_still_end_the_program() {
-    for name in ["TERM", "INT", "HUP"] {
+    for name in ["TERM", "INT", "HUP", "QUIT"] {
         let mut session = Session::start(80, 24);
         session.wait_for(OPENING);
         session.signal(name);
@@ -203,4 +203,17 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     second.wait_for("exercise 2 of 20");
     second.send("q");
     assert!(second.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_said_once() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::create_dir(home.path().join("state")).unwrap();
+    std::fs::write(home.path().join("state/carom"), "in the way").unwrap();
+    let mut session = Session::start_at(home.path(), carom(), 80, 24);
+    session.wait_for(OPENING);
+    session.send("\x1b[C");
+    session.wait_for("cannot go on from here");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
 }

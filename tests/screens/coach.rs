@@ -5,10 +5,13 @@ use std::{
     time::Duration,
 };
 
-use crate::coach_player::{ASCII, NO_COLOUR, Player, SHOT, advice};
+use crate::{
+    coach_player::{ASCII, NO_COLOUR, Player, SHOT, advice},
+    keys::key,
+};
 use carom::{
     physics::CueInputs,
-    terminal::{Advice, CoachNews, Effort, Proposal, Shot},
+    terminal::{Advice, CoachNews, Effect, Effort, Proposal, Screen, Shot},
 };
 use proptest::prelude::*;
 use ratatui::style::Color;
@@ -194,6 +197,19 @@ fn too_small_a_terminal_names_both_sizes() {
     }
     let text = player.text(40, 10);
     assert!(text.contains("40×10") && text.contains("80×24"), "{text}");
+}
+
+#[test]
+fn keys_do_nothing_that_nobody_can_see() {
+    let player = Player::new();
+    player.picture(60, 20);
+    let before = *player.app.layout();
+    let mut player = player.press("Right Enter d F5 :");
+    assert_eq!((*player.app.layout(), player.app.screen()), (before, Screen::Coach));
+    assert!(player.asked.is_none());
+    assert!(matches!(player.app.handle(&key("q")), Some(Effect::Quit)), "but one can leave");
+    player.picture(80, 24);
+    assert_ne!(*player.press("Right").app.layout(), before);
 }
 
 #[test]

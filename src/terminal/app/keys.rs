@@ -5,6 +5,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyEventKind};
 use super::{App, Effect, Screen};
 use crate::terminal::{
     keymap::{self, Action, Place, When},
+    screens,
     settings::Input,
 };
 
@@ -20,6 +21,13 @@ impl App {
     }
 
     fn take_key(&mut self, key: &KeyEvent) -> Option<Effect> {
+        if self.is_blind() {
+            let refuse_help = |when| (when == When::Help).then_some("");
+            return match keymap::find(&self.keys().translate(key), Place::Coach, refuse_help) {
+                Some(Ok(action @ (Action::Quit | Action::Suspend))) => self.update(action),
+                _ => None,
+            };
+        }
         if let Some(finder) = &mut self.finder {
             if finder.take_key(key) {
                 *self.message_mut() = None;
@@ -60,6 +68,11 @@ impl App {
                 None
             }
         }
+    }
+
+    /// Whether nothing could be seen of what a key does, for want of room.
+    pub(super) fn is_blind(&self) -> bool {
+        !self.area.get().is_empty() && screens::is_too_small(self.area.get())
     }
 
     const fn is_asked_for_a_key(&self) -> bool {

@@ -30,6 +30,9 @@ impl App {
     }
 
     fn point(&mut self, event: MouseEvent) -> Option<Effect> {
+        if self.is_blind() {
+            return None;
+        }
         match event.kind {
             Kind::Down(Left) => self.click(event),
             Kind::ScrollUp => self.wheel(event, -1),

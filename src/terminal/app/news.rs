@@ -53,6 +53,11 @@ impl App {
         }
     }
 
+    /// Something around the screen has failed.
+    pub fn failed(&mut self, sentence: String) {
+        self.toasts.push(sentence, false);
+    }
+
     /// Refusals and failures, for as long as they are shown, and those before.
     pub const fn toasts(&self) -> &Toasts {
         &self.toasts

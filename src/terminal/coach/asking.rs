@@ -158,7 +158,12 @@ impl CoachScreen {
         if let Some(advised) = self.advised_mut() {
             choose(advised);
             let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
-            self.message = Some(news(&advised.choice().proposal, None, &advised.tutor).after(&words));
+            let proposal = &advised.choice().proposal;
+            self.message = Some(match chance(proposal, &advised.tutor) {
+                // Whose chance it is stands above the list, and one row is all there is.
+                Some(chance) => Message::good(format!("{words}: {chance}{}", contact(proposal))),
+                None => news(proposal, None, &advised.tutor).after(&words),
+            });
         }
         self.watch_from_the_stroke();
     }
@@ -212,8 +217,7 @@ fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
 
 /// A proposal in a sentence.
 fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor) -> Message {
-    let shot = &proposal.shot;
-    let contact = shot.contact_words().map_or(String::new(), |words| format!("; {words}"));
+    let (shot, contact) = (&proposal.shot, contact(proposal));
     let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
         0 => ", under 1 ms".to_owned(),
         milliseconds => format!(", {milliseconds} ms"),
@@ -223,9 +227,18 @@ fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor) -> Message {
         let source = &shot.source;
         return Message::poor(format!("no point found{tried}; this is the best attempt ({source}{took}){contact}"));
     }
-    let Some(made) = proposal.made.filter(|_| !tutor.skill.is_perfect()) else {
+    let Some(chance) = chance(proposal, tutor) else {
         return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
     };
-    let chance = chance_words(&made);
     Message::good(format!("{} makes it {chance}{took}{contact}", skill_word(tutor.skill)))
+}
+
+/// How often the player makes a shot, where there is a doubt.
+fn chance(proposal: &Proposal, tutor: &Tutor) -> Option<String> {
+    proposal.made.filter(|_| proposal.shot.solved && !tutor.skill.is_perfect()).as_ref().map(chance_words)
+}
+
+/// How the first ball is hit, after other words.
+fn contact(proposal: &Proposal) -> String {
+    proposal.shot.contact_words().map_or(String::new(), |words| format!("; {words}"))
 }

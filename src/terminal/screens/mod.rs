@@ -23,10 +23,15 @@ pub use target::{Target, target};
 /// Columns and rows below which there is no room for the table and its panels.
 pub const SMALLEST: (u16, u16) = (80, 24);
 
+/// Whether there is no room for any screen.
+pub const fn is_too_small(area: Rect) -> bool {
+    area.width < SMALLEST.0 || area.height < SMALLEST.1
+}
+
 /// Draws the screen that `app` is at.
 pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     buffer.set_style(area, app.theme().text());
-    if area.width < SMALLEST.0 || area.height < SMALLEST.1 {
+    if is_too_small(area) {
         too_small::draw(app, area, buffer);
         return;
     }

@@ -84,8 +84,9 @@ fn more(app: &App) -> Vec<Line<'static>> {
             let balls = app.layout().balls;
             let gap = (balls[app.selected()].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
             gaps.push(label(if gaps.len() > 1 { ", " } else { " " }));
-            gaps.push(value(format!("{} {} mm", BALL_NAMES[other], millimetres(gap))));
+            gaps.push(value(format!("{} {}", BALL_NAMES[other], millimetres(gap))));
         }
+        gaps.push(label(" mm"));
         lines.push(Line::from(gaps));
     }
     if let Some(contact) = app.shot().and_then(|shot| shot.contact_words()) {

@@ -27,7 +27,8 @@ const TRAIL: [char; 2] = ['•', '*'];
 /// Weights of what shares a cell (see [`Ink`]).
 const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
-const BALL_WEIGHT: u8 = 6;
+/// More than that of all other sub-pixels of a cell together: a ball is to be whole, whatever passes by.
+const BALL_WEIGHT: u8 = 32;
 
 /// Draws the cloth with all that is on it.
 pub fn paint(scene: &Scene, buffer: &mut Buffer) {
