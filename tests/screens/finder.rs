@@ -57,6 +57,30 @@ fn letters_of_the_users_own_are_typed_and_their_keys_are_shown() {
     assert!(text.contains("x u ") && text.contains("take the last change back"), "{text}");
 }
 
+#[test]
+fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
+    let settings = toml_settings("[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
+    let mut player = Player::new();
+    player.app = player.app.with_settings(&settings);
+    let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().to_owned();
+    assert!(hints(&player).starts_with(" z recommend"), "{}", hints(&player));
+    let player = player.press(":");
+    assert!(hints(&player).starts_with(" Enter do it"), "{}", hints(&player));
+    assert!(hints(&player).contains(" F9 close"), "{}", hints(&player));
+}
+
+#[test]
+fn the_help_goes_to_its_end_and_back_to_its_beginning() {
+    let is_at_the_end = |player: &Player| !player.text(80, 24).contains("more lines below");
+    let player = Player::new().press("?");
+    assert!(!is_at_the_end(&player));
+    let beginning = player.text(80, 24);
+    let player = player.press("End");
+    assert!(is_at_the_end(&player));
+    let player = player.press("Home");
+    assert_eq!(player.text(80, 24), beginning);
+}
+
 fn toml_settings(text: &str) -> carom::terminal::Settings {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("config.toml");

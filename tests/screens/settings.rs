@@ -226,7 +226,7 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     // Behind the first command is the one that moves a ball to the left.
     let asked = player.press("Down Enter");
     assert_eq!(asked.app.place(), Place::Settings(SettingsPlace::Pressing));
-    asked.says("press the key that is to do this: move the selected ball by one step");
+    asked.says("press the key that is to do this: move the ball left by one step");
     let refused = asked.press("Enter");
     refused.says("Enter keeps its work");
     let given = refused.press("a");

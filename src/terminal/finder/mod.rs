@@ -18,6 +18,8 @@ pub struct Command {
     pub chords: Vec<Chord>,
     /// What it does.
     pub description: &'static str,
+    /// What the help says of the binding, which may do other things as well.
+    pub group: &'static str,
     /// Its word in the hint line, or nothing.
     pub hint: &'static str,
     /// Its heading in the help.
@@ -29,12 +31,22 @@ pub struct Command {
 }
 
 impl Command {
-    /// Whether all `words`, in small letters, occur in what is known of it.
-    fn has(&self, words: &[String]) -> bool {
-        let Self { keys, description, hint, title, .. } = self;
-        let text = format!("{description} {hint} {title} {keys}").to_lowercase();
-        words.iter().all(|word| text.contains(word))
+    /// Whether all `words`, in small letters, occur in what is said of it alone.
+    fn is_called(&self, words: &[String]) -> bool {
+        let Self { keys, description, title, .. } = self;
+        has(&format!("{description} {title} {keys}"), words)
     }
+
+    /// The same, with what is said of all that its binding does.
+    fn is_among(&self, words: &[String]) -> bool {
+        let Self { keys, description, group, hint, title, .. } = self;
+        has(&format!("{description} {group} {hint} {title} {keys}"), words)
+    }
+}
+
+fn has(text: &str, words: &[String]) -> bool {
+    let text = text.to_lowercase();
+    words.iter().all(|word| text.contains(word))
 }
 
 /// The commands at `place`, one for each thing that a binding does.
@@ -51,7 +63,8 @@ pub fn commands(place: Place, keys: &Keys, look: Look) -> Vec<Command> {
             commands.push(Command {
                 keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), look),
                 chords,
-                description: binding.description,
+                description: binding.words(*action),
+                group: binding.description,
                 hint: binding.hint.map_or("", |(word, _)| word),
                 title: binding.section.title(),
                 action: *action,
@@ -75,10 +88,12 @@ impl Finder {
         &self.typed
     }
 
-    /// The commands that have all typed words, in their order.
+    /// The commands that have all typed words, in their order. What a binding's keys do together finds them all, unless the
+    /// words are those of some of them alone.
     pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
         let words: Vec<String> = self.typed.split_whitespace().map(str::to_lowercase).collect();
-        commands.retain(|command| command.has(&words));
+        let called: Vec<_> = commands.iter().filter(|one| one.is_called(&words)).map(|one| one.group).collect();
+        commands.retain(|one| one.is_called(&words) || !called.contains(&one.group) && one.is_among(&words));
         commands
     }
 
@@ -146,10 +161,20 @@ mod tests {
     fn each_thing_that_a_binding_does_has_a_line_with_its_keys() {
         let keys: Vec<_> = found("by one step").into_iter().map(|command| command.keys).collect();
         assert_eq!(keys, ["← h", "↓ j", "↑ k", "→ l"]);
-        assert!(
-            found("").iter().all(|command| !matches!(command.action, Action::Finder(_))),
-            "it does not list itself"
-        );
+    }
+
+    #[test]
+    fn one_of_the_things_that_a_binding_does_is_found_by_its_own_words() {
+        let keys = |typed| found(typed).into_iter().map(|command| command.keys).collect::<Vec<_>>();
+        assert_eq!(keys("smaller step"), ["-"]);
+        assert_eq!(keys("yellow"), ["2"]);
+        assert_eq!(keys("player"), ["S"]);
+        assert_eq!(keys("white yellow"), ["Tab", "Shift-Tab", "1", "2", "3"], "by what they do together");
+    }
+
+    #[test]
+    fn it_does_not_list_itself() {
+        assert!(found("").iter().all(|command| !matches!(command.action, Action::Finder(_))));
     }
 
     #[test]

@@ -7,9 +7,10 @@ mod finder;
 mod section;
 mod settings;
 mod training;
+mod words;
 
 use crossterm::event::{
-    KeyCode::{self, Down, Enter, Esc, F, PageDown, PageUp, Up},
+    KeyCode::{self, Char, Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
     KeyEvent,
 };
 
@@ -117,6 +118,21 @@ impl Place {
         (Self::Settings(SettingsPlace::Values), "Settings"),
         (Self::Settings(SettingsPlace::Keys), "Settings: keys"),
     ];
+
+    /// Whether `pressed` is typed there, whatever work of another key it was given.
+    pub fn types(self, pressed: Chord) -> bool {
+        let event = pressed.event();
+        let Char(letter) = event.code else { return false };
+        event.modifiers.is_empty()
+            && match self {
+                Self::Name
+                | Self::Finder
+                | Self::Drill(DrillPlace::Search | DrillPlace::Text)
+                | Self::Settings(SettingsPlace::Typing) => true,
+                Self::Form => letter.is_ascii_digit(),
+                _ => false,
+            }
+    }
 }
 
 /// One line of a table.
@@ -165,8 +181,8 @@ const HELP: &[Binding] = &[
     entry(Program, When::Help, &[key(Esc, A::CloseHelp), letter('?', A::CloseHelp), letter('q', A::CloseHelp),
         key(Enter, A::CloseHelp), key(F(1), A::CloseHelp)], Some(("close", 1)), "close the help"),
     entry(Program, When::Help, &[key(Down, A::ScrollHelp(1)), key(Up, A::ScrollHelp(-1)), letter('j', A::ScrollHelp(1)),
-        letter('k', A::ScrollHelp(-1)), key(PageDown, A::ScrollHelp(10)), key(PageUp, A::ScrollHelp(-10))],
-        Some(("scroll", 2)), "scroll the help"),
+        letter('k', A::ScrollHelp(-1)), key(PageDown, A::ScrollHelp(10)), key(PageUp, A::ScrollHelp(-10)),
+        key(End, A::ScrollHelp(i16::MAX)), key(Home, A::ScrollHelp(i16::MIN))], Some(("scroll", 2)), "scroll the help"),
 ];
 
 /// The keys that all screens have, where letters are typed too.
@@ -238,11 +254,12 @@ pub fn chord_of_tab(screen: Screen) -> Option<Chord> {
 pub fn works_of(chord: Chord) -> Vec<(&'static str, &'static str)> {
     let mut works = Vec::new();
     for (place, page) in Place::PAGES {
-        let own = bindings(place).filter(|binding| binding.when != When::Help);
-        for binding in own.filter(|binding| binding.keys.iter().any(|(known, _)| *known == chord)) {
+        for binding in bindings(place).filter(|binding| binding.when != When::Help) {
+            let Some((_, action)) = binding.keys.iter().find(|(known, _)| *known == chord) else { continue };
+            let words = binding.words(*action);
             // What all pages have is told once.
-            if works.iter().all(|(_, known)| *known != binding.description) {
-                works.push((page, binding.description));
+            if works.iter().all(|(_, known)| *known != words) {
+                works.push((page, words));
             }
         }
     }
@@ -262,6 +279,8 @@ pub fn find<'a>(
         let Some((_, action)) = binding.keys.iter().find(|(chord, _)| chord.matches(event)) else { continue };
         match refusal(binding.when) {
             None => return Some(Ok(*action)),
+            // Who has not opened the help does not press its keys.
+            Some(_) if binding.when == When::Help => {}
             Some(reason) => refused = Some(Err(reason)),
         }
     }
@@ -283,7 +302,7 @@ mod tests {
         Place::Finder,
     ];
 
-    fn places() -> impl Iterator<Item = Place> {
+    pub(super) fn places() -> impl Iterator<Item = Place> {
         PLACES.into_iter().chain(DrillPlace::ALL.map(Place::Drill)).chain(SettingsPlace::ALL.map(Place::Settings))
     }
 
@@ -321,6 +340,30 @@ mod tests {
                 assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Open(screen))), "{place:?}");
             }
         }
+    }
+
+    #[test]
+    fn keys_of_the_help_alone_say_nothing_while_it_is_closed() {
+        let refuse_all = |_| Some("not now");
+        assert_eq!(find(&KeyEvent::from(End), Place::Form, refuse_all), None);
+        let end = Some(Ok(Action::ScrollHelp(i16::MAX)));
+        for place in Place::PAGES.map(|(place, _)| place) {
+            assert_eq!(find(&KeyEvent::from(End), place, |_| None), end, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn letters_are_typed_where_words_are_and_digits_in_the_form() {
+        let typed = |place: Place, text: &str| text.chars().filter(|letter| place.types(Chord::char(*letter))).count();
+        for place in places() {
+            let most = if place == Place::Form { 1 } else { 3 };
+            assert!([0, most].contains(&typed(place, "z 1")), "{place:?}");
+            assert!(!place.types(Chord::ctrl(Char('z'))) && !place.types(Chord::plain(Enter)), "{place:?}");
+        }
+        let words = [Place::Name, Place::Finder, Place::Drill(DrillPlace::Search), Place::Drill(DrillPlace::Text)];
+        assert!(words.iter().all(|place| typed(*place, "z 1") == 3));
+        assert_eq!(typed(Place::Settings(SettingsPlace::Typing), "z 1"), 3);
+        assert_eq!((typed(Place::Form, "z 1"), typed(Place::Question, "z 1")), (1, 0));
     }
 
     #[test]

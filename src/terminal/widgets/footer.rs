@@ -9,8 +9,8 @@ use ratatui::{
 
 use crate::terminal::{
     app::App,
-    chord::keys_text,
-    keymap::{Action, Binding, FinderAction, Section, When, bindings},
+    chord::{Chord, keys_text},
+    keymap::{Action, Binding, FinderAction, Place, Section, SettingsPlace, When, bindings},
     look::Look,
     status::{Message, Tone},
     theme::Theme,
@@ -116,14 +116,24 @@ pub fn draw_hints(app: &App, area: Rect, buffer: &mut Buffer) {
 
 fn hint(app: &App, binding: &Binding) -> Option<Line<'static>> {
     let (words, keys) = binding.hint?;
-    let keys = keys_text(
-        binding.keys.iter().take(keys).flat_map(|(chord, _)| app.keys().for_work_of(*chord).take(1)),
-        app.look(),
-    );
+    let keys = keys_text(binding.keys.iter().take(keys).filter_map(|(chord, _)| working(app, *chord)), app.look());
+    if keys.is_empty() {
+        return None;
+    }
     Some(Line::from(vec![
         Span::styled(keys, app.theme().accent()),
         Span::styled(format!(" {words}"), app.theme().faint()),
     ]))
+}
+
+/// A key that does the work of `chord` here: where letters are typed, none of the user's own; where a key is asked for,
+/// which has no other meaning there, `chord` itself.
+fn working(app: &App, chord: Chord) -> Option<Chord> {
+    let place = app.place();
+    if place == Place::Settings(SettingsPlace::Pressing) {
+        return Some(chord);
+    }
+    app.keys().for_work_of(chord).find(|pressed| !place.types(*pressed))
 }
 
 #[cfg(test)]
