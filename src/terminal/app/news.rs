@@ -12,7 +12,12 @@ use crate::terminal::{
 impl App {
     /// The coach has something to say. Late answers to cancelled questions are dropped.
     pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+        let was_thinking = self.spinner().is_some();
         let effect = self.coach.receive(answer);
+        if was_thinking && self.spinner().is_none() {
+            // What was refused because the coach was thinking is not so any more.
+            self.toasts.go_on();
+        }
         self.gather(false);
         effect
     }
