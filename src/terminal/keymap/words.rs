@@ -9,8 +9,8 @@ macro_rules! mark {
         match $lines {
             1 => Some(concat!("mark the next ", $what)),
             -1 => Some(concat!("mark the ", $what, " before")),
-            10 => Some(concat!("mark ten ", $what, "s further down")),
-            -10 => Some(concat!("mark ten ", $what, "s further up")),
+            10 => Some(concat!("go down by ten ", $what, "s")),
+            -10 => Some(concat!("go up by ten ", $what, "s")),
             isize::MAX => Some(concat!("mark the last ", $what)),
             isize::MIN => Some(concat!("mark the first ", $what)),
             _ => None,
