@@ -233,9 +233,9 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
 
 #[test]
 fn themes_and_characters_of_the_session_are_shown_too() {
-    let player = Player::new().press("F2 T g");
+    let player = Player::new().press("F2 T");
     player.says("theme: light, for this session; F5 keeps it");
-    let player = player.press("F5");
+    let player = player.press("g F5");
     player.says("light ▸ now; the file has dark").says("half now; the file has auto");
     assert_eq!(player.text_of_file(), "");
     let player = player.press("T");

@@ -28,7 +28,7 @@ pub struct SettingsErrand {
 pub struct SettingsReport {
     /// The errand's number.
     pub number: u64,
-    /// What the file says now; `None` where it cannot be read.
+    /// What the file says now; `None` where it cannot be read or is no TOML.
     pub settings: Option<Settings>,
     /// Whether the file can be changed, as far as is known.
     pub is_writable: bool,
@@ -70,17 +70,17 @@ impl SettingsFile {
                 return report(None, false, vec![sentence]);
             }
         };
-        let known = Some(settings(found.as_deref()));
-        let is_text = str::from_utf8(found.as_deref().unwrap_or_default()).is_ok_and(is_changeable);
+        let is_sound = str::from_utf8(found.as_deref().unwrap_or_default()).is_ok_and(is_changeable);
+        let known = is_sound.then(|| settings(found.as_deref()));
         let is_as_seen = found == self.seen;
         self.seen.clone_from(&found);
         let Some(change) = change else {
-            return report(known, is_text && !self.has_failed, troubles(path, found.as_deref()));
+            return report(known, is_sound && !self.has_failed, troubles(path, found.as_deref()));
         };
         if !is_as_seen {
             let sentence =
                 format!("{} has been changed by somebody else; it is read anew, change it again", path.display());
-            return SettingsReport { is_refused: true, ..report(known, is_text, vec![sentence]) };
+            return SettingsReport { is_refused: true, ..report(known, is_sound, vec![sentence]) };
         }
         let text = found.as_deref().map(str::from_utf8).transpose();
         let text = match text {
@@ -168,7 +168,7 @@ mod tests {
             fs::write(&path, text).unwrap();
             let report = file.run(&errand(&path, theme("light")));
             assert!(report.troubles[0].contains("changed by somebody else"), "{report:?}");
-            assert_eq!((report.settings, report.is_refused), (Some(read(text).0), true));
+            assert_eq!((report.settings, report.is_refused), (is_changeable(text).then(|| read(text).0), true));
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         fs::remove_file(&path).unwrap();

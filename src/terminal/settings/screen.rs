@@ -298,8 +298,11 @@ impl SettingsScreen {
     /// nothing has been changed since; then what somebody else has changed in the file comes into force.
     pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
         let SettingsReport { number, settings: file, is_writable, is_refused, troubles } = report;
-        if let (Some(known), Some(file), true) = (&self.file, &file, is_refused && number == self.sent) {
-            self.settings = self.before.with_changes(known, file);
+        if is_refused && number == self.sent {
+            self.settings = match (&self.file, &file) {
+                (Some(known), Some(file)) => self.before.with_changes(known, file),
+                _ => self.before.clone(),
+            };
         }
         (self.received, self.file, self.is_writable) = (number, file, is_writable);
         troubles
