@@ -31,6 +31,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     match complaints.len() {
         0 => Ok(()),
+        1 => Err(Failure::wrong_input(format_args!(
+            "1 of the settings in {} is wrong; its default is used",
+            path.display()
+        ))),
         count => Err(Failure::wrong_input(format_args!(
             "{count} of the settings in {} are wrong; their defaults are used",
             path.display()

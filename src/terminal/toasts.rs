@@ -31,6 +31,19 @@ pub struct Toasts {
 }
 
 impl Toasts {
+    /// Shows the first of some sentences that came by themselves together; the others are kept to be read.
+    pub fn push_first(&mut self, sentences: &[String]) {
+        let Some((first, more)) = sentences.split_first() else { return };
+        // The newest stands first: so they are read in their order.
+        for text in more.iter().rev() {
+            if !self.past.contains(text) {
+                self.keep(text.clone());
+            }
+        }
+        let end = if more.is_empty() { String::new() } else { format!("; and {} more: F6", more.len()) };
+        self.push(format!("{first}{end}"), false);
+    }
+
     /// Shows `text`; one that is shown already is shown for longer.
     pub fn push(&mut self, text: String, is_answer: bool) {
         let (answer, news) = LOOKING;
@@ -42,10 +55,14 @@ impl Toasts {
         if self.shown.len() == SHOWN {
             self.shown.remove(0);
         }
+        self.keep(text.clone());
+        self.shown.push(Toast { text, is_answer, left });
+    }
+
+    fn keep(&mut self, text: String) {
         self.past.push_front(text.clone());
         self.past.truncate(KEPT);
-        self.unwritten.push(text.clone());
-        self.shown.push(Toast { text, is_answer, left });
+        self.unwritten.push(text);
     }
 
     /// The oldest first.
@@ -119,6 +136,20 @@ mod tests {
         toasts.tick(60.0);
         assert_eq!((texts(&toasts), toasts.left()), (Vec::new(), None));
         assert_eq!(toasts.past().next(), Some("there is no shot yet"), "they can be read again");
+    }
+
+    #[test]
+    fn of_several_the_first_is_shown_and_each_is_kept_once() {
+        let mut toasts = Toasts::default();
+        let sentences = ["line 1", "line 2", "line 3"].map(str::to_owned);
+        for _ in 0..2 {
+            toasts.push_first(&sentences);
+        }
+        assert_eq!(texts(&toasts), ["line 1; and 2 more: F6"]);
+        assert_eq!(toasts.past().collect::<Vec<_>>(), ["line 1; and 2 more: F6", "line 2", "line 3"]);
+        assert_eq!(toasts.take_unwritten().len(), 3);
+        toasts.push_first(&sentences[2..]);
+        assert_eq!(texts(&toasts)[1], "line 3", "alone there is nothing more");
     }
 
     #[test]

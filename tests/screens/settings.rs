@@ -189,7 +189,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     fs::write(player.path(), "theme = \n").unwrap();
     // Opened once more, the file is damaged.
     let player = player.press("F2 F5");
-    player.says("line 1");
+    player.says("line 1").says("what is set holds until the program ends, while the file cannot be read or written");
     let player = player.press("Right");
     player.says("this holds until the program ends").says("is left as it is");
     assert_eq!(player.text_of_file(), "theme = \n");
@@ -200,6 +200,61 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
 fn without_folder(mut player: Player) -> Player {
     player.app.tick(60.0);
     player
+}
+
+#[test]
+fn what_holds_for_the_session_is_shown_and_gone_on_from() {
+    let text = "# mine\nrule = \"straight\" # at home\n";
+    let player = Player::with(TRUE_COLOUR, text).press("F2 R R S P + F5");
+    player.says("three-cushion now; the file has straight");
+    let tutor = &player.app.coach().tutor;
+    let skill = Settings::default().skill;
+    assert_eq!((tutor.rule, tutor.plan, tutor.skill == skill), (Rule::ThreeCushion, false, false));
+    assert_eq!(player.app.step_mm(), 50.0, "it was opened, and nothing has changed");
+    assert_eq!(player.text_of_file(), text);
+    // On from three cushions, around the end and once more; all else stays as it is.
+    let player = player.press("Home Down Down Down Down");
+    check("settings_session", &player);
+    let player = player.press("Right Right");
+    assert_eq!(player.app.coach().tutor.rule, Rule::OneCushion);
+    assert_eq!(player.text_of_file(), "# mine\nrule = \"one-cushion\" # at home\n");
+    assert_eq!((player.app.coach().tutor.plan, player.app.step_mm()), (false, 50.0));
+    // What is in force is kept as it is.
+    let player = player.press("Down Down Enter");
+    player.says("plan = _ Enter alone keeps false");
+    let player = player.press("Enter");
+    assert!(player.text_of_file().contains("plan = false\n"), "{}", player.text_of_file());
+    assert!(!player.text_of_file().contains("skill"));
+    // Back at what is the default, the file still has something else, which can be taken out.
+    let player = player.press("F2 R R F5 Up Up");
+    player.says("straight ▸ now; the file has one-cushion");
+    assert!(player.press("Delete").text_of_file().contains("rule = \"straight\" # at home\n"));
+}
+
+#[test]
+fn themes_and_characters_of_the_session_are_shown_too() {
+    let player = Player::new().press("F2 T");
+    player.says("theme: light, for this session; F5 keeps it");
+    let player = player.press("g F5");
+    player.says("light ▸ now; the file has dark").says("half now; the file has auto");
+    assert_eq!(player.text_of_file(), "");
+    let player = player.press("T");
+    player.says("high-contrast ▸ now; the file has dark");
+    let player = player.press("Enter Enter");
+    assert_eq!(Settings::load(&player.path()).0.palette.name(), "high-contrast");
+    assert_eq!(player.app.look().glyphs, Glyphs::Half);
+    let player = Player::with(NO_COLOUR, "").press("T");
+    player.says("no colours here: NO_COLOR is set or the terminal has none");
+    assert_eq!(player.app.settings().settings, Settings::default());
+}
+
+#[test]
+fn every_mistake_of_the_file_is_kept_to_be_read() {
+    let player = Player::with(TRUE_COLOUR, "speed = 9.5\nskill = 3\ntempo = 1\n");
+    assert!(is_toast(&player.app, "speed = 9.5") && is_toast(&player.app, "; and 2 more: F6"));
+    let past: Vec<&str> = player.app.toasts().past().collect();
+    assert_eq!(past.len(), 3, "{past:?}");
+    assert!(past[1].contains("skill = 3") && past[2].contains("tempo"), "{past:?}");
 }
 
 #[test]
@@ -331,7 +386,9 @@ proptest! {
         }
         player.picture(width, height);
         let (settings, complaints) = Settings::load(&player.path());
-        prop_assert_eq!(&settings, &player.app.settings().settings);
+        let screen = player.app.settings();
+        prop_assert_eq!(Some(&settings), screen.file.as_ref());
+        prop_assert_eq!(&settings.keys, &screen.settings.keys);
         prop_assert_eq!(complaints.len(), 2);
         let text = player.text_of_file();
         prop_assert!(text.starts_with("# mine\nodd = 1\nplan = ") && text.contains(" # behind\n"), "{}", text);

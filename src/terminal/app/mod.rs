@@ -27,7 +27,6 @@ use super::{
     recommender::Job,
     screens,
     settings::{Complaint, Settings, SettingsErrand, SettingsScreen},
-    status::Message,
     theme::{Palette, Theme},
     toasts::Toasts,
     training::{Keeping, Launch, TrainingScreen, Wanted},
@@ -246,9 +245,7 @@ impl App {
     /// Says that something is wrong with the settings.
     #[must_use]
     pub fn with_complaints(mut self, file: &Path, complaints: &[Complaint]) -> Self {
-        if let Some(sentence) = Complaint::sentence(file, complaints) {
-            self.toasts.push(sentence, false);
-        }
+        self.toasts.push_first(&Complaint::sentences(file, complaints));
         self
     }
 
@@ -264,16 +261,8 @@ impl App {
                 let end = self.help_end.get();
                 self.help = self.help.map(|(page, top)| (page, top.min(end).saturating_add_signed(lines).min(end)));
             }
-            Action::NextGlyphs => {
-                self.look = self.look.with_next_glyphs(self.finest);
-                if self.palette != Palette::Mono {
-                    self.full_look = self.look;
-                }
-            }
-            Action::NextPalette => {
-                self.choose_palette(self.palette.next());
-                *self.message_mut() = Some(Message::plain(format!("theme: {}", self.palette)));
-            }
+            Action::NextGlyphs => self.next_glyphs(),
+            Action::NextPalette => self.next_palette(),
             Action::Open(screen) => return self.open(screen),
             Action::SavePosition => {
                 self.coach.playback.pause();

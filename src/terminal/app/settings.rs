@@ -1,10 +1,15 @@
-//! What is set holds at once.
+//! What is set holds at once; what keys change for the session alone is shown among the settings.
 
 use super::{App, Effect};
-use crate::terminal::{
-    look::{Depth, Glyphs, Look},
-    settings::{Settings, SettingsReport},
-    theme::{Palette, Theme},
+use crate::{
+    table::{PRESETS, Table},
+    terminal::{
+        advice::Tutor,
+        look::{Depth, Glyphs, Look},
+        settings::{Settings, SettingsReport},
+        status::Message,
+        theme::{Palette, Theme},
+    },
 };
 
 impl App {
@@ -16,9 +21,8 @@ impl App {
 
     /// Something has come of what the settings' screen wanted of the file.
     pub fn receive_settings(&mut self, report: SettingsReport) {
-        for trouble in self.settings.receive(report) {
-            self.toasts.push(trouble, false);
-        }
+        let troubles = self.settings.receive(report);
+        self.toasts.push_first(&troubles);
         self.take_changes();
     }
 
@@ -32,11 +36,51 @@ impl App {
             self.toasts.push(sentence, false);
         }
         self.mouse = settings.mouse;
-        let looks = |settings: &Settings| (settings.palette, settings.depth, settings.glyphs);
+        let looks = |settings: &Settings| (settings.depth, settings.glyphs);
         if looks(&before) != looks(&settings) {
             self.full_look = self.detect.map_or(self.full_look, |detect| detect(&settings));
             self.finest = self.full_look.finest();
-            self.choose_palette(settings.palette);
+        }
+        self.choose_palette(settings.palette);
+    }
+
+    /// Lets the settings' screen show what keys of other screens have changed since; nothing else changes.
+    pub(super) fn show_session(&mut self) {
+        let Tutor { rule, skill, plan, .. } = self.coach.tutor;
+        let (step_mm, speed) = (self.coach.step_mm(), self.coach.playback.speed());
+        let settings = Settings { palette: self.palette, rule, skill, plan, step_mm, speed, ..self.in_force.clone() };
+        let is_played = |table: Result<Table, _>| table.is_ok_and(|table| table == *self.coach.table());
+        let table = if is_played(settings.table()) {
+            None
+        } else {
+            PRESETS.into_iter().find(|name| is_played(Table::preset(name).map_err(|error| error.to_string())))
+        };
+        let table = table.map_or_else(|| settings.table.clone(), str::to_owned);
+        self.in_force = Settings { table, ..settings };
+        self.settings.settings = self.in_force.clone();
+    }
+
+    /// The next theme, for this session.
+    pub(super) fn next_palette(&mut self) {
+        let message = if self.in_force.depth == Some(Depth::Mono) {
+            "no colours here: colours = \"none\" among the settings, F5".to_owned()
+        } else if self.full_look.depth == Depth::Mono {
+            "no colours here: NO_COLOR is set or the terminal has none".to_owned()
+        } else {
+            self.choose_palette(self.palette.next());
+            self.show_session();
+            format!("theme: {}, for this session; F5 keeps it", self.palette)
+        };
+        *self.message_mut() = Some(Message::plain(message));
+    }
+
+    /// The next characters that the terminal can show, for this session.
+    pub(super) fn next_glyphs(&mut self) {
+        let look = self.look.with_next_glyphs(self.finest);
+        if look != self.look && self.palette != Palette::Mono {
+            (self.look, self.full_look) = (look, look);
+            self.in_force.glyphs = Some(look.glyphs);
+            self.show_session();
         }
     }
 

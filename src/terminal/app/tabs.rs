@@ -30,6 +30,7 @@ impl App {
             }
             Screen::Settings => {
                 self.before = before;
+                self.show_session();
                 Some(self.settings.open())
             }
         }

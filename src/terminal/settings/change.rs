@@ -58,6 +58,11 @@ pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged>
     Ok(if is_windows { new.replace('\n', "\r\n") } else { new })
 }
 
+/// Whether the program can change this text.
+pub fn is_changeable(text: &str) -> bool {
+    text.parse::<DocumentMut>().is_ok()
+}
+
 /// The text of `document`, which was read from `text`, with the change.
 fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<String, Unchanged> {
     match change {

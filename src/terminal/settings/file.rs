@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     Change, Complaint, Settings,
-    change::changed,
+    change::{changed, is_changeable},
     read::{line_at, read},
 };
 use crate::storage::write_atomic;
@@ -28,8 +28,12 @@ pub struct SettingsErrand {
 pub struct SettingsReport {
     /// The errand's number.
     pub number: u64,
-    /// What the file says now; `None` where it is not as the program has it, because it cannot be written.
+    /// What the file says now; `None` where it cannot be read or is no TOML.
     pub settings: Option<Settings>,
+    /// Whether the file can be changed, as far as is known.
+    pub is_writable: bool,
+    /// Whether the change was not made because somebody else had changed the file.
+    pub is_refused: bool,
     /// What is wrong, a sentence each.
     pub troubles: Vec<String>,
 }
@@ -38,55 +42,70 @@ pub struct SettingsReport {
 #[derive(Debug, Default)]
 pub struct SettingsFile {
     seen: Option<Vec<u8>>,
+    /// Whether the last attempt to write it has failed.
+    has_failed: bool,
 }
 
 impl SettingsFile {
     /// Does an errand. What somebody else has changed since the last one is read, and not written over.
     pub fn run(&mut self, errand: &SettingsErrand) -> SettingsReport {
         let SettingsErrand { number, path, change } = errand;
-        let report = |settings, troubles| SettingsReport { number: *number, settings, troubles };
-        let unwritten = |sentence: String| {
+        let report = |settings, is_writable, troubles| SettingsReport {
+            number: *number,
+            settings,
+            is_writable,
+            is_refused: false,
+            troubles,
+        };
+        let unwritten = |settings, sentence: String| {
             let sentence =
                 format!("this holds until the program ends, but {} is left as it is: {sentence}", path.display());
-            report(None, vec![sentence])
+            report(settings, false, vec![sentence])
         };
         let found = match content(path) {
             Ok(found) => found,
-            Err(error) if change.is_some() => return unwritten(error.to_string()),
-            Err(error) => return report(None, vec![format!("{}: {}", path.display(), Complaint::of_file(&error))]),
+            Err(error) if change.is_some() => return unwritten(None, error.to_string()),
+            Err(error) => {
+                let sentence = format!("{}: {}", path.display(), Complaint::of_file(&error));
+                return report(None, false, vec![sentence]);
+            }
         };
+        let is_sound = str::from_utf8(found.as_deref().unwrap_or_default()).is_ok_and(is_changeable);
+        let known = is_sound.then(|| settings(found.as_deref()));
         let is_as_seen = found == self.seen;
         self.seen.clone_from(&found);
         let Some(change) = change else {
-            return report(Some(settings(found.as_deref())), troubles(path, found.as_deref()));
+            return report(known, is_sound && !self.has_failed, troubles(path, found.as_deref()));
         };
         if !is_as_seen {
             let sentence =
                 format!("{} has been changed by somebody else; it is read anew, change it again", path.display());
-            return report(Some(settings(found.as_deref())), vec![sentence]);
+            return SettingsReport { is_refused: true, ..report(known, is_sound, vec![sentence]) };
         }
         let text = found.as_deref().map(str::from_utf8).transpose();
         let text = match text {
             Ok(text) => text,
             Err(error) => {
                 let line = line_at(&String::from_utf8_lossy(found.as_deref().unwrap_or_default()), error.valid_up_to());
-                return unwritten(format!("line {line} is no UTF-8"));
+                return unwritten(known, format!("line {line} is no UTF-8"));
             }
         };
         let new = match changed(text, change) {
             Ok(new) => new,
-            Err(error) => return unwritten(error.to_string()),
+            Err(error) => return unwritten(known, error.to_string()),
         };
         if text != Some(&new) {
             // What is linked from elsewhere stays linked.
             let target = fs::canonicalize(path).unwrap_or_else(|_| path.clone());
-            if let Err(error) = write_atomic(&target, new.as_bytes()) {
-                return unwritten(error.to_string());
+            let written = write_atomic(&target, new.as_bytes());
+            self.has_failed = written.is_err();
+            if let Err(error) = written {
+                return unwritten(known, error.to_string());
             }
         }
         let settings = settings(Some(new.as_bytes()));
         self.seen = Some(new.into_bytes());
-        report(Some(settings), Vec::new())
+        report(Some(settings), !self.has_failed, Vec::new())
     }
 }
 
@@ -103,10 +122,10 @@ fn settings(bytes: Option<&[u8]>) -> Settings {
     read(&String::from_utf8_lossy(bytes.unwrap_or_default())).0
 }
 
-/// The first mistake in the file.
+/// The mistakes in the file.
 fn troubles(path: &Path, bytes: Option<&[u8]>) -> Vec<String> {
     let (_, complaints) = read(&String::from_utf8_lossy(bytes.unwrap_or_default()));
-    Complaint::sentence(path, &complaints).into_iter().collect()
+    Complaint::sentences(path, &complaints)
 }
 
 #[cfg(test)]
@@ -149,7 +168,7 @@ mod tests {
             fs::write(&path, text).unwrap();
             let report = file.run(&errand(&path, theme("light")));
             assert!(report.troubles[0].contains("changed by somebody else"), "{report:?}");
-            assert_eq!(report.settings, Some(read(text).0));
+            assert_eq!((report.settings, report.is_refused), (is_changeable(text).then(|| read(text).0), true));
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         fs::remove_file(&path).unwrap();
@@ -164,9 +183,9 @@ mod tests {
         for (bytes, line) in [(&b"plan = true\nspeed = = 2\n"[..], "line 2"), (b"plan = true\n# \xff\n", "line 2")] {
             fs::write(&path, bytes).unwrap();
             let mut file = SettingsFile::default();
-            file.run(&errand(&path, None));
+            assert!(!file.run(&errand(&path, None)).is_writable);
             let report = file.run(&errand(&path, theme("light")));
-            assert!(report.settings.is_none() && report.troubles[0].contains(line), "{report:?}");
+            assert!(!report.is_writable && report.troubles[0].contains(line), "{report:?}");
             assert_eq!(fs::read(&path).unwrap(), bytes);
         }
         let report = SettingsFile::default().run(&errand(folder.path(), theme("light")));

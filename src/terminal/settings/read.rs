@@ -31,10 +31,9 @@ impl Complaint {
         Self { line: None, text: format!("it cannot be read: {error}; the defaults are used") }
     }
 
-    /// The first of what is wrong with the file at `path`; `None` where all is right.
-    pub fn sentence(path: &Path, complaints: &[Self]) -> Option<String> {
-        let more = if complaints.len() > 1 { "; carom config --check says more" } else { "" };
-        complaints.first().map(|first| format!("{}: {first}{more}", path.display()))
+    /// What is wrong with the file at `path`, a sentence each.
+    pub fn sentences(path: &Path, complaints: &[Self]) -> Vec<String> {
+        complaints.iter().map(|complaint| format!("{}: {complaint}", path.display())).collect()
     }
 }
 

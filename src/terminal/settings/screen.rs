@@ -1,6 +1,7 @@
 //! The state of the settings' screen: which setting or key is marked, and what is typed, pressed or asked.
 //!
-//! Every change holds at once; [`SettingsErrand`] brings it into the file. [`super::own_keys`] is the page of the keys.
+//! It shows what is in force. Every change holds at once; [`SettingsErrand`] brings it into the file, which may say
+//! something else as long as that is not asked for. [`super::own_keys`] is the page of the keys.
 
 use std::path::PathBuf;
 
@@ -42,8 +43,12 @@ pub enum Input {
 pub struct SettingsScreen {
     /// The file.
     pub path: PathBuf,
-    /// How all is set now.
+    /// What is in force.
     pub settings: Settings,
+    /// What the file says; `None` until it was read, and where it cannot be.
+    pub file: Option<Settings>,
+    /// Whether the file can be read and changed, as far as is known.
+    pub is_writable: bool,
     /// The page that is open.
     pub page: Page,
     /// What is being put in.
@@ -53,8 +58,11 @@ pub struct SettingsScreen {
     /// What the status line says.
     pub message: Option<Message>,
     mark: usize,
-    /// The number of the last errand.
+    /// What was in force before the last change.
+    before: Settings,
+    /// The number of the last errand, and of the last that came back.
     sent: u64,
+    received: u64,
     is_left: bool,
 }
 
@@ -64,17 +72,21 @@ impl SettingsScreen {
         Self {
             path,
             settings: Settings::default(),
+            file: None,
+            is_writable: true,
             page: Page::Values,
             input: None,
             keys: OwnKeys::default(),
             message: None,
             mark: 0,
+            before: Settings::default(),
             sent: 0,
+            received: 0,
             is_left: false,
         }
     }
 
-    /// Opens the page that was open last; the file is read again.
+    /// Opens the page that was open last; the file is read again, and what is in force stays.
     pub fn open(&mut self) -> Effect {
         self.message = None;
         self.is_left = false;
@@ -96,9 +108,16 @@ impl SettingsScreen {
         &ENTRIES[self.mark.min(ENTRIES.len() - 1)]
     }
 
-    /// Whether a setting is not at its default.
+    /// Whether a setting is not at its default, now or in the file.
     pub fn is_changed(&self, entry: &Entry) -> bool {
-        (entry.get)(&self.settings) != (entry.get)(&Settings::default())
+        (entry.get)(&self.settings) != (entry.get)(&Settings::default()) || self.other_in_file(entry).is_some()
+    }
+
+    /// The setting as the file has it, where that is not what is in force.
+    pub fn other_in_file(&self, entry: &Entry) -> Option<String> {
+        // What the file says is not known while it is being changed.
+        let file = self.file.as_ref().filter(|_| self.received == self.sent)?;
+        Some((entry.get)(file)).filter(|value| *value != (entry.get)(&self.settings))
     }
 
     /// Whose keys are in force.
@@ -162,6 +181,7 @@ impl SettingsScreen {
             Action::Type => self.input = Some(Input::Value(String::new())),
             Action::Press => self.input = Some(Input::Key),
             Action::Default if self.page == Page::Keys => {
+                self.before.clone_from(&self.settings);
                 let change = self.keys.to_default(&mut self.settings.keys);
                 return Some(self.errand(Some(change)));
             }
@@ -185,8 +205,11 @@ impl SettingsScreen {
         match self.input.take()? {
             Input::Taken(pressed) => Some(self.give(pressed)),
             Input::Key => None,
-            // Nothing was typed: nothing is meant.
-            Input::Value(typed) if typed.trim().is_empty() => None,
+            // Nothing was typed: what is in force is meant, where the file does not have it already.
+            Input::Value(typed) if typed.trim().is_empty() => {
+                let entry = self.marked();
+                self.other_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
+            }
             Input::Value(typed) => {
                 let effect = self.set(typed.trim());
                 if effect.is_none() {
@@ -238,7 +261,7 @@ impl SettingsScreen {
     /// Takes a value that is accepted.
     fn take(&mut self, value: &str, change: Change) -> Option<Effect> {
         match self.settings.with(self.marked(), value) {
-            Ok(settings) => self.settings = settings,
+            Ok(settings) => self.before = std::mem::replace(&mut self.settings, settings),
             Err(sentence) => {
                 self.message = Some(Message::warning(sentence));
                 return None;
@@ -261,6 +284,7 @@ impl SettingsScreen {
     }
 
     fn give(&mut self, pressed: Chord) -> Effect {
+        self.before.clone_from(&self.settings);
         let change = self.keys.give(pressed, &mut self.settings.keys);
         self.errand(Some(change))
     }
@@ -270,12 +294,17 @@ impl SettingsScreen {
         Effect::Settings(Box::new(SettingsErrand { number: self.sent, path: self.path.clone(), change }))
     }
 
-    /// Takes what has come of an errand, and gives what is wrong. What the file says counts, as long as nothing has been
-    /// changed since.
+    /// Takes what has come of an errand, and gives what is wrong. A change that was refused is taken back, as long as
+    /// nothing has been changed since; then what somebody else has changed in the file comes into force.
     pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
-        if let Some(settings) = report.settings.filter(|_| report.number == self.sent) {
-            self.settings = settings;
+        let SettingsReport { number, settings: file, is_writable, is_refused, troubles } = report;
+        if is_refused && number == self.sent {
+            self.settings = match (&self.file, &file) {
+                (Some(known), Some(file)) => self.before.with_changes(known, file),
+                _ => self.before.clone(),
+            };
         }
-        report.troubles
+        (self.received, self.file, self.is_writable) = (number, file, is_writable);
+        troubles
     }
 }

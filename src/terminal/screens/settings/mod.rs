@@ -60,6 +60,10 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
 fn question(app: &App) -> Option<String> {
     let screen = app.settings();
     match screen.input.as_ref()? {
+        Input::Value(typed) if typed.is_empty() && screen.other_in_file(screen.marked()).is_some() => {
+            let entry = screen.marked();
+            Some(format!("{} = _ Enter alone keeps {}", entry.key, (entry.get)(&screen.settings)))
+        }
         Input::Value(typed) => Some(format!("{} = {typed}_", screen.marked().key)),
         Input::Key => Some(keys::press(app)),
         Input::Taken(chord) => Some(keys::taken(app, *chord)),

@@ -39,7 +39,11 @@ pub fn draw(app: &App, list: Rect, words: Rect, buffer: &mut Buffer) -> &'static
         draw_entry(app, entry, is_marked, area, buffer);
     });
     draw_words(app, words, buffer);
-    "what is set holds at once and at every start"
+    if screen.is_writable {
+        "what is set holds at once and at every start"
+    } else {
+        "what is set holds until the program ends, while the file cannot be read or written"
+    }
 }
 
 fn draw_entry(app: &App, entry: &Entry, is_marked: bool, area: Rect, buffer: &mut Buffer) {
@@ -54,8 +58,16 @@ fn draw_entry(app: &App, entry: &Entry, is_marked: bool, area: Rect, buffer: &mu
     let x = area.x + NAME;
     let room = usize::from(area.right().saturating_sub(x + 5));
     let text = cut(wrap(&shown(&(entry.get)(&screen.settings)), room), 1, room, look).swap_remove(0);
-    let spans = [Span::styled(left, theme.faint()), Span::styled(text, value), Span::styled(right, theme.faint())];
-    buffer.set_line(x, area.y, &Line::from(spans.to_vec()), area.right().saturating_sub(x));
+    let mut spans =
+        vec![Span::styled(left, theme.faint()), Span::styled(text, value), Span::styled(right, theme.faint())];
+    if let Some(other) = screen.other_in_file(entry) {
+        let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
+        let whole = format!(" now; the file has {}", shown(&other));
+        // Where there is no room, the words on the marked setting say the rest.
+        let note = if whole.chars().count() <= room { whole } else { " now".to_owned() };
+        spans.push(Span::styled(note, theme.warning()));
+    }
+    buffer.set_line(x, area.y, &Line::from(spans), area.right().saturating_sub(x));
 }
 
 /// A value without the quotes that TOML wants.
@@ -69,10 +81,15 @@ fn draw_words(app: &App, area: Rect, buffer: &mut Buffer) {
     let title = Line::from(Span::styled(entry.key, theme.text()));
     let inner = draw_title(&title, area, theme, look, buffer);
     let default = (entry.get)(&Settings::default());
-    let paragraphs = [
+    let mut paragraphs = vec![
         (entry.about.to_owned(), theme.text()),
         (format!("Accepted: {}.", entry.accepted), theme.text()),
         (format!("Default: {default}."), if screen.is_changed(entry) { theme.text() } else { theme.faint() }),
     ];
+    if let Some(other) = screen.other_in_file(entry) {
+        let now = (entry.get)(&screen.settings);
+        let keep = if screen.is_writable { " Enter twice keeps it." } else { "" };
+        paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), theme.warning()));
+    }
     write_paragraphs(app, &paragraphs, inner, buffer);
 }
