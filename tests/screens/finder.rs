@@ -62,7 +62,7 @@ fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
     let settings = toml_settings("[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
     let mut player = Player::new();
     player.app = player.app.with_settings(&settings);
-    let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().to_owned();
+    let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().trim_matches('"').to_owned();
     assert!(hints(&player).starts_with(" z recommend"), "{}", hints(&player));
     let player = player.press(":");
     assert!(hints(&player).starts_with(" Enter do it"), "{}", hints(&player));
