@@ -2,17 +2,31 @@
 
 use std::{
     fmt::Display,
-    io::{self, Write},
+    io::{self, IsTerminal, Write},
 };
 
 use serde::Serialize;
 
+use super::Failure;
 use crate::physics::Impulse;
 
 /// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
 /// nobody to tell any more, that is all.
 pub fn tell(sentence: impl Display) {
     let _ = writeln!(io::stderr(), "{sentence}");
+}
+
+/// Asks whoever sits at the terminal.
+pub fn prompt(words: &str) {
+    if io::stdin().is_terminal() {
+        // Nobody reads a prompt that cannot be written.
+        let _ = io::stderr().write_all(words.as_bytes());
+    }
+}
+
+/// A line on the standard output.
+pub fn line(text: impl Display) -> Result<(), Failure> {
+    Ok(writeln!(io::stdout(), "{text}")?)
 }
 
 /// The equivalent ball impulse for people to read.

@@ -2,7 +2,8 @@
 
 use super::{
     PlayOptions, Workspace,
-    strokes::{Stroke, Strokes, play},
+    options::Stroke,
+    strokes::{Strokes, play},
 };
 use crate::{
     commands::Failure,

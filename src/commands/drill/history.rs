@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::{
-    Workspace, line,
+    Workspace,
     score::{Score, time, words},
 };
 use crate::{
     commands::{
         Failure,
-        output::{columns, json_line, tell},
+        output::{columns, json_line, line, tell},
     },
     drills::{Goal, Record, Session, Venue},
     game::Rule,

@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::{
-    Workspace, line,
+    Workspace,
     score::{Score, shot_text, words},
 };
 use crate::{
     commands::{
         Failure,
-        output::{columns, json_line},
+        output::{columns, json_line, line},
     },
     drills::{Category, Exercise, Filter, Record, encode},
     table::BALL_NAMES,

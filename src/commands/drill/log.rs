@@ -5,15 +5,14 @@ use std::io::{self, BufRead, IsTerminal};
 use serde::Serialize;
 
 use super::{
-    Workspace, line,
+    Workspace,
     score::{Score, plural, words},
-    strokes::prompt,
     workspace::player,
 };
 use crate::{
     commands::{
         Failure,
-        output::{json_line, tell},
+        output::{json_line, line, prompt, tell},
     },
     drills::{Goal, Session, Venue},
 };

@@ -4,6 +4,7 @@ mod attempts;
 mod history;
 mod listing;
 mod log;
+mod options;
 mod own;
 mod score;
 mod skill;
@@ -14,11 +15,7 @@ mod workspace;
 
 use clap::Subcommand;
 
-pub use self::{
-    attempts::strokes,
-    strokes::{PlayOptions, line, play},
-    workspace::Workspace,
-};
+pub use self::{attempts::strokes, options::PlayOptions, strokes::play, workspace::Workspace};
 use super::Failure;
 
 /// Practise: exercises to play here or to log from a real table, exams, scores, positions of one's own.

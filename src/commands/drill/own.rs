@@ -1,8 +1,8 @@
 //! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
 
-use super::{Workspace, line, strokes::Stroke};
+use super::{Workspace, options::Stroke};
 use crate::{
-    commands::Failure,
+    commands::{Failure, output::line},
     drills::{Exercise, check, decode, encode, store::StoreError},
     game::Rule,
     table::{Layout, Table},

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::{Workspace, line};
+use super::Workspace;
 use crate::{
     coach::Skill,
     commands::{
         Failure,
-        output::{json_line, tell},
+        output::{json_line, line, tell},
     },
     drills::estimate::{Estimate, estimate},
 };

@@ -5,15 +5,15 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::{
+    options::{PlayOptions, Stroke},
     score::{Score, layout_text, plural, shot_text, words},
-    strokes::{PlayOptions, Stroke, line},
 };
 use crate::{
     coach::{Coach, Request},
     commands::{
         Failure,
         input::ByTable,
-        output::{json_line, tell},
+        output::{json_line, line, tell},
         recommend::coach_for,
     },
     drills::{

@@ -1,0 +1,60 @@
+//! Who plays a session, and what stroke is wanted.
+
+use super::workspace::player;
+use crate::{
+    coach::Skill,
+    commands::{Failure, named::skill_called},
+    drills::{Exercise, Goal, Session, Venue},
+    physics::CueInputs,
+};
+
+/// The word for the coach's shot in the place of one's own.
+const COACH: &str = "coach";
+
+/// Who plays, and how it is told.
+#[derive(Debug, clap::Args)]
+pub struct PlayOptions {
+    /// Who plays: perfect, expert, club, beginner, own, or standard errors in mm, degrees and m/s like
+    /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". Default: own where `carom drill skill --keep` has kept one, else expert.
+    #[arg(long, value_parser = skill_called)]
+    skill: Option<Skill>,
+    /// Seed of the errors; without it they are others every time.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Time that the coach has for a shot, ms.
+    #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
+    pub(super) budget_ms: u64,
+    /// Print JSON: an object a line, of the kinds "position", "attempt", "refused" and "result".
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl PlayOptions {
+    /// A session that is played here.
+    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Session {
+        let seed = self.seed.unwrap_or_else(rand::random);
+        Session::new(goal, Venue::Program, exercises, player(self.skill), seed)
+    }
+}
+
+/// A stroke that is wanted.
+#[derive(Clone, Copy, Debug)]
+pub enum Stroke {
+    /// The player's.
+    Own(CueInputs),
+    /// The coach's.
+    Coach,
+}
+
+impl std::str::FromStr for Stroke {
+    type Err = Failure;
+
+    fn from_str(text: &str) -> Result<Self, Failure> {
+        if text == COACH {
+            return Ok(Self::Coach);
+        }
+        let cue = CueInputs::parse(text)
+            .map_err(|error| Failure::wrong_input(format_args!("{error}, or \"{COACH}\" for the coach's shot")))?;
+        Ok(Self::Own(cue))
+    }
+}
