@@ -143,7 +143,7 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     session.wait_for_advice();
     // A quarter of the speed: the shot is to last.
     session.send("-- ");
-    session.wait_for("Events 1/");
+    session.wait_until("it plays", |screen| clock(screen).is_some_and(|time| time > 0.0));
     let before = clock(session.screen()).unwrap();
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
