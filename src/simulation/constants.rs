@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::tolerance::Tolerance;
 use crate::{
     physics::{rolling_deceleration, sliding_deceleration, spin_deceleration},
     table::Table,
@@ -36,6 +37,8 @@ pub struct Constants {
     pub rail_restitution: f64,
     /// Friction at a cushion.
     pub rail_friction: f64,
+    /// What counts as nothing.
+    pub tolerance: Tolerance,
 }
 
 impl Constants {
@@ -56,6 +59,7 @@ impl Constants {
             ball_friction: table.ball_friction,
             rail_restitution: table.rail_restitution,
             rail_friction: table.rail_friction,
+            tolerance: Tolerance::of(table),
         }
     }
 }

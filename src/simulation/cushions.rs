@@ -2,8 +2,9 @@
 
 use super::{
     Constants, Rail, Segment,
-    predict::{Ahead, PRESSING, RESTING_SPEED, SURELY_APART, TOUCHING, lesser},
+    predict::{Ahead, lesser},
     savings::Savings,
+    tolerance::Tolerance,
 };
 use crate::physics::Motion;
 
@@ -22,13 +23,14 @@ pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horiz
         // start and has them inside leaves it for as long.
         let bend = (p + 0.5 * horizon * v).abs();
         let end = (p + horizon * (v + horizon * k)).abs();
-        let inside = |bend: f64, end: f64, reach: f64| -lesser(-bend, -end) < reach - SURELY_APART;
+        let inside = |bend: f64, end: f64, reach: f64| -lesser(-bend, -end) < reach - constants.tolerance.surely_apart;
         if inside(bend.x, end.x, reach.x) & inside(bend.y, end.y, reach.y) {
             return (Ahead::Nothing, Rail::Left);
         }
     }
-    let across = axis_ahead(reach.x, p.x, v.x, k.x);
-    let along = axis_ahead(reach.y, p.y, v.y, k.y);
+    let tolerance = &constants.tolerance;
+    let across = axis_ahead(tolerance, reach.x, p.x, v.x, k.x);
+    let along = axis_ahead(tolerance, reach.y, p.y, v.y, k.y);
     let along_first = along.time < across.time;
     let time = lesser(along.time, across.time);
     let rail = rail_of(across.upwards, along.upwards, along_first);
@@ -53,12 +55,13 @@ fn rail_of(right: bool, top: bool, on_y: bool) -> Rail {
 #[inline(always)]
 fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     let (p, v, reach) = (segment.position, segment.velocity, constants.reach);
-    let ahead = |reach: f64, p: f64, v: f64| at_full_speed(reach - p * 1.0_f64.copysign(v), v.abs());
+    let tolerance = &constants.tolerance;
+    let ahead = |reach: f64, p: f64, v: f64| at_full_speed(tolerance, reach - p * 1.0_f64.copysign(v), v.abs());
     let (mut to_x, mut to_y) = (ahead(reach.x, p.x, v.x), ahead(reach.y, p.y, v.y));
     if !S::CUSHIONS_IN_REACH {
         // The ones behind, which the ball leaves.
-        to_x = lesser(at_full_speed(reach.x + p.x * 1.0_f64.copysign(v.x), -v.x.abs()), to_x);
-        to_y = lesser(at_full_speed(reach.y + p.y * 1.0_f64.copysign(v.y), -v.y.abs()), to_y);
+        to_x = lesser(at_full_speed(tolerance, reach.x + p.x * 1.0_f64.copysign(v.x), -v.x.abs()), to_x);
+        to_y = lesser(at_full_speed(tolerance, reach.y + p.y * 1.0_f64.copysign(v.y), -v.y.abs()), to_y);
     }
     let straight = lesser(to_y, to_x);
     let rail = rail_of(v.x > 0.0, v.y > 0.0, to_y < to_x);
@@ -69,9 +72,9 @@ fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment
 
 /// When a ball of constant speed closes a gap, s; infinity if it touches already without moving against the cushion.
 #[inline(always)]
-fn at_full_speed(gap: f64, speed: f64) -> f64 {
+fn at_full_speed(tolerance: &Tolerance, gap: f64, speed: f64) -> f64 {
     let open = if gap > 0.0 { gap } else { 0.0 };
-    if speed > RESTING_SPEED || (speed > 0.0 && gap > TOUCHING) { open / speed } else { f64::INFINITY }
+    if speed > tolerance.opening || (speed > 0.0 && gap > tolerance.touching) { open / speed } else { f64::INFINITY }
 }
 
 /// What a course meets on one axis of the table.
@@ -86,12 +89,12 @@ const PRESSED: f64 = -1.0;
 
 /// The first of two opposite cushions, at `±reach`, that a ball meets whose coordinate is `p + v t + k t²`.
 #[inline(always)]
-fn axis_ahead(reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
+fn axis_ahead(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
     let sign = 1.0_f64.copysign(v);
     let (p, v, k) = (sign * p, v.abs(), sign * k);
     let (forward_gap, backward_gap) = (reach - p, reach + p);
-    let (forward, backward) = if v <= RESTING_SPEED && lesser(forward_gap, backward_gap) <= TOUCHING {
-        (gap_closes(forward_gap, v, k), gap_closes(backward_gap, -v, -k))
+    let (forward, backward) = if v <= tolerance.opening && lesser(forward_gap, backward_gap) <= tolerance.touching {
+        (gap_closes(tolerance, forward_gap, v, k), gap_closes(tolerance, backward_gap, -v, -k))
     } else {
         (first_closes(forward_gap, v, k), closes_on_return(backward_gap, v, -k))
     };
@@ -121,13 +124,13 @@ fn closes_on_return(gap: f64, speed: f64, half_pull: f64) -> f64 {
 /// The same for any speed, where rounding decides whether a ball touches: infinity if never, [`PRESSED`] for a resting
 /// contact.
 #[cold]
-fn gap_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
-    if gap <= TOUCHING {
-        return if speed > RESTING_SPEED {
+fn gap_closes(tolerance: &Tolerance, gap: f64, speed: f64, half_acceleration: f64) -> f64 {
+    if gap <= tolerance.touching {
+        return if speed > tolerance.opening {
             0.0
-        } else if 2.0 * half_acceleration <= PRESSING {
+        } else if 2.0 * half_acceleration <= tolerance.pressing {
             f64::INFINITY
-        } else if speed >= -RESTING_SPEED {
+        } else if speed >= -tolerance.opening {
             PRESSED
         } else {
             -speed / half_acceleration
@@ -199,9 +202,10 @@ mod tests {
 
     #[test]
     fn a_ball_that_leaves_the_cushion_it_touches_does_not_hit_it() {
-        assert_eq!(gap_closes(0.0, -1.0, 0.0), f64::INFINITY);
-        assert_eq!(gap_closes(0.0, -1.0, 0.5), 2.0);
-        assert_eq!(gap_closes(0.0, 0.0, 0.5), PRESSED);
-        assert_eq!(gap_closes(-1e-10, 1.0, 0.0), 0.0);
+        let tolerance = Constants::of(&Table::default()).tolerance;
+        assert_eq!(gap_closes(&tolerance, 0.0, -1.0, 0.0), f64::INFINITY);
+        assert_eq!(gap_closes(&tolerance, 0.0, -1.0, 0.5), 2.0);
+        assert_eq!(gap_closes(&tolerance, 0.0, 0.0, 0.5), PRESSED);
+        assert_eq!(gap_closes(&tolerance, -1e-10, 1.0, 0.0), 0.0);
     }
 }

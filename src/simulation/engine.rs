@@ -2,19 +2,32 @@
 
 use std::{marker::PhantomData, ops::ControlFlow};
 
+use glam::DVec2;
+
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
-    crowd::Crowd,
-    resting::{Resting, STILL_AT_REST},
+    chatter::{Chatters, settles},
+    contact_mode::ContactMode,
+    contacts::{PAIRS, close, touching},
+    resting::{Outcome, Resting},
     savings::{All, Savings},
-    segment::{STILL, still},
-    settling::{FASTEST, settles},
-    touches::PAIRS,
+    segment::still,
 };
 use crate::{
-    physics::{BallState, Impulse, Motion, Touch, collide_balls, collide_rail},
+    physics::{
+        ActiveSet, BallState, Contact, Contacts, ImpactLaw, Impulse, Motion, collide_balls, collide_rail,
+        collide_together, stop_by_impulses,
+    },
     table::{BALLS, Layout, Table},
 };
+
+/// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
+/// none meanwhile, at any speed on a table.
+const MOMENT: f64 = 1e-15;
+
+/// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a
+/// cushion exchange some dozens, an inelastic collapse infinitely many.
+const MOST_ROUNDS: u32 = 64;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,8 +84,8 @@ pub(super) struct Ball {
     /// When the ball meets `rail`, s after the segment's start; infinity if never.
     pub(super) rail_after: f64,
     pub(super) rail: Rail,
-    /// Whether a resting contact holds it.
-    pub(super) resting: bool,
+    /// What its contacts do.
+    pub(super) mode: ContactMode,
 }
 
 /// When a pair of balls meets: `after` seconds after `since`. Both are kept, since their sum is rounded.
@@ -100,9 +113,15 @@ pub(super) struct Engine<'a, S, O> {
     /// When each ball, and then each pair, has its next event, s; infinity for none.
     pub(super) times: [f64; 2 * BALLS],
     pub(super) resting: Option<Box<Resting>>,
+    /// Longest step that the next resting contact tries, s.
+    next_step: f64,
     /// Whether a prediction has found balls pressed together that are not yet in `resting`.
     pub(super) pressed: bool,
-    pub(super) crowd: Crowd,
+    /// Time of the last impact, s, and how many there have been at that moment.
+    last_impact: f64,
+    rounds: u32,
+    /// The slow bounces, once there is one.
+    chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
 }
 
@@ -116,8 +135,11 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             pairs: [Meeting::unseen(0.0, false); 3],
             times: [f64::INFINITY; 2 * BALLS],
             resting: None,
+            next_step: f64::INFINITY,
             pressed: false,
-            crowd: Crowd::NONE,
+            last_impact: f64::NEG_INFINITY,
+            rounds: 0,
+            chatters: None,
             savings: PhantomData,
         }
     }
@@ -167,7 +189,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
         segment.start = now;
         self.close(index, now);
-        if ended == Motion::Sliding {
+        if ended == Motion::Sliding
+            && !(self.balls[index].mode == ContactMode::Bouncing && self.still_chatters(now, index)?)
+        {
             self.tell(now, EventKind::SlidingRolling(index))?;
         }
         if segment.motion == Motion::Stationary {
@@ -179,8 +203,10 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
 
     #[inline(always)]
     fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        if self.is_crowded(now) && self.collide_at_once(now)? {
+            return ControlFlow::Continue(());
+        }
         let Ball { rail_after, rail, .. } = self.balls[index];
-        self.crowd.rebound();
         let n = rail.normal();
         let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
         let mut state = match &freed {
@@ -192,27 +218,38 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let c = &self.constants;
         let before = state;
         collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
-        let touch = Touch { first: index, second: None, rail_normal: n };
-        if state.velocity.dot(n) <= FASTEST && self.settle(now, freed.as_ref(), &touch, &[(index, state)]) {
-            state = before;
-            collide_rail(c.radius, 0.0, c.rail_friction, n, &mut state);
-            state.velocity -= state.velocity.dot(n) * n;
+        let mut told = true;
+        if state.velocity.dot(n) <= c.tolerance.slow_bounce {
+            let contact = Contact::with_cushion(index, n);
+            told = self.slow_bounce(now, &contact)?;
+            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(index, state)]) {
+                return self.end_chatter(
+                    now,
+                    freed,
+                    &[(index, before)],
+                    &rests,
+                    told.then_some(EventKind::BallRail(index, rail)),
+                );
+            }
         }
-        still(STILL * self.crowd.stillness(), c.radius, &mut [&mut state]);
         self.close(index, now);
         self.launch(index, now, &state);
-        self.tell(now, EventKind::BallRail(index, rail))?;
+        if told {
+            self.tell(now, EventKind::BallRail(index, rail))?;
+        }
         if freed.is_some() {
-            self.look_ahead(now, members(true, self.freed_members(), only(index)))
+            self.look_ahead(now, either(true, self.freed_members(), only(index)))
         } else {
             self.look_ahead_of(now, index)
         }
     }
 
     fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
+        if self.is_crowded(now) && self.collide_at_once(now)? {
+            return ControlFlow::Continue(());
+        }
         let (first, second) = PAIRS[pair];
         let Meeting { since, after, .. } = self.pairs[pair];
-        self.crowd.impact(now);
         let mut changed = only(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
@@ -227,38 +264,189 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let before = (a, b);
         let c = self.constants;
         collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
-        let touch = Touch { first, second: Some(second), rail_normal: glam::DVec2::ZERO };
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
-        if opening <= 2.0 * c.radius * FASTEST && self.settle(now, freed.as_ref(), &touch, &[(first, a), (second, b)]) {
-            (a, b) = before;
-            collide_balls(c.radius, 0.0, c.ball_friction, &mut a, &mut b);
+        let mut told = true;
+        if opening <= c.diameter * c.tolerance.slow_bounce {
+            let contact = Contact::of_balls(first, second);
+            told = self.slow_bounce(now, &contact)?;
+            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
+                let before = [(first, before.0), (second, before.1)];
+                return self.end_chatter(
+                    now,
+                    freed,
+                    &before,
+                    &rests,
+                    told.then_some(EventKind::BallBall(first, second)),
+                );
+            }
         }
-        still(STILL * self.crowd.stillness(), c.radius, &mut [&mut a, &mut b]);
         self.close(first, now);
         self.close(second, now);
         self.launch(first, now, &a);
         self.launch(second, now, &b);
-        self.tell(now, EventKind::BallBall(first, second))?;
-        self.look_ahead(now, members(freed.is_some(), self.freed_members(), changed))
+        if told {
+            self.tell(now, EventKind::BallBall(first, second))?;
+        }
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
     }
 
-    /// Whether a contact that has just bounced comes to rest; `bounced` are its balls after the bounce.
+    /// Whether other impacts happen at this very moment, or too many have.
+    #[inline(always)]
+    fn is_crowded(&mut self, now: f64) -> bool {
+        self.rounds = if now - self.last_impact <= MOMENT { self.rounds + 1 } else { 0 };
+        self.last_impact = now;
+        let mut at_once = 0;
+        for time in self.times {
+            at_once += u32::from(time <= now + MOMENT);
+        }
+        at_once > 1 || self.rounds > MOST_ROUNDS
+    }
+
+    /// All contacts that close now collide together, if there are several.
     #[cold]
-    fn settle(
+    fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
+        let members = self.freed_members();
+        let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
+        let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
+            Some(states) if members[index] => states[index],
+            _ => self.state(index, now),
+        });
+        let c = self.constants;
+        let collapsed = self.rounds > MOST_ROUNDS;
+        let contacts = touching(&c, &states, |opening| opening < -c.tolerance.opening || (collapsed && opening <= 0.0));
+        if contacts.as_slice().len() < 2 {
+            return ControlFlow::Continue(false);
+        }
+        let mut changed = [false; BALLS];
+        for (ball, changed) in changed.iter_mut().enumerate() {
+            *changed = contacts.hold(ball);
+        }
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
+        for contact in contacts.as_slice() {
+            // Exactly at the cushion, as in a single impact.
+            let n = contact.cushion_normal;
+            let ball = &mut states[contact.first];
+            if contact.second.is_none() {
+                ball.position += (-n.abs().dot(c.reach) - ball.position.dot(n)) * n;
+            }
+        }
+        let law = ImpactLaw::of(self.table);
+        let law = if collapsed { law.inelastic() } else { law };
+        let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
+        let mut told = [false; crate::physics::MAX_CONTACTS];
+        for (index, contact) in contacts.as_slice().iter().enumerate() {
+            if impulses[index] > 0.0 {
+                let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce;
+                told[index] = !slow || self.slow_bounce(now, contact)?;
+            }
+        }
+        for index in (0..BALLS).filter(|&index| changed[index]) {
+            self.close(index, now);
+            self.launch(index, now, &states[index]);
+        }
+        for (contact, _) in contacts.as_slice().iter().zip(told).filter(|(_, told)| *told) {
+            let rail = Rail::ALL.into_iter().find(|rail| rail.normal() == contact.cushion_normal);
+            match (contact.second, rail) {
+                (Some(second), _) => self.tell(now, EventKind::BallBall(contact.first, second))?,
+                (None, Some(rail)) => self.tell(now, EventKind::BallRail(contact.first, rail))?,
+                (None, None) => {}
+            }
+        }
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
+        ControlFlow::Continue(true)
+    }
+
+    /// Whether a bouncing ball still chatters; tells the end of its contact if not.
+    #[cold]
+    fn still_chatters(&mut self, now: f64, ball: usize) -> ControlFlow<(), bool> {
+        if self.chatters.as_ref().is_some_and(|chatters| !chatters.are_over(ball, now)) {
+            return ControlFlow::Continue(true);
+        }
+        self.balls[ball].mode = ContactMode::Free;
+        self.tell(now, EventKind::ContactEnds(ball))?;
+        ControlFlow::Continue(false)
+    }
+
+    /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
+    #[cold]
+    fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
+        let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
+        if !chatters.bounce(contact, now) {
+            return ControlFlow::Continue(true);
+        }
+        self.observer.contact_step()?;
+        for ball in [Some(contact.first), contact.second].into_iter().flatten() {
+            if self.balls[ball].mode == ContactMode::Free {
+                self.balls[ball].mode = ContactMode::Bouncing;
+                self.tell(now, EventKind::ContactBegins(ball))?;
+            }
+        }
+        ControlFlow::Continue(false)
+    }
+
+    /// The contacts that come to rest with one that has just bounced; `bounced` are its balls after the bounce.
+    #[cold]
+    fn settles(
         &self,
         now: f64,
         freed: Option<&[BallState; BALLS]>,
-        touch: &Touch,
+        contact: &Contact,
         bounced: &[(usize, BallState)],
-    ) -> bool {
+    ) -> Option<Contacts> {
+        let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
+        settles(self.table, &self.constants, contact, &self.states_with(now, freed, bounced), shrinking)
+    }
+
+    /// All balls now, some of them as given.
+    fn states_with(
+        &self,
+        now: f64,
+        freed: Option<&[BallState; BALLS]>,
+        given: &[(usize, BallState)],
+    ) -> [BallState; BALLS] {
         let mut balls = std::array::from_fn(|index| match freed {
             Some(states) if self.freed_members()[index] => states[index],
             _ => self.state(index, now),
         });
-        for (index, state) in bounced {
+        for (index, state) in given {
             balls[*index] = *state;
         }
-        settles(self.table, &self.constants, touch, &balls, self.crowd.coarseness())
+        balls
+    }
+
+    /// Ends a chatter with one impact without restitution of all contacts that rest from now on; `before` are the balls of the
+    /// contact that has met.
+    #[cold]
+    fn end_chatter(
+        &mut self,
+        now: f64,
+        freed: Option<[BallState; BALLS]>,
+        before: &[(usize, BallState)],
+        rests: &Contacts,
+        told: Option<EventKind>,
+    ) -> ControlFlow<()> {
+        let mut states = self.states_with(now, freed.as_ref(), before);
+        let c = self.constants;
+        let contacts = rests.as_slice();
+        close(&c, &mut states, contacts);
+        let law = ImpactLaw::of(self.table).inelastic();
+        for _ in 0..MOST_ROUNDS {
+            if !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening) {
+                break;
+            }
+            collide_together(c.radius, &law, &mut states, contacts);
+        }
+        // What one of them has given another is a bounce, too.
+        stop_by_impulses(self.table, &mut states, contacts, &ActiveSet::SLIPPING);
+        let changed = std::array::from_fn(|ball| rests.hold(ball));
+        for index in (0..BALLS).filter(|&index| changed[index]) {
+            self.close(index, now);
+            self.launch(index, now, &states[index]);
+        }
+        if let Some(kind) = told {
+            self.tell(now, kind)?;
+        }
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
     }
 
     /// The next step of the balls in resting contact.
@@ -267,7 +455,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         let mut members: Vec<&mut BallState> =
             resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
-        still(STILL_AT_REST * self.crowd.stillness(), self.constants.radius, &mut members);
+        still(self.constants.tolerance.still, self.constants.radius, &mut members);
         for index in (0..BALLS).filter(|&index| resting.members[index]) {
             self.close(index, now);
             self.launch(index, now, &resting.end[index]);
@@ -286,13 +474,33 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             return None;
         }
         let members = resting.members;
-        let states = resting.after(self.table, now - resting.start);
+        self.cut(now);
+        let states = self.resting.as_ref()?.end;
         for index in (0..BALLS).filter(|&index| members[index] && !changed[index]) {
             self.close(index, now);
             self.launch(index, now, &states[index]);
         }
         self.pressed = true;
         Some(states)
+    }
+
+    /// Ends the present step of the resting contacts at `now`.
+    #[cold]
+    fn cut(&mut self, now: f64) {
+        let Some(resting) = &mut self.resting else { return };
+        let time = now - resting.start;
+        if time >= resting.step {
+            return;
+        }
+        resting.cut(self.table, time);
+        self.next_step = resting.next_step;
+        for index in (0..BALLS).filter(|&index| resting.members[index] && time > 0.0) {
+            let segment = &mut self.balls[index].segment;
+            if segment.start == resting.start {
+                let (half_acceleration, curve) = resting.course(index);
+                (segment.half_acceleration, segment.curve) = (half_acceleration, Some(Box::new(curve)));
+            }
+        }
     }
 
     /// The balls of the resting contact that is still on record.
@@ -316,35 +524,57 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         {
             return ControlFlow::Continue(());
         }
+        self.cut(now);
         // Other members of a contact that goes on are part of the new one.
-        let states: [BallState; BALLS] = match &self.resting {
-            Some(resting) if resting.start < now => {
-                let at = resting.after(self.table, now - resting.start);
-                std::array::from_fn(|index| {
-                    if resting.members[index] && self.balls[index].segment.start < now {
-                        at[index]
-                    } else {
-                        self.state(index, now)
-                    }
-                })
-            }
+        let mut states: [BallState; BALLS] = match &self.resting {
+            Some(resting) if resting.start < now => std::array::from_fn(|index| {
+                if resting.members[index] && self.balls[index].segment.start < now {
+                    resting.end[index]
+                } else {
+                    self.state(index, now)
+                }
+            }),
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
         self.observer.contact_step()?;
-        self.crowd.step();
-        let coarseness = self.crowd.coarseness();
-        self.resting = Resting::begin(self.table, &self.constants, now, &states, self.resting.as_deref(), coarseness)
-            .map(Box::new);
+        let previous = self.resting.take();
+        self.resting =
+            match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
+                Outcome::Rests(resting) => {
+                    self.next_step = resting.next_step;
+                    for index in (0..BALLS).filter(|&index| !resting.members[index]) {
+                        if resting.begin[index] != states[index] {
+                            states[index] = resting.begin[index];
+                            self.close(index, now);
+                            self.launch(index, now, &states[index]);
+                            changed[index] = true;
+                        }
+                    }
+                    Some(resting)
+                }
+                Outcome::Free(ended, balls) => {
+                    // A slip that ends here ends for good.
+                    for index in (0..BALLS).filter(|&index| balls[index]) {
+                        self.close(index, now);
+                        self.launch(index, now, &ended[index]);
+                        changed[index] = true;
+                    }
+                    states = ended;
+                    None
+                }
+            };
         let members = self.freed_members();
         for index in 0..BALLS {
-            let was = std::mem::replace(&mut self.balls[index].resting, members[index]);
+            let was = self.balls[index].mode;
             if members[index] {
+                self.balls[index].mode = ContactMode::Resting;
                 self.rest(index, now);
                 changed[index] = true;
-            }
-            if members[index] && !was {
-                self.tell(now, EventKind::ContactBegins(index))?;
-            } else if was && !members[index] {
+                if was == ContactMode::Free {
+                    self.tell(now, EventKind::ContactBegins(index))?;
+                }
+            } else if was == ContactMode::Resting {
+                self.balls[index].mode = ContactMode::Free;
                 // A ball whose contact ended by what another did is still on its common course.
                 if self.balls[index].segment.motion == Motion::Resting {
                     self.close(index, now);
@@ -409,7 +639,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         let balls = std::array::from_fn(|index| {
             let mut state = self.state(index, time);
             if self.balls[index].segment.motion == Motion::Stationary {
-                state.velocity = glam::DVec2::ZERO;
+                state.velocity = DVec2::ZERO;
             }
             state
         });
@@ -421,6 +651,6 @@ fn only(index: usize) -> [bool; BALLS] {
     std::array::from_fn(|other| other == index)
 }
 
-fn members(freed: bool, of_contact: [bool; BALLS], changed: [bool; BALLS]) -> [bool; BALLS] {
+fn either(freed: bool, of_contact: [bool; BALLS], changed: [bool; BALLS]) -> [bool; BALLS] {
     if freed { std::array::from_fn(|index| changed[index] || of_contact[index]) } else { changed }
 }

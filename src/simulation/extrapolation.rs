@@ -9,41 +9,61 @@ pub type State = [BallState; BALLS];
 /// Rounds of extrapolation at most: 2, 4, … 16 midpoints, which makes order 16.
 const ROUNDS: usize = 8;
 
+/// The state and the time since the step's start, s. Whatever parameter a step runs in, the time is one of its unknowns.
+#[derive(Clone, Copy, Debug)]
+pub struct Phase {
+    /// Positions, velocities and spins.
+    pub balls: State,
+    /// Time, s.
+    pub time: f64,
+}
+
 /// A step's result.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// State at its end.
-    pub end: State,
+    /// What is reached at its end.
+    pub end: Phase,
     /// Estimated error: the largest of metres, m/s and R times rad/s.
     pub error: f64,
     /// Rounds of extrapolation that were needed; few of them mean that a longer step would do.
     pub rounds: usize,
 }
 
-/// Steps from `begin`, whose slope is `first`, over `length` seconds, in as many rounds as bring the error below
-/// `tolerance`; all of them if none does.
+/// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`; all of
+/// them if none does. Only the `members` move.
 pub fn extrapolate(
-    begin: &State,
-    first: &State,
-    mut slope: impl FnMut(&State) -> State,
+    begin: &Phase,
+    first: &Phase,
+    mut slope: impl FnMut(&Phase) -> Phase,
+    members: [bool; BALLS],
     length: f64,
     radius: f64,
     tolerance: f64,
 ) -> Step {
+    let plus = |base: &Phase, slope: &Phase, factor: f64| plus(base, slope, factor, members);
     // The last row of the Aitken-Neville table.
-    let mut row: [State; ROUNDS] = [*begin; ROUNDS];
+    let mut row: [Phase; ROUNDS] = [*begin; ROUNDS];
     let mut best = Step { end: *begin, error: f64::INFINITY, rounds: ROUNDS };
     for round in 0..ROUNDS {
         let count = 2 * (round + 1);
-        let mut newer = midpoints(begin, first, &mut slope, length, count);
+        let h = length / count as f64;
+        // Gragg's method: leaps over the midpoint, smoothed at the end.
+        let mut before = *begin;
+        let mut now = plus(begin, first, h);
+        for _ in 1..count {
+            let after = plus(&before, &slope(&now), 2.0 * h);
+            (before, now) = (now, after);
+        }
+        let ahead = plus(&before, &slope(&now), h);
+        let mut newer = plus(&ahead, &plus(&now, &ahead, -1.0), 0.5);
         for column in 1..=round {
             let ratio = count as f64 / (2 * (round + 1 - column)) as f64;
             let weight = 1.0 / (ratio * ratio - 1.0);
             let older = row[column - 1];
             row[column - 1] = newer;
-            newer = plus(&newer, &difference(&newer, &older), weight);
+            newer = plus(&newer, &plus(&newer, &older, -1.0), weight);
         }
-        let error = if round == 0 { f64::INFINITY } else { size(&difference(&newer, &row[round - 1]), radius) };
+        let error = if round == 0 { f64::INFINITY } else { distance(&newer, &row[round - 1], members, radius) };
         row[round] = newer;
         best = Step { end: newer, error, rounds: round + 1 };
         if error <= tolerance {
@@ -53,40 +73,24 @@ pub fn extrapolate(
     best
 }
 
-/// Gragg's method: `count` leaps over the midpoint, smoothed at the end.
-fn midpoints(
-    begin: &State,
-    first: &State,
-    slope: &mut impl FnMut(&State) -> State,
-    length: f64,
-    count: usize,
-) -> State {
-    let h = length / count as f64;
-    let mut before = *begin;
-    let mut now = plus(begin, first, h);
-    for _ in 1..count {
-        let after = plus(&before, &slope(&now), 2.0 * h);
-        (before, now) = (now, after);
+#[inline(always)]
+fn plus(base: &Phase, slope: &Phase, factor: f64, members: [bool; BALLS]) -> Phase {
+    let mut sum = *base;
+    for ball in (0..BALLS).filter(|&ball| members[ball]) {
+        sum.balls[ball].position += factor * slope.balls[ball].position;
+        sum.balls[ball].velocity += factor * slope.balls[ball].velocity;
+        sum.balls[ball].spin += factor * slope.balls[ball].spin;
     }
-    let ahead = plus(&before, &slope(&now), h);
-    plus(&ahead, &difference(&now, &ahead), 0.5)
+    sum.time += factor * slope.time;
+    sum
 }
 
-fn plus(base: &State, slope: &State, factor: f64) -> State {
-    std::array::from_fn(|ball| BallState {
-        position: base[ball].position + factor * slope[ball].position,
-        velocity: base[ball].velocity + factor * slope[ball].velocity,
-        spin: base[ball].spin + factor * slope[ball].spin,
-    })
-}
-
-fn difference(one: &State, other: &State) -> State {
-    plus(one, other, -1.0)
-}
-
-fn size(state: &State, radius: f64) -> f64 {
-    state.iter().fold(0.0, |size, ball| {
-        size.max(ball.position.length()).max(ball.velocity.length()).max(radius * ball.spin.length())
+fn distance(one: &Phase, other: &Phase, members: [bool; BALLS], radius: f64) -> f64 {
+    (0..BALLS).filter(|&ball| members[ball]).fold((one.time - other.time).abs(), |size, ball| {
+        let (a, b) = (&one.balls[ball], &other.balls[ball]);
+        size.max(a.position.distance(b.position))
+            .max(a.velocity.distance(b.velocity))
+            .max(radius * a.spin.distance(b.spin))
     })
 }
 
@@ -98,17 +102,18 @@ mod tests {
 
     #[test]
     fn a_pendulum_swings_as_the_cosine() {
-        let slope = |state: &State| {
-            std::array::from_fn(|ball| BallState {
-                position: state[ball].velocity,
-                velocity: -state[ball].position,
+        let slope = |phase: &Phase| Phase {
+            balls: std::array::from_fn(|ball| BallState {
+                position: phase.balls[ball].velocity,
+                velocity: -phase.balls[ball].position,
                 spin: DVec3::ZERO,
-            })
+            }),
+            time: 1.0,
         };
-        let begin = [BallState::at_rest(DVec2::X); BALLS];
-        let step = extrapolate(&begin, &slope(&begin), slope, 0.5, 1.0, 1e-14);
-        assert!((step.end[1].position.x - 0.5_f64.cos()).abs() < 1e-14, "{step:?}");
-        assert!((step.end[2].velocity.x + 0.5_f64.sin()).abs() < 1e-14);
-        assert!(step.rounds < ROUNDS);
+        let begin = Phase { balls: [BallState::at_rest(DVec2::X); BALLS], time: 0.0 };
+        let step = extrapolate(&begin, &slope(&begin), slope, [false, true, true], 0.5, 1.0, 1e-14);
+        assert!((step.end.balls[1].position.x - 0.5_f64.cos()).abs() < 1e-14, "{step:?}");
+        assert!((step.end.balls[2].velocity.x + 0.5_f64.sin()).abs() < 1e-14);
+        assert!(step.rounds < ROUNDS && (step.end.time - 0.5).abs() < 1e-15);
     }
 }

@@ -4,12 +4,13 @@ use std::ops::ControlFlow;
 
 use super::{
     Observer, Rail, Segment,
+    contact_mode::ContactMode,
+    contacts::PAIRS,
     cushions::cushion_ahead,
     engine::{Ball, Engine, Meeting},
     meetings::{Triangle, balls_ahead},
     predict::{Ahead, curved_cushion_ahead},
     savings::Savings,
-    touches::PAIRS,
 };
 use crate::{physics::Motion, table::BALLS};
 
@@ -68,12 +69,12 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let still = ball.segment.motion == Motion::Stationary;
         let horizon = self.times[index] - now;
         let way = Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
-        let diameter = self.constants.diameter;
+        let apart = self.constants.diameter + self.constants.tolerance.surely_apart;
         for (pair, other) in PAIRS_OF[index] {
             let other = &self.balls[other].segment;
             let at_rest = other.motion == Motion::Stationary;
             // Most pairs end here: one ball passes another, which lies still.
-            if at_rest && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && way.clears(other.position, diameter))) {
+            if at_rest && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && way.clears(other.position, apart))) {
                 self.times[BALLS + pair] = f64::INFINITY;
                 self.pairs[pair] = Meeting::unseen(now, true);
             } else {
@@ -125,7 +126,6 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         match balls_ahead::<S>(&self.constants, a, b, now, horizon, may_rest) {
             Ahead::Nothing => {}
             Ahead::Meeting(after) => {
-                let after = after + self.crowd.delay();
                 self.pairs[index].after = after;
                 self.times[BALLS + index] = now + after;
             }
@@ -157,7 +157,7 @@ impl Ball {
             lasts: f64::INFINITY,
             rail_after: f64::INFINITY,
             rail: Rail::Left,
-            resting: false,
+            mode: ContactMode::Free,
         }
     }
 }

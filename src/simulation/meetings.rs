@@ -4,9 +4,10 @@ use glam::DVec2;
 
 use super::{
     Constants, Segment,
-    predict::{Ahead, PRESSING, RESTING_SPEED, SURELY_APART, TOUCHING, curved_balls_ahead, lesser, polynomial_closes},
+    predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
     roots::first_crossing,
     savings::Savings,
+    tolerance::Tolerance,
 };
 use crate::physics::Motion;
 
@@ -28,13 +29,13 @@ pub fn balls_ahead<S: Savings>(
     let d = first.position_after(t1) - second.position_after(t2);
     let dv = first.velocity_after(t1) - second.velocity_after(t2);
     let dk = first.half_acceleration - second.half_acceleration;
-    let diameter = 2.0 * constants.radius;
-    if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, diameter) {
+    let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
+    if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, diameter + tolerance.surely_apart) {
         return Ahead::Nothing;
     }
     let gap = d.length_squared() - diameter * diameter;
-    if gap <= 2.0 * diameter * TOUCHING {
-        return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
+    if gap <= 2.0 * diameter * tolerance.touching {
+        return touching_balls_ahead(tolerance, d, dv, dk, diameter, horizon, may_rest);
     }
     if matches!(
         (first.motion, second.motion),
@@ -71,8 +72,7 @@ impl Triangle {
     #[inline(always)]
     pub fn clears(&self, place: DVec2, distance: f64) -> bool {
         let (start, bend, end) = (self.start - place, self.bend - place, self.end - place);
-        let closest = distance + SURELY_APART;
-        let bound = closest * closest;
+        let bound = distance * distance;
         // All three points beyond the first line. Branches on the single comparisons would be guessed wrong too often.
         let away = start.length_squared();
         let least = lesser(lesser(start.dot(bend), start.dot(end)), away);
@@ -86,19 +86,28 @@ impl Triangle {
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
-fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64, may_rest: bool) -> Ahead {
+fn touching_balls_ahead(
+    tolerance: &Tolerance,
+    d: DVec2,
+    dv: DVec2,
+    dk: DVec2,
+    diameter: f64,
+    horizon: f64,
+    may_rest: bool,
+) -> Ahead {
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
     let separation = c1 / (2.0 * diameter);
-    if separation < -RESTING_SPEED {
+    if separation < -tolerance.opening {
         return Ahead::Meeting(0.0);
     }
-    if may_rest && separation <= RESTING_SPEED && c2 / diameter < -PRESSING {
+    if may_rest && separation <= tolerance.opening && c2 / diameter < -tolerance.pressing {
         return Ahead::Pressed;
     }
     // Coefficients of rounding's size would close and open the gap without end.
-    let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
+    let clean = |c: f64| if c.abs() < tolerance.pressing { 0.0 } else { c };
     polynomial_closes(
+        tolerance,
         &[0.0, c1, clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
         true,
         2.0 * diameter,

@@ -1,7 +1,9 @@
 //! When things happen: event prediction, the engine, the fixed-step method, and playback of what it recorded.
 
+mod chatter;
 mod constants;
-mod crowd;
+mod contact_mode;
+mod contacts;
 mod cushions;
 mod engine;
 mod events;
@@ -14,9 +16,8 @@ mod resting;
 mod roots;
 mod savings;
 mod segment;
-mod settling;
 mod steps;
-mod touches;
+mod tolerance;
 
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
@@ -25,3 +26,4 @@ pub use playback::{Recording, ShotError};
 pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};
 pub use steps::{StepError, Stepped, Steps};
+pub use tolerance::Tolerance;

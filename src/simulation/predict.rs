@@ -8,19 +8,8 @@ use glam::DVec2;
 use super::{
     Constants, Rail, Segment,
     roots::{MAX_DEGREE, first_crossing, horner},
+    tolerance::Tolerance,
 };
-/// Gaps below this are contact, m. Coordinates of up to a few metres are rounded to 4e-16 m, so a gap is known to about
-/// 1e-15 m; a real gap of 1e-14 m that is closed at once moves nothing that could be seen at 1e-9 m.
-pub const TOUCHING: f64 = 1e-14;
-
-/// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by less than 1e-10 m.
-pub const RESTING_SPEED: f64 = 1e-11;
-
-/// Accelerations along a contact's normal below this do not press, m/s²: rounding of g's size is 1e-15.
-pub const PRESSING: f64 = 1e-13;
-
-/// A gap that stays above this, m, is not closed by any rounding: courses within the table are rounded to 1e-14 m.
-pub const SURELY_APART: f64 = 1e-10;
 
 /// What lies ahead of a ball, or of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +36,7 @@ pub fn curved_cushion_ahead(
     horizon: f64,
     holds: impl Fn(Rail) -> bool,
 ) -> (Ahead, Rail) {
+    let tolerance = &constants.tolerance;
     let mut nearest = (Ahead::Nothing, Rail::Left);
     let mut earliest = horizon;
     let course = coefficients(segment);
@@ -54,10 +44,10 @@ pub fn curved_cushion_ahead(
         let inward = rail.normal();
         let mut gap = course.map(|c| c.dot(inward));
         gap[0] += inward.abs().dot(constants.reach);
-        if gap[0] > TOUCHING + travel(&gap.map(f64::abs), earliest) {
+        if gap[0] > tolerance.touching + travel(&gap.map(f64::abs), earliest) {
             continue;
         }
-        if let Ahead::Meeting(time) = polynomial_closes(&gap, gap[0] <= TOUCHING, 1.0, earliest) {
+        if let Ahead::Meeting(time) = polynomial_closes(tolerance, &gap, gap[0] <= tolerance.touching, 1.0, earliest) {
             earliest = time;
             nearest = (Ahead::Meeting(time), rail);
         }
@@ -80,7 +70,8 @@ pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segme
     }
     let diameter = 2.0 * constants.radius;
     // Most pairs are too far apart to meet in so short a time.
-    if d[0].length() - diameter > TOUCHING + travel(&d.map(DVec2::length), horizon) {
+    let tolerance = &constants.tolerance;
+    if d[0].length() - diameter > tolerance.touching + travel(&d.map(DVec2::length), horizon) {
         return Ahead::Nothing;
     }
     let mut gap = [0.0; MAX_DEGREE + 1];
@@ -90,8 +81,8 @@ pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segme
         }
     }
     gap[0] -= diameter * diameter;
-    let touching = gap[0] <= 2.0 * diameter * TOUCHING;
-    polynomial_closes(&gap, touching, 2.0 * diameter, horizon)
+    let touching = gap[0] <= 2.0 * diameter * tolerance.touching;
+    polynomial_closes(tolerance, &gap, touching, 2.0 * diameter, horizon)
 }
 
 /// How far a course with coefficients of these sizes can lead within `time`.
@@ -102,20 +93,20 @@ fn travel(sizes: &[f64; 6], time: f64) -> f64 {
 /// When the gap with these coefficients, in units of `scale` times metres, closes. That of balls which touch is divided by
 /// the time, whose root at zero is the contact that is already known; where they stay together for now, they meet again
 /// when the gap has closed by more than counts as touching.
-pub fn polynomial_closes(gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Ahead {
+pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Ahead {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();
     work[..count].copy_from_slice(gap);
     if touching {
         let opening = gap[1] / scale;
-        if opening < -RESTING_SPEED {
+        if opening < -tolerance.opening {
             return Ahead::Meeting(0.0);
         }
-        if opening > RESTING_SPEED {
+        if opening > tolerance.opening {
             work.copy_within(1.., 0);
             count -= 1;
         } else {
-            work[0] = scale * TOUCHING;
+            work[0] = scale * tolerance.touching;
         }
     }
     let work = &work[..count];

@@ -1,8 +1,9 @@
 //! Resting contacts in time: adaptive integration of balls pressed against cushions or each other.
 //!
 //! The equations have no closed form, since the slip turns under the friction of cloth and cushion together. They are
-//! integrated with an estimated error of at most [`TOLERANCE`] a step, from one change of regime to the next; a contact
-//! takes some tens of steps, so that it adds less than 1e-11 m to a ball's place.
+//! integrated with an estimated error of at most [`Tolerance::step`] a step, from one change of regime to
+//! the next. Where a slip ends its direction is singular in time; with time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip
+//! ends like an exponential and everything stays smooth.
 
 use std::cmp::Ordering;
 
@@ -10,37 +11,24 @@ use glam::DVec2;
 
 use super::{
     Constants, Rail,
-    extrapolation::{State, Step, extrapolate},
+    contacts::{close, touching},
+    extrapolation::{Phase, State, Step, extrapolate},
     segment::Curve,
-    touches::{SLOWEST_OPENING, Touches},
+    tolerance::Tolerance,
 };
 use crate::{
     physics::{
-        BallState, ENDING_SLIP, Forces, Laws, SLIP_TOLERANCE, Touch, contact_forces, forces_in_regime, rolling_spin,
-        slip, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, forces, resolve, rolling_spin, slip,
+        stop_by_impulses, yielding,
     },
     table::{BALLS, Table},
 };
 
-/// Estimated error that a step may make in metres, m/s, or R times rad/s, in a shot that does not go on and on.
-const TOLERANCE: f64 = 1e-13;
-
-/// Forces per mass that are broken or missing by less than this count as rounding, m/s².
-const SLACK: f64 = 1e-11;
-
-/// The same for accelerations where forces are not unique, m/s².
-const SHARED_SLACK: f64 = 1e-8;
-
 /// Shortest step, s. In it a speed changes by less than the tolerance of what is called slip.
 const SHORTEST_STEP: f64 = 1e-13;
 
-/// Shortest and longest step in which something begins to slip, s: its friction has no direction yet, and is wrong by less
-/// than what changes a speed by [`SLIP_TOLERANCE`].
-const SHORTEST_DEPARTURE: f64 = 1e-10;
-const LONGEST_DEPARTURE: f64 = 1e-5;
-
-/// A slip or speed may use up this share of itself in a step, so that its direction stays known.
-const STOPPING_SHARE: f64 = 0.9;
+/// A slip may fall to this power of `e` in a step: to a tenth.
+const FALL: f64 = 2.3;
 
 /// Longest step in s for a slip that turns in a time of one second; it grows with the time's power 2/3. The course is
 /// handed on as a polynomial of degree five, which strays by about `a h⁶/(2000 turn⁴)` in a step of `h` seconds: less
@@ -54,15 +42,25 @@ const LONGEST_CURVE: f64 = 0.02;
 /// the velocities themselves.
 const SHORTEST_QUINTIC: f64 = 1e-4;
 
+/// After an interruption a step is tried that is so many times as long as the one that was interrupted.
+const PATIENCE: f64 = 4.0;
+
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
 /// Steps that needed more rounds of extrapolation than this are followed by shorter ones, those with fewer by longer.
 const GOOD_ROUNDS: usize = 5;
 
-/// Balls in resting contact that are all slower than this many m/s are at rest. They would go on for less than 1e-10 m,
-/// in ever smaller steps as their slips fade with their speeds.
-pub const STILL_AT_REST: f64 = 3e-6;
+/// The slip that ends first, which sets the pace of the rescaled time.
+#[derive(Clone, Copy, Debug)]
+enum Pace {
+    /// None ends soon: time as it is.
+    Time,
+    /// A ball's on the cloth, its speed, or that of a contact (by index), which is this large at the start, m/s.
+    Cloth(usize, f64),
+    Roll(usize, f64),
+    Contact(usize, f64),
+}
 
 /// One step of the balls that rest against something.
 #[derive(Clone, Debug)]
@@ -77,131 +75,128 @@ pub struct Resting {
     pub begin: State,
     /// State at its end.
     pub end: State,
-    touches: Touches,
-    laws: Laws,
+    contacts: Contacts,
+    set: ActiveSet,
+    pace: Pace,
     first: Forces,
     last: Forces,
+    shared: bool,
     /// Step that is tried next, s.
-    next_step: f64,
-    /// Estimated error that a step may make in metres, m/s, or R times rad/s.
-    tolerance: f64,
+    pub next_step: f64,
+    constants: Constants,
 }
 
-/// A step that is tried, and the forces at its end in the regime of its beginning.
+/// A step that is tried, of a `span` of rescaled time, and the forces at its end in the regime of its beginning.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
-    length: f64,
+    span: f64,
     step: Step,
     forces: Forces,
 }
 
+/// What `Resting::begin` finds.
+pub enum Outcome {
+    /// A step of balls that press each other.
+    Rests(Box<Resting>),
+    /// Nothing presses; the balls as they go on, and those of them whose slips end here.
+    Free(State, [bool; BALLS]),
+}
+
 impl Resting {
-    /// One step from `balls` at time `start`, or `None` where no contact presses. The `previous` step, if there is one,
-    /// tells how long the step may be.
+    /// One step from `balls` at time `start`, if any contact presses, of `next_step` seconds at most. The `previous` step,
+    /// if there is one, tells what yields.
     pub fn begin(
         table: &Table,
         constants: &Constants,
         start: f64,
         balls: &State,
         previous: Option<&Self>,
-        coarseness: f64,
-    ) -> Option<Self> {
-        let mut touches = Touches::of(constants, balls, SLOWEST_OPENING * coarseness.min(1e3));
-        let ending = ENDING_SLIP * coarseness.min(1e4);
-        let (begin, laws, first) = loop {
-            if touches.as_slice().is_empty() {
-                return None;
-            }
-            let (begin, laws, first) = lawful(table, balls, touches.as_slice(), ending);
-            // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
-            let mut normals = first.normal.iter();
-            if !touches.retain(|_| normals.next().is_some_and(|normal| *normal > SLACK)) {
-                break (begin, laws, first);
-            }
+        next_step: f64,
+    ) -> Outcome {
+        let tolerance = constants.tolerance;
+        let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * tolerance.slowest_bounce);
+        let pushing = tolerance.slack + idle_pressing(constants, balls, &contacts);
+        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, pushing, previous) else {
+            return without_ending_slips(table, constants, balls, &contacts);
         };
-        let mut members = [false; BALLS];
-        for touch in touches.as_slice() {
-            members[touch.first] = true;
-            if let Some(second) = touch.second {
-                members[second] = true;
-            }
-        }
-        let next_step = previous.map_or(f64::INFINITY, |previous| previous.next_step);
-        let tolerance = TOLERANCE * coarseness.min(1e4);
+        let Resolved { contacts, set, forces, shared, .. } = resolved;
         let mut resting = Self {
-            members,
+            members: std::array::from_fn(|ball| contacts.hold(ball)),
             start,
             step: 0.0,
             end: begin,
             begin,
-            touches,
-            laws,
-            first,
-            last: first,
+            contacts,
+            set,
+            pace: Pace::Time,
+            first: forces,
+            last: forces,
+            shared,
             next_step,
-            tolerance,
+            constants: *constants,
         };
         resting.advance(table);
-        Some(resting)
+        Outcome::Rests(Box::new(resting))
     }
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let mut trial = self.attempt(table, self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP));
-        while trial.step.error > self.tolerance && trial.length > SHORTEST_STEP {
-            trial = self.attempt(table, (0.4 * trial.length).max(SHORTEST_STEP));
+        let longest = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
+        let mut trial = self.attempt(table, longest);
+        // What is not a number is no small error.
+        while !(trial.step.error <= self.constants.tolerance.step || trial.span <= SHORTEST_STEP) {
+            trial = self.attempt(table, 0.4 * trial.span);
         }
         let growth = match trial.step.rounds.cmp(&GOOD_ROUNDS) {
-            Ordering::Less => 2.0,
+            Ordering::Less => 4.0,
             Ordering::Equal => 1.2,
             Ordering::Greater => 0.7,
         };
         // Never so short that a long series of steps could not grow out of it.
-        self.next_step = (growth * trial.length).max(1e3 * SHORTEST_STEP);
-        // A step in which something begins to slip is too short for laws to matter.
-        let settled = self.first.departure == 0.0;
-        let doubtful = trial.forces.slack < -SLACK || self.first.is_shared();
-        if settled && doubtful && !self.holds(table, &trial) {
+        self.next_step = (growth * trial.step.end.time).max(1e3 * SHORTEST_STEP);
+        let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
+        if doubtful && !self.holds(table, &trial) {
             trial = self.until_a_law_breaks(table, &trial);
         }
-        self.step = trial.length;
+        self.step = trial.step.end.time;
         self.last = trial.forces;
-        self.end = self.settled(table, trial.step.end);
+        self.end = self.settled(table, trial.step.end.balls);
     }
 
-    fn attempt(&self, table: &Table, length: f64) -> Trial {
-        let step = self.integrate(table, length);
-        Trial { length, step, forces: self.forces(table, &step.end) }
+    fn attempt(&self, table: &Table, span: f64) -> Trial {
+        let step = self.integrate(table, span);
+        Trial { span, step, forces: self.forces(table, &step.end.balls) }
     }
 
     /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
     fn until_a_law_breaks(&self, table: &Table, whole: &Trial) -> Trial {
-        if whole.forces.slack < -SLACK {
+        if whole.forces.slack < -self.constants.tolerance.slack {
             let shorter = self.until_the_slack_ends(table, whole);
-            if !self.holds(table, &shorter) {
+            if !self.shared || !self.holds(table, &shorter) {
                 return shorter;
             }
         }
         self.while_it_holds(table, whole)
     }
 
-    /// Finds the zero of `slack + SLACK`, by false position with the Illinois rule.
+    /// Finds the zero of the slack, by false position with the Illinois rule.
     fn until_the_slack_ends(&self, table: &Table, whole: &Trial) -> Trial {
+        let allowed = self.constants.tolerance.slack;
         let mut after = *whole;
-        let (mut low, mut low_value) = (0.0, (self.first.slack + SLACK).max(0.0));
-        let mut high_value = after.forces.slack + SLACK;
+        let (mut low, mut low_value) = (0.0, (self.first.slack + allowed).max(0.0));
+        let mut high_value = after.forces.slack + allowed;
         for _ in 0..MAX_GUESSES {
-            if high_value >= -SLACK || after.length - low <= SHORTEST_STEP {
+            if high_value >= -allowed || after.span - low <= SHORTEST_STEP {
                 break;
             }
             let share = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
-            let middle = self.attempt(table, low + share * (after.length - low));
-            let value = middle.forces.slack + SLACK;
+            let middle = self.attempt(table, low + share * (after.span - low));
+            let value = middle.forces.slack + allowed;
             if value < 0.0 {
                 (after, high_value) = (middle, value);
                 low_value *= 0.5;
             } else {
-                (low, low_value) = (middle.length, value);
+                (low, low_value) = (middle.span, value);
                 high_value *= 0.5;
             }
         }
@@ -212,10 +207,10 @@ impl Resting {
     fn while_it_holds(&self, table: &Table, whole: &Trial) -> Trial {
         let mut after = *whole;
         let mut low = 0.0;
-        while after.length - low > SHORTEST_STEP.max(1e-9 * after.length) {
-            let middle = self.attempt(table, 0.5 * (low + after.length));
+        while after.span - low > SHORTEST_STEP.max(1e-9 * after.span) {
+            let middle = self.attempt(table, 0.5 * (low + after.span));
             if self.holds(table, &middle) {
-                low = middle.length;
+                low = middle.span;
             } else {
                 after = middle;
             }
@@ -225,22 +220,33 @@ impl Resting {
 
     /// Whether the forces at a step's end are those that obey all laws.
     fn holds(&self, table: &Table, trial: &Trial) -> bool {
-        let Trial { step, forces, .. } = trial;
-        let lawful = contact_forces(table, &step.end, self.touches.as_slice(), &self.laws, Some(forces));
-        forces.distance(&lawful, table.radius) <= SHARED_SLACK
+        let end = &trial.step.end.balls;
+        let turned = |ball: usize| match self.set.spin[ball] {
+            Friction::Slips(sign) => table.radius * end[ball].spin.z * sign.x < -self.constants.tolerance.slip,
+            Friction::Sticks | Friction::Yields => false,
+        };
+        if (0..BALLS).any(|ball| self.members[ball] && turned(ball)) {
+            return false;
+        }
+        resolve(table, end, &self.contacts, &self.set, self.constants.tolerance.slack, Some(&trial.forces)).is_some_and(
+            |lawful| trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * self.constants.tolerance.slack,
+        )
     }
 
-    /// Longest step after which every slip, speed and spin still has its direction, and whose course a polynomial can
-    /// follow, s.
-    fn longest_step(&self, radius: f64) -> f64 {
+    /// Longest step whose course a polynomial can follow, in rescaled time; sets the pace.
+    fn longest_step(&mut self, radius: f64) -> f64 {
         let mut longest = LONGEST_CURVE;
-        let mut limit = |size: DVec2, rate: DVec2| {
-            let falling = -rate.dot(size) / size.length();
-            if falling > 0.0 {
-                longest = longest.min(STOPPING_SHARE * size.length() / falling);
+        let (mut soonest, mut pace) = (f64::INFINITY, Pace::Time);
+        let mut limit = |friction: Friction, size: DVec2, rate: DVec2, paced: fn(usize, f64) -> Pace, index| {
+            let length = size.length();
+            if !matches!(friction, Friction::Slips(_)) || length <= self.constants.tolerance.slip {
+                return;
             }
-            let turns = size.length() / rate.length();
-            longest = longest.min(LONGEST_STEP * turns.powf(2.0 / 3.0));
+            longest = longest.min(LONGEST_STEP * (length / rate.length()).powf(2.0 / 3.0));
+            let falls = -length * length / rate.dot(size);
+            if falls > 0.0 && falls < soonest {
+                (soonest, pace) = (falls, paced(index, length));
+            }
         };
         let rates: State = std::array::from_fn(|ball| BallState {
             position: self.begin[ball].position,
@@ -249,72 +255,140 @@ impl Resting {
         });
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             let (state, rate) = (&self.begin[ball], &rates[ball]);
-            if self.laws.slips[ball] {
-                limit(slip(radius, state.velocity, state.spin), slip(radius, rate.velocity, rate.spin));
-            } else if self.laws.moves[ball] {
-                limit(state.velocity, rate.velocity);
-            }
-            if self.laws.spins[ball] {
-                limit(DVec2::new(state.spin.z, 0.0), DVec2::new(rate.spin.z, 0.0));
+            let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
+            limit(self.set.cloth[ball], slip(state), slip(rate), Pace::Cloth, ball);
+            if self.set.cloth[ball] == Friction::Sticks {
+                limit(self.set.roll[ball], state.velocity, rate.velocity, Pace::Roll, ball);
             }
         }
-        for (touch, rubs) in self.touches.as_slice().iter().zip(self.laws.rubs) {
-            if rubs {
-                limit(touch.slip(radius, &self.begin), touch.slip(radius, &rates));
-            }
+        for (index, contact) in self.contacts.as_slice().iter().enumerate() {
+            let (slip, rate) = (contact.slip(radius, &self.begin), contact.slip(radius, &rates));
+            limit(self.set.contact[index], slip, rate, Pace::Contact, index);
         }
-        if self.first.departure > 0.0 {
-            // What begins to slip has no direction yet: it gets one.
-            let long_enough = 3.0 * SLIP_TOLERANCE / self.first.departure;
-            longest = longest.min(long_enough.clamp(SHORTEST_DEPARTURE, LONGEST_DEPARTURE));
+        // A slip that is far from its end needs no other time.
+        if longest < 0.1 * soonest {
+            return longest;
         }
-        longest
+        self.pace = pace;
+        let share = 1.0 - longest / soonest;
+        if share > 0.0 { soonest * FALL.min(-share.ln()) } else { FALL * soonest }
+    }
+
+    /// How fast time runs in rescaled time.
+    fn time_rate(&self, radius: f64, balls: &State) -> f64 {
+        match self.pace {
+            Pace::Time => 1.0,
+            Pace::Cloth(ball, from) => slip(radius, balls[ball].velocity, balls[ball].spin).length() / from,
+            Pace::Roll(ball, from) => balls[ball].velocity.length() / from,
+            Pace::Contact(index, from) => self.contacts.as_slice()[index].slip(radius, balls).length() / from,
+        }
     }
 
     /// State `time` seconds after the start of the step, by one shorter step of the same method.
     pub fn after(&self, table: &Table, time: f64) -> State {
+        if time >= self.step { self.end } else { self.settled(table, self.until(table, time).step.end.balls) }
+    }
+
+    /// Ends the step `time` seconds after its start: its course is that of the shorter step.
+    pub fn cut(&mut self, table: &Table, time: f64) {
         if time >= self.step {
-            return self.end;
+            return;
         }
-        self.settled(table, self.integrate(table, time).end)
+        let trial = self.until(table, time);
+        (self.step, self.last) = (time, trial.forces);
+        self.end = self.settled(table, trial.step.end.balls);
+        if time > 0.0 {
+            // What comes next is likely to be interrupted as soon.
+            self.next_step = PATIENCE * time;
+        }
+    }
+
+    /// The step that ends after `time` seconds.
+    fn until(&self, table: &Table, time: f64) -> Trial {
+        let mut trial = self.attempt(table, time);
+        if !matches!(self.pace, Pace::Time) {
+            // Newton's steps: how fast time runs is known.
+            for _ in 0..MAX_GUESSES {
+                let late = time - trial.step.end.time;
+                if late.abs() <= 4.0 * f64::EPSILON * time {
+                    break;
+                }
+                trial = self.attempt(table, trial.span + late / self.time_rate(table.radius, &trial.step.end.balls));
+            }
+        }
+        trial
     }
 
     /// Takes the rounding out of a later state.
     fn settled(&self, table: &Table, mut balls: State) -> State {
-        let laws = Laws::of(table.radius, &balls, self.touches.as_slice(), SLIP_TOLERANCE);
-        settle(table, &mut balls, self.touches.as_slice(), &laws);
+        let contacts = self.contacts.as_slice();
+        let set = ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).slipping_where(&self.set);
+        settle(table, &self.constants, &mut balls, contacts, &set);
         balls
     }
 
-    fn integrate(&self, table: &Table, length: f64) -> Step {
-        let slope = |state: &State| self.slope(state, &self.forces(table, state));
-        extrapolate(&self.begin, &self.slope(&self.begin, &self.first), slope, length, table.radius, self.tolerance)
+    fn integrate(&self, table: &Table, span: f64) -> Step {
+        let begin = Phase { balls: self.begin, time: 0.0 };
+        let slope = |phase: &Phase| self.slope(table.radius, &phase.balls, &self.forces(table, &phase.balls));
+        let first = self.slope(table.radius, &self.begin, &self.first);
+        extrapolate(&begin, &first, slope, self.members, span, table.radius, self.constants.tolerance.step)
     }
 
     /// The forces in this step's regime.
     fn forces(&self, table: &Table, state: &State) -> Forces {
-        forces_in_regime(table, state, self.touches.as_slice(), &self.laws, &self.first)
+        let contacts = self.contacts.as_slice();
+        if self.set.yields() {
+            return yielding(table, state, contacts, &self.set, &self.first);
+        }
+        forces(table, state, contacts, &self.set, Some(&self.first)).unwrap_or(self.first)
     }
 
-    fn slope(&self, state: &State, forces: &Forces) -> State {
-        std::array::from_fn(|ball| {
-            if self.members[ball] {
-                BallState { position: state[ball].velocity, velocity: forces.linear[ball], spin: forces.angular[ball] }
-            } else {
-                BallState::at_rest(DVec2::ZERO)
+    fn slope(&self, radius: f64, state: &State, forces: &Forces) -> Phase {
+        let rate = self.time_rate(radius, state);
+        let balls = std::array::from_fn(|ball| BallState {
+            position: rate * state[ball].velocity,
+            velocity: rate * forces.linear[ball],
+            spin: rate * forces.angular[ball],
+        });
+        Phase { balls, time: rate }
+    }
+
+    /// Frictions that have yielded go on so while their slips are small.
+    fn goes_on_yielding(
+        &self,
+        radius: f64,
+        tolerance: &Tolerance,
+        balls: &State,
+        contacts: &[Contact],
+        set: &mut ActiveSet,
+    ) {
+        let small = |slip: DVec2| slip.length() <= tolerance.yielding;
+        for (ball, state) in balls.iter().enumerate() {
+            if self.set.cloth[ball] == Friction::Yields && small(slip(radius, state.velocity, state.spin)) {
+                set.cloth[ball] = Friction::Yields;
             }
-        })
+            if self.set.roll[ball] == Friction::Yields && small(state.velocity) {
+                set.roll[ball] = Friction::Yields;
+            }
+        }
+        for (index, contact) in contacts.iter().enumerate() {
+            let before = self.contacts.as_slice().iter().position(|before| before == contact);
+            if before.is_some_and(|before| self.set.contact[before] == Friction::Yields)
+                && small(contact.slip(radius, balls))
+            {
+                set.contact[index] = Friction::Yields;
+            }
+        }
     }
 
     /// Whether these two balls press each other.
-    pub fn holds_together(&self, pair: (usize, usize)) -> bool {
-        self.touches.as_slice().iter().any(|touch| (touch.first, touch.second) == (pair.0, Some(pair.1)))
+    pub fn holds_together(&self, (first, second): (usize, usize)) -> bool {
+        self.contacts.as_slice().iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
     }
 
     /// Whether this cushion holds the ball.
     pub fn holds_at(&self, ball: usize, rail: Rail) -> bool {
-        let held = Touch { first: ball, second: None, rail_normal: rail.normal() };
-        self.touches.as_slice().contains(&held)
+        self.contacts.as_slice().contains(&Contact::with_cushion(ball, rail.normal()))
     }
 
     /// Half the acceleration at the start of the step, and the rest of a ball's course as polynomials.
@@ -341,47 +415,116 @@ impl Resting {
     }
 }
 
-/// The state without the slips that end here, the laws that hold then, and the forces.
-fn lawful(table: &Table, balls: &State, touches: &[Touch], ending: f64) -> (State, Laws, Forces) {
-    let mut balls = *balls;
-    if table.ball_friction.is_none() {
-        // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
-        // where the cloth has no time to take part.
-        stop_by_impulses(table, &mut balls, touches, &Laws::SLIPPING);
-    }
-    let stopped = |none: f64| {
-        let laws = Laws::of(table.radius, &balls, touches, none);
-        let mut begin = balls;
-        settle(table, &mut begin, touches, &laws);
-        let forces = contact_forces(table, &begin, touches, &laws, None);
-        (begin, laws, forces)
+/// The state without the slips that end here, and the regime that holds then; none where no contact presses.
+fn lawful(
+    table: &Table,
+    constants: &Constants,
+    balls: &State,
+    contacts: &Contacts,
+    pushing: f64,
+    previous: Option<&Resting>,
+) -> Option<(State, Resolved)> {
+    let tolerance = &constants.tolerance;
+    let new = |contact: &Contact| {
+        contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
     };
-    let ended = stopped(ending);
-    // What would begin to slip again at once has not ended.
-    if ended.2.departure > 0.0 { stopped(SLIP_TOLERANCE) } else { ended }
+    let begun = table.ball_friction.is_none() && contacts.as_slice().iter().any(new);
+    let stopped = |none: f64, balls: &State, contacts: &Contacts| {
+        let mut begin = *balls;
+        let touching = contacts.as_slice();
+        if begun {
+            // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
+            // where the cloth has no time to take part.
+            let grips = |contact: Option<&Contact>| match contact {
+                Some(contact) if contact.second.is_some() => Friction::Sticks,
+                _ => Friction::Slips(DVec2::ZERO),
+            };
+            let contact = std::array::from_fn(|index| grips(touching.get(index)));
+            stop_by_impulses(table, &mut begin, touching, &ActiveSet { contact, ..ActiveSet::SLIPPING });
+        }
+        let mut set = ActiveSet::of(table, &begin, touching, none);
+        if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
+            previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
+        }
+        settle(table, constants, &mut begin, touching, &set);
+        // What yields goes on from the forces that it had.
+        let similar = previous.filter(|_| set.yields()).map(|previous| &previous.last);
+        let resolved = resolve(table, &begin, contacts, &set, pushing, similar)?;
+        let departs = resolved.set != set && {
+            let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
+            resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
+        };
+        Some((begin, resolved, departs))
+    };
+    let (mut contacts, mut balls) = (*contacts, *balls);
+    loop {
+        if contacts.as_slice().is_empty() {
+            return None;
+        }
+        let ended = stopped(tolerance.ending_slip, &balls, &contacts)?;
+        // What would begin to slip again at once has not ended.
+        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &balls, &contacts)? } else { ended };
+        // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
+        if resolved.contacts.as_slice().len() == contacts.as_slice().len() {
+            return Some((begin, resolved));
+        }
+        for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && !resolved.contacts.hold(ball)) {
+            // A slip that has ended has done so for a ball that nothing holds, too.
+            if resolved.set.cloth[ball] == Friction::Sticks {
+                balls[ball] = begin[ball];
+            }
+        }
+        contacts = resolved.contacts;
+    }
+}
+
+/// Pressing that cannot matter before the slips end that make it, m/s²: it moves nothing by as much as a speed that counts
+/// for none, or is no more than the rounding of the slips' directions, which are the less known the smaller a slip is beside
+/// the speeds that it is the difference of.
+fn idle_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
+    let idle = |ball: &BallState| {
+        let slip = slip(constants.radius, ball.velocity, ball.spin).length();
+        if slip <= constants.tolerance.ending_slip {
+            return 0.0;
+        }
+        let speeds = ball.velocity.length() + constants.radius * ball.spin.truncate().length();
+        let rounding = 32.0 * f64::EPSILON * speeds / slip * constants.sliding;
+        rounding.max(constants.tolerance.opening / (slip * constants.slide_time))
+    };
+    let members = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball));
+    members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
+}
+
+/// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
+/// as rolling must not slide when it is free.
+fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> Outcome {
+    let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
+    let ends = |(ball, state): (usize, &BallState)| {
+        contacts.hold(ball)
+            && set.cloth[ball] == Friction::Sticks
+            && slip(table.radius, state.velocity, state.spin) != DVec2::ZERO
+    };
+    let mut ended = *balls;
+    if balls.iter().enumerate().any(ends) {
+        settle(table, constants, &mut ended, contacts.as_slice(), &set);
+    }
+    Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]))
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
-/// spinning by `laws` has stopped exactly.
-fn settle(table: &Table, balls: &mut State, touches: &[Touch], laws: &Laws) {
-    for touch in touches {
-        if let Some(second) = touch.second {
-            let n = touch.normal(balls);
-            let gap = balls[touch.first].position.distance(balls[second].position) - 2.0 * table.radius;
-            balls[touch.first].position -= 0.5 * gap * n;
-            balls[second].position += 0.5 * gap * n;
-        }
-    }
-    stop_by_impulses(table, balls, touches, laws);
+/// spinning by `set` has stopped exactly.
+fn settle(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
+    close(constants, balls, contacts);
+    stop_by_impulses(table, balls, contacts, set);
     for (ball, state) in balls.iter_mut().enumerate() {
-        if !touches.iter().any(|touch| touch.first == ball || touch.second == Some(ball)) {
+        if !contacts.iter().any(|contact| contact.has(ball)) {
             continue;
         }
-        if !laws.spins[ball] {
+        if set.spin[ball] == Friction::Sticks {
             state.spin.z = 0.0;
         }
-        if !laws.slips[ball] {
-            if !laws.moves[ball] {
+        if set.cloth[ball] == Friction::Sticks {
+            if set.roll[ball] == Friction::Sticks {
                 state.velocity = DVec2::ZERO;
             }
             state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);

@@ -8,10 +8,6 @@ use crate::physics::{BallState, Motion, decayed_spin, slip};
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Balls whose velocity and spin are both below this many m/s (R times rad/s), alone or against each other, are at rest.
-/// Friction stops them within 2e-6 s and 1e-13 m; until then, they could hit each other thousands of times.
-pub const STILL: f64 = 1e-7;
-
 /// Brings balls to rest if all of them are slower than `limit`, m/s.
 #[inline(always)]
 pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {

@@ -1,50 +1,35 @@
 //! Forces and accelerations of balls in resting contact.
-//!
-//! Where it is known which contacts push and which frictions hold — the regime — the forces follow from a linear system.
-//! The regime is found by an active-set method: the law that is broken most is mended until none is. Should that go in
-//! circles, projected sweeps find forces that obey all laws, if more slowly.
 
 use glam::{DVec2, DVec3};
 
 use super::{
-    Laws, MAX_TOUCHES, Touch,
+    ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
     linear::Factorized,
-    problem::{Accelerations, Direction, Limit, MAX_GRIPS, Problem},
-    regime::{NEGLIGIBLE, Regime, Solution, limit_of},
-    sweeps::sweep,
+    problem::{GYRATION, Limit, Place, Problem, Row, Unknown, coefficient},
+    solve::{PROXIMITY, ROUNDING, Side, solve},
 };
 use crate::{
-    physics::BallState,
+    physics::{BallState, slip},
     table::{BALLS, Table},
 };
 
-/// Most changes of regime that are tried. A ball that comes to stick in several places at once needs about ten.
-const MAX_CHANGES: usize = 40;
-
-/// Added to the system's diagonal, whose entries are 1 to 10. A ball that sticks to several things at once is held more
-/// often than needed, so that forces are not unique; this picks those nearest to what they were.
-const PROXIMITY: f64 = 1e-7;
+/// Most scalar unknowns: a normal and two frictions a contact, five frictions of the cloth a ball.
+const MAX_UNKNOWNS: usize = 3 * MAX_CONTACTS + 5 * BALLS;
 
 /// Rounds of refinement that take the effect of [`PROXIMITY`] out again.
 const MAX_REFINEMENTS: usize = 8;
 
-/// Most attempts to find other forces with the same effect where those found break their limits.
-const MAX_PULLS: usize = 40;
+/// What begins to slip more slowly than this share of g holds: in a second it would come to 1e-9 m/s.
+const DEPARTING: f64 = 1e-10;
 
-/// Share of its limit to which a friction beyond it is pulled back, so that it will not be at the limit again at once.
-const WELL_INSIDE: f64 = 0.9;
+/// The speed that gives a direction to what begins to slip, m/s: far below every slip that counts.
+const STARTING: f64 = 1e-8;
 
-/// Forces per mass that come back to within this of what they were are the only ones, m/s².
-const UNIQUE: f64 = 1e-9;
+/// A slip that begins with less than this share of its friction's acceleration begins slowly: its direction would follow the
+/// friction's so fast that no step could be long.
+const SLOW_START: f64 = 0.3;
 
-/// Residual accelerations above this show that what is to hold cannot, m/s². What sticks to several things at once does
-/// so to within the rounding of its speeds only.
-const INCONSISTENT: f64 = 1e-11;
-
-/// Residual accelerations below this are rounding, m/s².
-const RESIDUAL: f64 = 1e-14;
-
-/// Accelerations of all balls, and how hard each contact pushes.
+/// Accelerations of all balls, and the forces of contacts and of frictions that hold.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces {
     /// Acceleration, m/s².
@@ -52,94 +37,322 @@ pub struct Forces {
     /// Angular acceleration, rad/s².
     pub angular: [DVec3; BALLS],
     /// Normal force per ball mass of each contact, m/s².
-    pub normal: [f64; MAX_TOUCHES],
+    pub normal: [f64; MAX_CONTACTS],
     /// By how much all laws hold, m/s²: negative where the regime that was asked for has ended.
     pub slack: f64,
-    /// How fast something that is about to slip begins to, m/s²; zero where all that holds goes on holding.
-    pub departure: f64,
-    grip: [DVec2; MAX_GRIPS],
-    regime: Regime,
+    /// Sizes of the problem's unknowns, to start from in a similar state.
+    sizes: [f64; MAX_UNKNOWNS],
 }
 
-/// Accelerations of balls in resting contact; those without a contact get none. `laws` say what slips. The search starts
-/// from the forces of a `similar` state with the same contacts and laws, if there is one.
-pub fn contact_forces(
+/// The regime that holds in a state.
+#[derive(Clone, Debug)]
+pub struct Resolved {
+    /// The contacts that push.
+    pub contacts: Contacts,
+    /// What their frictions do.
+    pub set: ActiveSet,
+    /// The forces.
+    pub forces: Forces,
+    /// Whether frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
+    pub shared: bool,
+    /// Whether all laws hold to rounding.
+    pub converged: bool,
+}
+
+/// Finds which of the `contacts` push and which frictions hold, and the forces; `set` tells what slips already. `None`
+/// where nothing pushes by more than `slack`, m/s². Where forces are not unique they are near to the `similar` ones.
+pub fn resolve(
     table: &Table,
     balls: &[BallState; BALLS],
-    touches: &[Touch],
-    laws: &Laws,
+    contacts: &Contacts,
+    set: &ActiveSet,
+    slack: f64,
     similar: Option<&Forces>,
-) -> Forces {
-    let problem = Problem::new(table, balls, touches, laws);
-    let mut regime =
-        Regime { shared: Regime::HOLDING.shared, ..similar.map_or(Regime::HOLDING, |similar| similar.regime) };
-    let mut guess = Solution::guess(&problem, similar);
-    for _ in 0..MAX_CHANGES {
-        let Some(solution) = solve(&problem, &regime, &guess, MAX_PULLS) else { break };
-        guess = solution;
-        if !regime.mend(&problem, &solution) {
-            return Forces::of(&problem, regime, &solution);
+) -> Option<Resolved> {
+    let problem = Problem::new(table, balls, contacts.as_slice(), set);
+    let none = [0.0; MAX_UNKNOWNS];
+    let guess = similar.map_or(&none, |similar| &similar.sizes);
+    let solution = solve(&problem, &guess[..problem.rates.len()]);
+    let accelerations = problem.accelerations(&solution.sizes);
+    let mut resolved = Resolved {
+        contacts: *contacts,
+        set: *set,
+        forces: Forces::of(table.radius, &problem, &solution.sizes, &accelerations),
+        shared: false,
+        converged: solution.converged,
+    };
+    let never_slips = |place: Place| {
+        let of_balls = |index: usize| contacts.as_slice()[index].second.is_some();
+        table.ball_friction.is_none() && matches!(place, Place::Contact(index) if of_balls(index))
+    };
+    let pushes = |index: usize| resolved.forces.normal[index] > slack;
+    let mut kept = [Friction::Sticks; MAX_CONTACTS];
+    let mut count = 0;
+    for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
+        let Side::Limited(force) = *side else { continue };
+        let rates: [f64; 2] = std::array::from_fn(|axis| {
+            if axis < unknown.count { problem.rates[unknown.first + axis].dot(&accelerations) } else { 0.0 }
+        });
+        let rate = DVec2::from_array(rates).length();
+        let holds = rate <= DEPARTING * table.gravity;
+        resolved.shared |= holds;
+        let size = solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| size.hypot(*x));
+        let starts = match unknown.count {
+            1 => Friction::Slips(-force),
+            _ if rate < SLOW_START * size || never_slips(unknown.place) => Friction::Yields,
+            _ => Friction::Slips(-STARTING * force),
+        };
+        match unknown.place {
+            _ if holds => {}
+            Place::Normal(_) => {}
+            Place::Cloth(ball) => resolved.set.cloth[ball] = starts,
+            Place::Roll(ball) => resolved.set.roll[ball] = starts,
+            Place::Spin(ball) => resolved.set.spin[ball] = starts,
+            Place::Contact(index) => resolved.set.contact[index] = starts,
         }
     }
-    let (regime, solution) = sweep(&problem, &guess);
-    Forces::of(&problem, regime, &solution)
+    for index in 0..contacts.as_slice().len() {
+        if pushes(index) {
+            kept[count] = resolved.set.contact[index];
+            count += 1;
+        }
+    }
+    resolved.contacts.retain(|index, _| pushes(index));
+    if count == 0 {
+        return None;
+    }
+    resolved.set.contact = kept;
+    resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(&problem, &solution.sizes));
+    Some(resolved)
 }
 
-/// The same where what pushes and holds is known to be what it was in a `similar` state: a smooth function of the state,
-/// also a little beyond the regime's end, which [`Forces::slack`] tells.
-pub fn forces_in_regime(
+/// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the regime's end,
+/// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
+pub fn forces(
     table: &Table,
     balls: &[BallState; BALLS],
-    touches: &[Touch],
-    laws: &Laws,
+    contacts: &[Contact],
+    set: &ActiveSet,
+    similar: Option<&Forces>,
+) -> Option<Forces> {
+    if let [contact] = contacts
+        && let Some(forces) = slipping(table, balls, contact, set)
+    {
+        return Some(forces);
+    }
+    let problem = Problem::new(table, balls, contacts, set);
+    let mut sizes = [0.0; MAX_UNKNOWNS];
+    if let Some(similar) = similar {
+        sizes = similar.sizes;
+    }
+    let sizes = &mut sizes[..problem.rates.len()];
+    let accelerations = balance(&problem, problem.known, &problem.bias, sizes)?;
+    let mut forces = Forces::of(table.radius, &problem, sizes, &accelerations);
+    forces.slack = spin_slack(table.radius, balls, set).min(slack_of(&problem, sizes));
+    Some(forces)
+}
+
+/// The same where a friction yields: what holds is sought anew in every state.
+pub fn yielding(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
     similar: &Forces,
 ) -> Forces {
-    let problem = Problem::new(table, balls, touches, laws);
-    let guess = Solution::guess(&problem, Some(similar));
-    match solve(&problem, &similar.regime, &guess, 0) {
-        Some(solution) => Forces::of(&problem, similar.regime, &solution),
-        None => contact_forces(table, balls, touches, laws, Some(similar)),
+    let problem = Problem::new(table, balls, contacts, set);
+    let solution = solve(&problem, &similar.sizes[..problem.rates.len()]);
+    let accelerations = problem.accelerations(&solution.sizes);
+    let mut forces = Forces::of(table.radius, &problem, &solution.sizes, &accelerations);
+    forces.slack = spin_slack(table.radius, balls, set);
+    for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
+        let friction = match unknown.place {
+            Place::Normal(_) | Place::Spin(_) => Friction::Sticks,
+            Place::Cloth(ball) => set.cloth[ball],
+            Place::Roll(ball) => set.roll[ball],
+            Place::Contact(index) => set.contact[index],
+        };
+        // Any law that changes sides ends the regime: as fast as its rate grows, or its force falls below the limit.
+        let rows = &problem.rates[unknown.first..][..unknown.count];
+        let slack = match side {
+            Side::Holds if friction == Friction::Yields => -slack_of_one(unknown, &solution.sizes),
+            Side::Holds => slack_of_one(unknown, &solution.sizes),
+            Side::Limited(_) if friction == Friction::Yields => f64::INFINITY,
+            _ => -rows.iter().fold(0.0_f64, |rate, row| rate.hypot(row.dot(&accelerations))),
+        };
+        forces.slack = forces.slack.min(slack);
+    }
+    forces.slack = forces.slack.min(table.gravity);
+    forces
+}
+
+/// By how much the laws hold of forces that were found by supposing which do.
+fn slack_of(problem: &Problem, sizes: &[f64]) -> f64 {
+    problem.unknowns.iter().fold(f64::INFINITY, |slack, unknown| slack.min(slack_of_one(unknown, sizes)))
+}
+
+fn slack_of_one(unknown: &Unknown, sizes: &[f64]) -> f64 {
+    let own = &sizes[unknown.first..][..unknown.count];
+    let size = own.iter().fold(0.0_f64, |length, x| length.hypot(*x));
+    match (unknown.place, unknown.limit) {
+        (Place::Normal(_), _) => own[0],
+        (_, Limit::Fixed(limit)) => limit - size,
+        (_, Limit::Coulomb(mu, contact)) => mu * sizes[contact] - size,
     }
 }
 
-/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `touches` and the slips that
-/// do not last by `laws`, by impulses in those contacts, as the ends of slips do. Where they cannot all vanish, all stay.
-pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], touches: &[Touch], laws: &Laws) {
-    let problem = Problem::new(table, balls, touches, laws);
-    let unknown =
-        |direction: Direction, place| Unknown { force: direction, rate: direction, bias: 0.0, size: 0.0, place };
-    let normals =
-        problem.contacts.iter().enumerate().map(|(index, contact)| unknown(contact.normal, Place::Normal(index)));
-    let grips = problem.grips.iter().enumerate().flat_map(|(index, grip)| {
-        (0..grip.axes).map(move |axis| unknown(grip.directions[axis], Place::Grip(index, axis)))
-    });
-    let mut unknowns: Vec<Unknown> = normals.chain(grips).collect();
-    let speeds = Accelerations { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| ball.spin) };
-    let stopped = System::new(&problem, speeds, &unknowns).and_then(|system| system.balance(&mut unknowns));
-    if let Some(Accelerations { linear, angular }) = stopped {
-        for (ball, (velocity, spin)) in balls.iter_mut().zip(linear.into_iter().zip(angular)) {
-            (ball.velocity, ball.spin) = (velocity, spin);
+/// A spin that has turned round has ended before.
+fn spin_slack(radius: f64, balls: &[BallState; BALLS], set: &ActiveSet) -> f64 {
+    set.spin.iter().zip(balls).fold(f64::INFINITY, |slack, (spin, ball)| match spin {
+        Friction::Slips(sign) if sign.x != 0.0 && ball.spin.z * sign.x < 0.0 => {
+            slack.min(radius * ball.spin.z * sign.x)
+        }
+        _ => slack,
+    })
+}
+
+/// The same in closed form for a single contact whose balls slip on the cloth: its three directions do not feel each other.
+fn slipping(table: &Table, balls: &[BallState; BALLS], contact: &Contact, set: &ActiveSet) -> Option<Forces> {
+    let radius = table.radius;
+    let lever = 2.5 / radius;
+    let boring = table.spinning_friction * table.gravity;
+    let mut forces = Forces::NONE;
+    // What a force along the contact's tangent accelerates: a ball whose spin is held, or one that turns, too.
+    let mut response = 0.0;
+    let members = [Some(contact.first), contact.second];
+    for ball in members.into_iter().flatten() {
+        let against = set.cloth[ball].direction(slip(radius, balls[ball].velocity, balls[ball].spin))?;
+        let push = -table.sliding_friction * table.gravity * against;
+        let sign = if let Friction::Slips(sign) = set.spin[ball] { sign.x } else { 0.0 };
+        forces.linear[ball] = push;
+        // Friction at the lowest point: w' = -5/2R z×push.
+        forces.angular[ball] = (-lever * push.perp()).extend(-lever * boring * sign);
+        response += if set.spin[ball] == Friction::Sticks { 1.0 } else { 3.5 };
+    }
+    let (n, slip_at) = contact.normal_and_slip(radius, balls);
+    let t = n.perp();
+    let (first, second) = (contact.first, contact.second);
+    let (mut rates, mut spins) = (forces.linear[first], forces.angular[first]);
+    let (mut centripetal, mut turning, mut bodies) = (0.0, 0.0, 1.0);
+    let mu = coefficient(table, contact);
+    if let Some(second) = second {
+        let across = contact.relative_velocity(balls).dot(t);
+        let spin = balls[first].spin + balls[second].spin;
+        centripetal = across * across / (2.0 * radius);
+        turning = -0.5 * across * spin.truncate().dot(n);
+        rates -= forces.linear[second];
+        spins += forces.angular[second];
+        bodies = 2.0;
+    }
+    let normal = -(rates.dot(n) + centripetal) / bodies;
+    forces.normal[0] = normal;
+    forces.slack = normal.min(spin_slack(radius, balls, set));
+    let friction = if let Some(against) = set.contact[0].direction(slip_at) {
+        -mu * normal * against
+    } else {
+        let along = rates.dot(t) - radius * spins.z;
+        let up = radius * spins.truncate().dot(t) + turning;
+        let holds = DVec2::new(-along / response, -up / (2.5 * bodies));
+        forces.slack = forces.slack.min(mu * normal - holds.length());
+        holds
+    };
+    let force = normal * n + friction.x * t;
+    let twist = (lever * friction.y * t).extend(-lever * friction.x);
+    for (ball, sense) in [(Some(first), 1.0), (second, -1.0)] {
+        let Some(ball) = ball else { continue };
+        forces.linear[ball] += sense * force;
+        forces.angular[ball] += twist;
+        if set.spin[ball] == Friction::Sticks {
+            forces.angular[ball].z = 0.0;
+            forces.slack = forces.slack.min(boring - friction.x.abs());
         }
     }
+    Some(forces)
+}
+
+/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
+/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something rubs where its
+/// contact slips. Where they cannot all vanish, all stay.
+pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts: &[Contact], set: &ActiveSet) {
+    let mut problem = Problem::new(table, balls, contacts, &set.slipping_where(set));
+    for (index, contact) in contacts.iter().enumerate() {
+        // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
+        if table.ball_friction.is_none() && contact.second.is_some() {
+            problem.forces[index] = problem.rates[index];
+        }
+    }
+    let speeds = Row::of_speeds(table.radius, balls);
+    let bias = vec![0.0; problem.rates.len()];
+    let mut sizes = bias.clone();
+    if let Some(stopped) = balance(&problem, speeds, &bias, &mut sizes) {
+        for (ball, state) in balls.iter_mut().enumerate() {
+            let (velocity, spin) = stopped.of_ball(ball);
+            (state.velocity, state.spin) = (velocity, spin / (GYRATION * table.radius));
+        }
+    }
+}
+
+/// Changes the sizes of the unknown forces, as little as possible, until all their rates vanish; returns what `base` becomes
+/// under them. `None` where they cannot vanish together.
+fn balance(problem: &Problem, base: Row, bias: &[f64], sizes: &mut [f64]) -> Option<Row> {
+    let count = sizes.len();
+    let mut matrix = problem.matrix();
+    for index in 0..count {
+        matrix[index * count + index] += PROXIMITY;
+    }
+    let factors = Factorized::new(count, matrix)?;
+    let mut side = vec![0.0; count];
+    let mut smallest = f64::INFINITY;
+    for _ in 0..MAX_REFINEMENTS {
+        let mut moved = base;
+        for (size, row) in sizes.iter().zip(&problem.forces) {
+            moved.add(*size, row);
+        }
+        let (mut residual, mut scale) = (0.0_f64, f64::MIN_POSITIVE);
+        for (index, side) in side.iter_mut().enumerate() {
+            *side = -(problem.rates[index].dot(&moved) + bias[index]);
+            residual = residual.max(side.abs());
+            scale = scale.max(sizes[index].abs()).max(bias[index].abs());
+        }
+        scale = base.0.iter().fold(scale, |scale, x| scale.max(x.abs()));
+        // Once rounding is reached, more rounds would only stir it.
+        if residual <= 16.0 * f64::EPSILON * scale
+            || (residual <= 16.0 * ROUNDING * scale && residual >= 0.5 * smallest)
+        {
+            return Some(moved);
+        }
+        smallest = smallest.min(residual);
+        factors.solve(&mut side);
+        for (size, change) in sizes.iter_mut().zip(&side) {
+            *size += change;
+        }
+    }
+    None
 }
 
 impl Forces {
-    fn of(problem: &Problem, mut regime: Regime, solution: &Solution) -> Self {
-        let departure = regime.share(problem, solution);
-        Self {
-            linear: solution.accelerations.linear,
-            angular: solution.accelerations.angular,
-            normal: solution.normal,
-            slack: regime.slack(problem, solution),
-            departure,
-            grip: solution.grip,
-            regime,
-        }
-    }
+    const NONE: Self = Self {
+        linear: [DVec2::ZERO; BALLS],
+        angular: [DVec3::ZERO; BALLS],
+        normal: [0.0; MAX_CONTACTS],
+        slack: f64::INFINITY,
+        sizes: [0.0; MAX_UNKNOWNS],
+    };
 
-    /// Whether several frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
-    pub fn is_shared(&self) -> bool {
-        self.regime.shared.contains(&true)
+    fn of(radius: f64, problem: &Problem, sizes: &[f64], accelerations: &Row) -> Self {
+        let mut forces = Self::NONE;
+        for ball in 0..BALLS {
+            let (linear, angular) = accelerations.of_ball(ball);
+            forces.linear[ball] = linear;
+            forces.angular[ball] = angular / (GYRATION * radius);
+        }
+        for unknown in &problem.unknowns {
+            if let Place::Normal(index) = unknown.place {
+                forces.normal[index] = sizes[unknown.first];
+            }
+        }
+        forces.sizes[..sizes.len()].copy_from_slice(sizes);
+        forces
     }
 
     /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.
@@ -149,241 +362,5 @@ impl Forces {
             let angular = radius * self.angular[ball].distance(other.angular[ball]);
             linear.max(angular).max(largest)
         })
-    }
-}
-
-impl Solution {
-    fn guess(problem: &Problem, similar: Option<&Forces>) -> Self {
-        Self {
-            normal: similar.map_or([0.0; MAX_TOUCHES], |similar| similar.normal),
-            grip: similar.map_or([DVec2::ZERO; MAX_GRIPS], |similar| similar.grip),
-            accelerations: problem.known,
-        }
-    }
-}
-
-/// An unknown force: what it does, and the rate that it keeps at zero.
-struct Unknown {
-    force: Direction,
-    rate: Direction,
-    bias: f64,
-    size: f64,
-    place: Place,
-}
-
-#[derive(Clone, Copy)]
-enum Place {
-    Normal(usize),
-    Grip(usize, usize),
-}
-
-/// The forces in a given regime, near to `guess` where they are not unique; `None` where nothing holds what is to hold.
-/// Those that break their limits are exchanged for others with the same effect, if there are any, in as many `pulls`.
-fn solve(problem: &Problem, regime: &Regime, guess: &Solution, pulls: usize) -> Option<Solution> {
-    let mut base = problem.known;
-    let mut unknowns: Vec<Unknown> = Vec::with_capacity(problem.contacts.len() + 2 * problem.grips.len());
-    let mut rubs = [DVec2::ZERO; MAX_TOUCHES];
-    for (rub, contact) in rubs.iter_mut().zip(&problem.contacts) {
-        *rub = contact.rub;
-    }
-    for (index, grip) in problem.grips.iter().enumerate() {
-        if !regime.grips(grip.limit) {
-            continue;
-        }
-        match (regime.limited[index], grip.limit) {
-            (Some(direction), Limit::Fixed(limit)) => {
-                for (along, share) in grip.directions.iter().zip(direction.to_array()) {
-                    along.push(limit * share, problem.twist, &mut base);
-                }
-            }
-            (Some(direction), Limit::Coulomb(mu, contact)) => {
-                rubs[contact] = direction * mu.unwrap_or(0.0);
-            }
-            (None, _) => {
-                for axis in 0..grip.axes {
-                    unknowns.push(Unknown {
-                        force: grip.directions[axis],
-                        rate: grip.directions[axis],
-                        bias: grip.bias[axis],
-                        size: guess.grip[index][axis],
-                        place: Place::Grip(index, axis),
-                    });
-                }
-            }
-        }
-    }
-    for (index, contact) in problem.contacts.iter().enumerate() {
-        if regime.pushing[index] {
-            unknowns.push(Unknown {
-                force: contact.normal.with_friction(&contact.tangents, rubs[index]),
-                rate: contact.normal,
-                bias: contact.centripetal,
-                size: guess.normal[index],
-                place: Place::Normal(index),
-            });
-        }
-    }
-    let system = System::new(problem, base, &unknowns)?;
-    let accelerations = system.balance(&mut unknowns)?;
-    let mut solution = read(problem, regime, &unknowns, accelerations);
-    for _ in 0..pulls {
-        let before: Vec<f64> = unknowns.iter().map(|unknown| unknown.size).collect();
-        if !pull_inside(problem, &solution, &mut unknowns) {
-            break;
-        }
-        let accelerations = system.balance(&mut unknowns)?;
-        solution = read(problem, regime, &unknowns, accelerations);
-        let moved = before.iter().zip(&unknowns).map(|(before, unknown)| (unknown.size - before).abs());
-        if moved.fold(0.0, f64::max) < UNIQUE {
-            break;
-        }
-    }
-    Some(solution)
-}
-
-/// The solution that the unknowns' sizes describe.
-fn read(problem: &Problem, regime: &Regime, unknowns: &[Unknown], accelerations: Accelerations) -> Solution {
-    let mut solution = Solution { normal: [0.0; MAX_TOUCHES], grip: [DVec2::ZERO; MAX_GRIPS], accelerations };
-    for unknown in unknowns {
-        match unknown.place {
-            Place::Normal(index) => solution.normal[index] = unknown.size,
-            Place::Grip(index, axis) => solution.grip[index][axis] = unknown.size,
-        }
-    }
-    for (index, grip) in problem.grips.iter().enumerate() {
-        if let Some(direction) = regime.limited[index]
-            && regime.grips(grip.limit)
-        {
-            solution.grip[index] = limit_of(grip.limit, &solution).unwrap_or(0.0) * direction;
-        }
-    }
-    solution
-}
-
-/// Brings forces that break their limits well inside them; tells whether any did.
-fn pull_inside(problem: &Problem, solution: &Solution, unknowns: &mut [Unknown]) -> bool {
-    let mut pulled = false;
-    for unknown in unknowns {
-        match unknown.place {
-            Place::Normal(index) => {
-                if solution.normal[index] < -NEGLIGIBLE {
-                    unknown.size = 0.0;
-                    pulled = true;
-                }
-            }
-            Place::Grip(index, _) => {
-                let size = solution.grip[index].length();
-                if let Some(limit) = limit_of(problem.grips[index].limit, solution)
-                    && size > limit + NEGLIGIBLE
-                {
-                    unknown.size *= WELL_INSIDE * limit.max(0.0) / size;
-                    pulled = true;
-                }
-            }
-        }
-    }
-    pulled
-}
-
-/// The linear system of a regime.
-struct System {
-    base: Accelerations,
-    twist: f64,
-    factors: Factorized,
-}
-
-impl System {
-    fn new(problem: &Problem, base: Accelerations, unknowns: &[Unknown]) -> Option<Self> {
-        let count = unknowns.len();
-        let mut matrix = Vec::with_capacity(count * count);
-        for (row, of) in unknowns.iter().enumerate() {
-            for (column, by) in unknowns.iter().enumerate() {
-                let proximity = if row == column { PROXIMITY } else { 0.0 };
-                matrix.push(of.rate.response(&by.force, problem.twist) + proximity);
-            }
-        }
-        Some(Self { base, twist: problem.twist, factors: Factorized::new(count, matrix)? })
-    }
-
-    /// Changes the sizes of the unknown forces, as little as possible, until all their rates vanish; returns the
-    /// accelerations.
-    fn balance(&self, unknowns: &mut [Unknown]) -> Option<Accelerations> {
-        let mut side = vec![0.0; unknowns.len()];
-        let mut smallest = f64::INFINITY;
-        for _ in 0..MAX_REFINEMENTS {
-            let mut accelerations = self.base;
-            for unknown in &*unknowns {
-                unknown.force.push(unknown.size, self.twist, &mut accelerations);
-            }
-            let mut residual = 0.0_f64;
-            for (side, unknown) in side.iter_mut().zip(&*unknowns) {
-                *side = -(unknown.rate.rate(&accelerations) + unknown.bias);
-                residual = residual.max(side.abs());
-            }
-            // Once rounding is reached, more rounds would only stir it.
-            if residual <= RESIDUAL || (residual <= INCONSISTENT && residual >= 0.5 * smallest) {
-                return Some(accelerations);
-            }
-            smallest = smallest.min(residual);
-            self.factors.solve(&mut side);
-            for (unknown, change) in unknowns.iter_mut().zip(&side) {
-                unknown.size += change;
-            }
-        }
-        None
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::physics::{SLIP_TOLERANCE, slip};
-
-    const ALONE: [BallState; 2] = [BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
-
-    fn forces(ball: BallState, touches: &[Touch]) -> Forces {
-        let table = Table::preset("thesis").unwrap();
-        let balls = [ball, ALONE[0], ALONE[1]];
-        contact_forces(&table, &balls, touches, &Laws::of(table.radius, &balls, touches, SLIP_TOLERANCE), None)
-    }
-
-    #[test]
-    fn a_cushion_pushes_back_just_what_the_cloth_presses() {
-        let table = Table::preset("thesis").unwrap();
-        let position = DVec2::new(table.half_length(), 0.0);
-        // Topspin towards the right cushion, and some speed along it.
-        let ball = BallState { position, velocity: DVec2::new(0.0, 0.7), spin: DVec3::new(3.0, 80.0, -5.0) };
-        let touch = Touch { first: 0, second: None, rail_normal: DVec2::NEG_X };
-        let forces = forces(ball, &[touch]);
-        let u = slip(table.radius, ball.velocity, ball.spin).normalize();
-        let pressed = table.sliding_friction * table.gravity * -u.x;
-        assert!((forces.normal[0] - pressed).abs() < 1e-14);
-        assert!(forces.linear[0].x.abs() < 1e-14);
-        // The ball slips along +y on the cushion: the friction opposes it and has at most Coulomb's size.
-        let friction = forces.linear[0].y + table.sliding_friction * table.gravity * u.y;
-        assert!(friction.abs() <= table.rail_friction * pressed + 1e-14 && friction < 0.0);
-    }
-
-    #[test]
-    fn a_cushion_never_pulls() {
-        let table = Table::preset("thesis").unwrap();
-        let position = DVec2::new(table.half_length(), 0.0);
-        let ball = BallState { position, velocity: DVec2::ZERO, spin: DVec3::new(0.0, -80.0, 0.0) };
-        let touch = Touch { first: 0, second: None, rail_normal: DVec2::NEG_X };
-        let forces = forces(ball, &[touch]);
-        assert_eq!(forces.normal[0], 0.0);
-        assert!(forces.linear[0].x < 0.0);
-    }
-
-    #[test]
-    fn a_rolling_ball_against_a_cushion_decelerates_as_it_does_alone() {
-        let table = Table::preset("thesis").unwrap();
-        let velocity = DVec2::new(0.0, 0.4);
-        // It rolls on the cushion too: nothing presses it.
-        let spin = crate::physics::rolling_spin(table.radius, velocity).extend(velocity.y / table.radius);
-        let position = DVec2::new(table.half_length(), 0.0);
-        let touch = Touch { first: 0, second: None, rail_normal: DVec2::NEG_X };
-        let forces = forces(BallState { position, velocity, spin }, &[touch]);
-        assert!(forces.linear[0].x.abs() < 1e-13 && forces.linear[0].y < 0.0, "{forces:?}");
     }
 }

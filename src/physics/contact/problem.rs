@@ -1,94 +1,97 @@
-//! The equations of balls in contact: which accelerations follow from which forces.
+//! The equations of balls in contact: which accelerations follow from which forces, and which law each force obeys.
+//!
+//! Velocities and spins of all balls are one vector in which the kinetic energy is half the square of the length: `v` and
+//! `√(2/5) R w` of each ball. A force along some direction then accelerates along the same row of numbers that tells the
+//! rate at which the slip along that direction changes.
 
 use glam::{DVec2, DVec3};
 
-use super::{Laws, MAX_TOUCHES, Touch, contact_slip};
+use super::{ActiveSet, Contact, Friction};
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
 };
 
-/// Most frictions that can hold: on the cloth against slipping, moving and spinning, and in every contact.
-pub const MAX_GRIPS: usize = 3 * BALLS + MAX_TOUCHES;
+/// Numbers that tell a ball's velocity and spin.
+const PER_BALL: usize = 5;
 
-/// Accelerations of all balls, m/s² and rad/s².
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Accelerations {
-    pub linear: [DVec2; BALLS],
-    pub angular: [DVec3; BALLS],
-}
+/// `√(2/5)`: radius of gyration over the ball's radius.
+pub const GYRATION: f64 = 0.632_455_532_033_675_9;
 
-/// A way in which a force acts on one ball, or with opposite senses on two. The same numbers tell what the force does
-/// and which rate it changes: a rate of slip or opening is `linear·a + angular·w'`, summed over both balls.
+/// Velocities, accelerations or directions of all balls: `v` in m/s and `√(2/5) R w` in m/s, and so on.
 #[derive(Clone, Copy, Debug)]
-pub struct Direction {
-    first: usize,
-    second: Option<usize>,
-    linear: DVec2,
-    /// Lever, m.
-    angular: DVec3,
+pub struct Row(pub [f64; PER_BALL * BALLS]);
+
+impl Row {
+    pub const ZERO: Self = Self([0.0; PER_BALL * BALLS]);
+
+    pub fn dot(&self, other: &Self) -> f64 {
+        self.0.iter().zip(&other.0).map(|(a, b)| a * b).sum()
+    }
+
+    pub fn add(&mut self, size: f64, row: &Self) {
+        for (sum, part) in self.0.iter_mut().zip(&row.0) {
+            *sum += size * part;
+        }
+    }
+
+    /// Adds a velocity and a spin times the radius to one ball.
+    fn with(mut self, ball: usize, linear: DVec2, angular: DVec3) -> Self {
+        let part = &mut self.0[PER_BALL * ball..][..PER_BALL];
+        part[0] += linear.x;
+        part[1] += linear.y;
+        part[2] += angular.x / GYRATION;
+        part[3] += angular.y / GYRATION;
+        part[4] += angular.z / GYRATION;
+        self
+    }
+
+    /// A ball's part: velocity, and spin times `√(2/5) R`.
+    pub fn of_ball(&self, ball: usize) -> (DVec2, DVec3) {
+        let part = &self.0[PER_BALL * ball..][..PER_BALL];
+        (DVec2::new(part[0], part[1]), DVec3::new(part[2], part[3], part[4]))
+    }
+
+    /// The speeds of all balls.
+    pub fn of_speeds(radius: f64, balls: &[BallState; BALLS]) -> Self {
+        let mut row = Self::ZERO;
+        for (ball, state) in balls.iter().enumerate() {
+            // A row's spins are divided by the gyration, speeds are multiplied by it.
+            row = row.with(ball, state.velocity, GYRATION * GYRATION * radius * state.spin);
+        }
+        row
+    }
+
+    /// Slip on the cloth along x or y, `u = v + R z×w` (thesis equation 1).
+    fn cloth(ball: usize, axis: DVec2) -> Self {
+        Self::ZERO.with(ball, axis, -axis.perp().extend(0.0))
+    }
+
+    /// The three rows of a contact: opening, slip along `t = z×n`, slip along z.
+    pub fn contact(contact: &Contact, n: DVec2) -> [Self; 3] {
+        let t = n.perp();
+        let mut rows = [
+            Self::ZERO.with(contact.first, n, DVec3::ZERO),
+            Self::ZERO.with(contact.first, t, DVec3::NEG_Z),
+            Self::ZERO.with(contact.first, DVec2::ZERO, t.extend(0.0)),
+        ];
+        if let Some(second) = contact.second {
+            rows[0] = rows[0].with(second, -n, DVec3::ZERO);
+            rows[1] = rows[1].with(second, -t, DVec3::NEG_Z);
+            rows[2] = rows[2].with(second, DVec2::ZERO, t.extend(0.0));
+        }
+        rows
+    }
 }
 
-impl Direction {
-    /// Rate of change of the speed along this direction, m/s².
-    pub fn rate(&self, accelerations: &Accelerations) -> f64 {
-        let Accelerations { linear, angular } = accelerations;
-        let first = self.linear.dot(linear[self.first]) + self.angular.dot(angular[self.first]);
-        match self.second {
-            None => first,
-            Some(second) => first - self.linear.dot(linear[second]) + self.angular.dot(angular[second]),
-        }
-    }
+/// Friction of balls that have no coefficient, since their impacts never slip (17): the limit of ever larger ones. Where
+/// holding would drive two balls apart that come together without it, no force obeys both laws; in the limit they stay
+/// together, slip, and push next to nothing.
+const NO_SLIP: f64 = 1e3;
 
-    /// Adds what a force per ball mass of size `force`, m/s², does. `twist` is `m/I`, 1/m².
-    pub fn push(&self, force: f64, twist: f64, accelerations: &mut Accelerations) {
-        accelerations.linear[self.first] += force * self.linear;
-        accelerations.angular[self.first] += force * twist * self.angular;
-        if let Some(second) = self.second {
-            accelerations.linear[second] -= force * self.linear;
-            accelerations.angular[second] += force * twist * self.angular;
-        }
-    }
-
-    /// How much a unit of force along `other` changes the speed along this direction.
-    pub fn response(&self, other: &Self, twist: f64) -> f64 {
-        let linear = self.linear.dot(other.linear);
-        let angular = twist * self.angular.dot(other.angular);
-        let mut sum = 0.0;
-        for (mine, my_sense) in self.balls() {
-            for (theirs, their_sense) in other.balls() {
-                if mine == theirs {
-                    sum += my_sense * their_sense * linear + angular;
-                }
-            }
-        }
-        sum
-    }
-
-    fn balls(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
-        std::iter::once((self.first, 1.0)).chain(self.second.map(|second| (second, -1.0)))
-    }
-
-    /// The direction of this force together with `share` of friction along two others of the same contact.
-    pub fn with_friction(&self, tangents: &[Self; 2], share: DVec2) -> Self {
-        let mut sum = *self;
-        for (tangent, share) in tangents.iter().zip(share.to_array()) {
-            sum.linear += share * tangent.linear;
-            sum.angular += share * tangent.angular;
-        }
-        sum
-    }
-}
-
-/// What a contact's normal force must do.
-#[derive(Clone, Copy, Debug)]
-pub struct Contact {
-    pub normal: Direction,
-    pub tangents: [Direction; 2],
-    /// Acceleration along n that the curved course of two touching balls needs, m/s².
-    pub centripetal: f64,
-    /// Coulomb friction per normal force along the tangents, where the contact slips.
-    pub rub: DVec2,
+/// Coulomb's coefficient in a contact.
+pub fn coefficient(table: &Table, contact: &Contact) -> f64 {
+    if contact.second.is_some() { table.ball_friction.unwrap_or(NO_SLIP) } else { table.rail_friction }
 }
 
 /// How large a friction can be.
@@ -96,117 +99,134 @@ pub struct Contact {
 pub enum Limit {
     /// Per mass, m/s².
     Fixed(f64),
-    /// Coulomb's coefficient and the contact whose normal force counts; none for a contact that never slips.
-    Coulomb(Option<f64>, usize),
+    /// Coulomb's coefficient, and the contact whose normal force counts.
+    Coulomb(f64, usize),
 }
 
-/// A friction that holds what does not slip, as long as it can.
+/// What an unknown force stands for.
 #[derive(Clone, Copy, Debug)]
-pub struct Grip {
-    pub directions: [Direction; 2],
-    /// How many of the directions count.
-    pub axes: usize,
-    /// Acceleration along the directions that is there without any force, m/s².
-    pub bias: DVec2,
+pub enum Place {
+    /// The normal force of a contact.
+    Normal(usize),
+    /// A friction that holds: the cloth's against slip, against rolling, against spin, or a contact's.
+    Cloth(usize),
+    Roll(usize),
+    Spin(usize),
+    Contact(usize),
+}
+
+/// An unknown force, or two of a friction in a plane: rows `first..first + count` of the problem.
+#[derive(Clone, Copy, Debug)]
+pub struct Unknown {
+    pub place: Place,
+    pub first: usize,
+    pub count: usize,
+    /// The friction's limit; a normal force has none.
     pub limit: Limit,
 }
 
-impl Grip {
-    /// Rate at which the slip changes that this grip holds, m/s².
-    pub fn rate(&self, accelerations: &Accelerations) -> DVec2 {
-        let rates = self.directions.map(|direction| direction.rate(accelerations));
-        let axes = if self.axes == 2 { DVec2::ONE } else { DVec2::X };
-        (DVec2::from_array(rates) + self.bias) * axes
+/// Everything that acts on the balls in one state.
+#[derive(Debug, Default)]
+pub struct Problem {
+    pub unknowns: Vec<Unknown>,
+    /// For every scalar unknown the row of the rate that it keeps at zero.
+    pub rates: Vec<Row>,
+    /// What that rate has besides the accelerations' part, m/s²: two balls' courses around each other bend.
+    pub bias: Vec<f64>,
+    /// The row of what the force does, which is the rate's own but for a normal force with Coulomb's friction.
+    pub forces: Vec<Row>,
+    /// Accelerations by the forces that are known.
+    pub known: Row,
+}
+
+impl Default for Row {
+    fn default() -> Self {
+        Self::ZERO
     }
 }
 
-/// Everything that acts on the balls in one state.
-#[derive(Debug)]
-pub struct Problem {
-    pub contacts: Vec<Contact>,
-    pub grips: Vec<Grip>,
-    /// Accelerations by the forces whose size and direction are known.
-    pub known: Accelerations,
-    /// `m/I`, 1/m².
-    pub twist: f64,
-}
-
 impl Problem {
-    pub fn new(table: &Table, balls: &[BallState; BALLS], touches: &[Touch], laws: &Laws) -> Self {
-        let mut problem = Self {
-            contacts: Vec::with_capacity(touches.len()),
-            grips: Vec::with_capacity(MAX_GRIPS),
-            known: Accelerations::default(),
-            twist: 2.5 / (table.radius * table.radius),
-        };
-        for (index, state) in balls.iter().enumerate() {
-            if touches.iter().any(|touch| touch.first == index || touch.second == Some(index)) {
-                problem.lay_on_cloth(table, index, state, laws);
+    pub fn new(table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Self {
+        let mut problem = Self::default();
+        let mut frictions = Vec::with_capacity(contacts.len());
+        for (index, contact) in contacts.iter().enumerate() {
+            let (n, slip) = contact.normal_and_slip(table.radius, balls);
+            let [opening, along, up] = Row::contact(contact, n);
+            let (mut centripetal, mut turning) = (0.0, 0.0);
+            let mu = coefficient(table, contact);
+            if let Some(second) = contact.second {
+                let diameter = 2.0 * table.radius;
+                let across = contact.relative_velocity(balls).dot(n.perp());
+                centripetal = across * across / diameter;
+                // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
+                let spin = balls[contact.first].spin + balls[second].spin;
+                turning = -table.radius * (across / diameter) * spin.truncate().dot(n);
+            }
+            problem.push(Place::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
+            if let Some(against) = set.contact[index].direction(slip) {
+                let force = &mut problem.forces[index];
+                force.add(-mu * against.x, &along);
+                force.add(-mu * against.y, &up);
+            } else {
+                frictions.push((index, mu, [along, up], turning));
             }
         }
-        for (index, touch) in touches.iter().enumerate() {
-            problem.touch(table, balls, touch, index, laws.rubs[index]);
+        for (index, mu, rows, turning) in frictions {
+            problem.push(Place::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
+        }
+        for (ball, state) in balls.iter().enumerate() {
+            if contacts.iter().any(|contact| contact.has(ball)) {
+                problem.lay_on_cloth(table, ball, state, set);
+            }
         }
         problem
     }
 
-    /// The cloth's forces on a ball: known where it slips, rolls or spins, a grip where it does not.
-    fn lay_on_cloth(&mut self, table: &Table, ball: usize, state: &BallState, laws: &Laws) {
-        let radius = table.radius;
-        let sliding = table.sliding_friction * table.gravity;
-        let resistance = table.rolling_friction * table.gravity;
-        let along = |linear, angular| Direction { first: ball, second: None, linear, angular };
-        // The slip u = v + R z×w.
-        let at_cloth = |axis: DVec2| along(axis, -radius * axis.perp().extend(0.0));
-        let grip = |directions, axes, limit| Grip { directions, axes, bias: DVec2::ZERO, limit: Limit::Fixed(limit) };
-        let known = &mut self.known;
-        if laws.slips[ball] {
-            let against = -slip(radius, state.velocity, state.spin).normalize_or_zero();
-            at_cloth(against).push(sliding, self.twist, known);
+    /// The cloth's forces on a ball: known where it slips, rolls or spins, unknown where they hold.
+    fn lay_on_cloth(&mut self, table: &Table, ball: usize, state: &BallState, set: &ActiveSet) {
+        let gravity = table.gravity;
+        let (sliding, resistance) = (table.sliding_friction * gravity, table.rolling_friction * gravity);
+        let slips = [DVec2::X, DVec2::Y].map(|axis| Row::cloth(ball, axis));
+        if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
+            self.known.add(-sliding * against.x, &slips[0]);
+            self.known.add(-sliding * against.y, &slips[1]);
         } else {
-            self.grips.push(grip([at_cloth(DVec2::X), at_cloth(DVec2::Y)], 2, sliding));
-            if laws.moves[ball] {
-                along(-state.velocity.normalize_or_zero(), DVec3::ZERO).push(resistance, self.twist, known);
+            self.push(Place::Cloth(ball), Limit::Fixed(sliding), &slips, [0.0; 2]);
+            if let Some(against) = set.roll[ball].direction(state.velocity) {
+                self.known = self.known.with(ball, -resistance * against, DVec3::ZERO);
             } else {
-                let still = [along(DVec2::X, DVec3::ZERO), along(DVec2::Y, DVec3::ZERO)];
-                self.grips.push(grip(still, 2, resistance));
+                let still = [DVec2::X, DVec2::Y].map(|axis| Row::ZERO.with(ball, axis, DVec3::ZERO));
+                self.push(Place::Roll(ball), Limit::Fixed(resistance), &still, [0.0; 2]);
             }
         }
-        let about_vertical = along(DVec2::ZERO, radius * DVec3::Z);
-        let boring = table.spinning_friction * table.gravity;
-        if laws.spins[ball] {
-            about_vertical.push(-boring.copysign(state.spin.z), self.twist, known);
-        } else {
-            self.grips.push(grip([about_vertical; 2], 1, boring));
+        let about_vertical = Row::ZERO.with(ball, DVec2::ZERO, DVec3::Z);
+        let boring = table.spinning_friction * gravity;
+        match set.spin[ball] {
+            Friction::Slips(sign) => self.known.add(-boring * sign.x, &about_vertical),
+            Friction::Sticks | Friction::Yields => {
+                self.push(Place::Spin(ball), Limit::Fixed(boring), &[about_vertical], [0.0; 2])
+            }
         }
     }
 
-    fn touch(&mut self, table: &Table, balls: &[BallState; BALLS], touch: &Touch, index: usize, rubs: bool) {
-        let radius = table.radius;
-        let (n, along, up) = contact_slip(radius, balls, touch);
-        let t = n.perp();
-        let direction = |linear, angular| Direction { first: touch.first, second: touch.second, linear, angular };
-        let normal = direction(n, DVec3::ZERO);
-        // The slip (21) along t and z; n×w has the components (-w_z, w·t) there.
-        let tangents = [direction(t, -radius * DVec3::Z), direction(DVec2::ZERO, (radius * t).extend(0.0))];
-        let (mut centripetal, mut turning, mut friction) = (0.0, 0.0, Some(table.rail_friction));
-        if let Some(second) = touch.second {
-            let diameter = 2.0 * radius;
-            let across = touch.relative_velocity(balls).dot(t);
-            centripetal = across * across / diameter;
-            // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
-            let spin = balls[touch.first].spin + balls[second].spin;
-            turning = -radius * (across / diameter) * spin.truncate().dot(n);
-            friction = table.ball_friction;
+    fn push(&mut self, place: Place, limit: Limit, rows: &[Row], bias: [f64; 2]) {
+        self.unknowns.push(Unknown { place, first: self.rates.len(), count: rows.len(), limit });
+        self.rates.extend_from_slice(rows);
+        self.forces.extend_from_slice(rows);
+        self.bias.extend_from_slice(&bias[..rows.len()]);
+    }
+
+    /// Accelerations under forces of these sizes, m/s².
+    pub fn accelerations(&self, sizes: &[f64]) -> Row {
+        let mut sum = self.known;
+        for (size, row) in sizes.iter().zip(&self.forces) {
+            sum.add(*size, row);
         }
-        let rub = match friction {
-            Some(mu) if rubs => DVec2::new(along, up).normalize_or_zero() * -mu,
-            _ => DVec2::ZERO,
-        };
-        if !rubs || friction.is_none() {
-            let bias = DVec2::new(0.0, turning);
-            self.grips.push(Grip { directions: tangents, axes: 2, bias, limit: Limit::Coulomb(friction, index) });
-        }
-        self.contacts.push(Contact { normal, tangents, centripetal, rub });
+        sum
+    }
+
+    /// The matrix of rates by forces, rows one after another.
+    pub fn matrix(&self) -> Vec<f64> {
+        self.rates.iter().flat_map(|rate| self.forces.iter().map(|force| rate.dot(force))).collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{BallState, ball_ball::contact_twist};
+use super::{BallState, contact_twist};
 
 /// Velocity and spin after a collision with the cushion whose normal into the table is `n`. Returns the normal impulse
 /// per mass `P/m`, m/s, which is zero or less for a ball that does not approach.

@@ -1,8 +1,6 @@
 //! Collision of two balls (thesis 2.2.2).
 
-use glam::{DVec2, DVec3};
-
-use super::BallState;
+use super::{BallState, contact_twist};
 
 /// Velocities and spins after a collision; `restitution` 0 to 1, `friction` the coefficient or `None` for a contact that
 /// never slips. Returns the normal impulse per mass `P/m`, m/s, which is zero or less for balls that do not approach.
@@ -40,11 +38,4 @@ pub fn collide_balls(
     first.spin += twist;
     second.spin += twist;
     normal
-}
-
-/// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.
-#[inline]
-pub(super) fn contact_twist(radius: f64, along: f64, up: f64, t: DVec2) -> DVec3 {
-    let lever = 2.5 / radius;
-    (lever * DVec2::new(-up * t.x, -up * t.y)).extend(lever * along)
 }

@@ -1,0 +1,150 @@
+//! Which contacts push and which frictions hold: what is constant from one change of regime to the next.
+
+use glam::DVec2;
+
+use super::Contact;
+use crate::{
+    physics::{BallState, slip},
+    table::{BALLS, Table},
+};
+
+/// Most contacts that three balls can have: with each other and with two cushions each.
+pub const MAX_CONTACTS: usize = 9;
+
+/// Contacts in a fixed order.
+#[derive(Clone, Copy, Debug)]
+pub struct Contacts {
+    list: [Contact; MAX_CONTACTS],
+    count: usize,
+}
+
+impl Contacts {
+    /// None at all.
+    pub const NONE: Self = Self { list: [Contact::with_cushion(0, DVec2::ZERO); MAX_CONTACTS], count: 0 };
+
+    /// Adds one, as long as there is room: three balls cannot have more.
+    pub fn push(&mut self, contact: Contact) {
+        if self.count < MAX_CONTACTS {
+            self.list[self.count] = contact;
+            self.count += 1;
+        }
+    }
+
+    /// Keeps only the contacts asked for.
+    pub fn retain(&mut self, mut wanted: impl FnMut(usize, &Contact) -> bool) {
+        let before = self.count;
+        self.count = 0;
+        for index in 0..before {
+            if wanted(index, &self.list[index]) {
+                self.list[self.count] = self.list[index];
+                self.count += 1;
+            }
+        }
+    }
+
+    /// The contacts.
+    pub fn as_slice(&self) -> &[Contact] {
+        &self.list[..self.count]
+    }
+
+    /// Whether a ball takes part in any.
+    pub fn hold(&self, ball: usize) -> bool {
+        self.as_slice().iter().any(|contact| contact.has(ball))
+    }
+}
+
+/// What a friction does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Friction {
+    /// It holds.
+    Sticks,
+    /// It is at its limit and lets a slip begin, so slowly that it acts against the rate of the slip rather than the slip
+    /// itself, whose direction would turn in no time.
+    Yields,
+    /// It acts at its limit against the slip, to which this is added, m/s: what begins to slip has a direction before it
+    /// has a speed. Of a spin it is the sign.
+    Slips(DVec2),
+}
+
+impl Friction {
+    /// Slipping already if faster than `none`, m/s.
+    fn of(slip: DVec2, none: f64) -> Self {
+        if slip.length_squared() > none * none { Self::Slips(DVec2::ZERO) } else { Self::Sticks }
+    }
+
+    /// The unit vector against which the friction acts; `None` where it holds.
+    pub(super) fn direction(self, slip: DVec2) -> Option<DVec2> {
+        match self {
+            Self::Sticks | Self::Yields => None,
+            Self::Slips(start) => Some((slip + start).normalize_or_zero()),
+        }
+    }
+}
+
+/// What every friction does in one regime.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActiveSet {
+    /// The cloth's friction on each ball against slipping.
+    pub cloth: [Friction; BALLS],
+    /// The cloth's resistance against each ball's rolling; it counts where the ball does not slip.
+    pub roll: [Friction; BALLS],
+    /// The cloth's friction against each ball's spin about the vertical.
+    pub spin: [Friction; BALLS],
+    /// The friction in each contact.
+    pub contact: [Friction; MAX_CONTACTS],
+}
+
+impl ActiveSet {
+    /// Everything slips, where it does in no known direction.
+    pub const SLIPPING: Self = Self {
+        cloth: [Friction::Slips(DVec2::ZERO); BALLS],
+        roll: [Friction::Slips(DVec2::ZERO); BALLS],
+        spin: [Friction::Slips(DVec2::ZERO); BALLS],
+        contact: [Friction::Slips(DVec2::ZERO); MAX_CONTACTS],
+    };
+
+    /// What the state `balls` shows, if slips and speeds below `none`, m/s, are zero. Balls without a coefficient of
+    /// friction yield where they slip.
+    pub fn of(table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], none: f64) -> Self {
+        let radius = table.radius;
+        let mut friction = [Friction::Sticks; MAX_CONTACTS];
+        for (friction, contact) in friction.iter_mut().zip(contacts) {
+            *friction = Friction::of(contact.slip(radius, balls), none);
+            if table.ball_friction.is_none() && contact.second.is_some() && *friction != Friction::Sticks {
+                *friction = Friction::Yields;
+            }
+        }
+        let spin = |ball: BallState| match radius * ball.spin.z {
+            speed if speed > none => Friction::Slips(DVec2::X),
+            speed if speed < -none => Friction::Slips(DVec2::NEG_X),
+            _ => Friction::Sticks,
+        };
+        Self {
+            cloth: balls.map(|ball| Friction::of(slip(radius, ball.velocity, ball.spin), none)),
+            roll: balls.map(|ball| Friction::of(ball.velocity, none)),
+            spin: balls.map(spin),
+            contact: friction,
+        }
+    }
+
+    /// The same with slips where this set or the `other` yields: nothing there is to stop.
+    #[must_use]
+    pub fn slipping_where(mut self, yields: &Self) -> Self {
+        let each = |mine: &mut [Friction], theirs: &[Friction]| {
+            for (mine, theirs) in mine.iter_mut().zip(theirs) {
+                if *mine == Friction::Yields || *theirs == Friction::Yields {
+                    *mine = Friction::Slips(DVec2::ZERO);
+                }
+            }
+        };
+        each(&mut self.cloth, &yields.cloth);
+        each(&mut self.roll, &yields.roll);
+        each(&mut self.contact, &yields.contact);
+        self
+    }
+
+    /// Whether any friction yields.
+    pub fn yields(&self) -> bool {
+        self.cloth.iter().chain(&self.roll).chain(&self.contact).any(|friction| *friction == Friction::Yields)
+    }
+}

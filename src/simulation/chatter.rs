@@ -1,0 +1,170 @@
+//! Chatters: contacts that close again and again, ever more softly, under a force that presses.
+//!
+//! A ball that leaves with speed `s` and is pulled back with acceleration `p` bounces for `T = 2s / (p (1 - e))` in all. The
+//! bounces are played exactly, but told as one event; and once it cannot be told apart, the chatter ends at once with one
+//! inelastic impact followed by a resting contact. Both give the same impulse, since both bring the speed to zero, and the
+//! same first moment of it, since both bring the gap to zero; so the forces that follow the slip see the same slip on
+//! average. The second moments differ by twice the area under the gap, `4 s³ / (3 p² (1 - e³))`, and what is left of the
+//! chatter is half of that over the square of the time in which the friction's direction turns: that is the error bound
+//! which is checked.
+
+use super::{
+    Constants,
+    contacts::{PAIRS, nearly_touching},
+};
+use crate::{
+    physics::{ActiveSet, BallState, Contact, Contacts, resolve, slip},
+    table::{BALLS, Table},
+};
+
+/// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.
+const MADE_BY_BOUNCES: f64 = 4.0;
+
+/// The bounces of one contact shake others, and the slip of the balls, by this many times their speed at most.
+const SHAKEN: f64 = 10.0;
+
+/// Slow bounces of one contact that are told one by one; those that follow belong to its chatter.
+const TOLD: u32 = 8;
+
+/// Flights that shrink more slowly are no sign of a chatter that ends.
+const SLOWEST_SHRINKING: f64 = 0.99;
+
+/// A pause of so many flights between two bounces is the end of a chatter.
+const PAUSE: f64 = 8.0;
+
+/// Pairs of balls, and balls with cushions.
+const PLACES: usize = PAIRS.len() + 4 * BALLS;
+
+/// The slow bounces of one contact.
+#[derive(Clone, Copy, Debug)]
+struct Bounces {
+    count: u32,
+    last: f64,
+    flight: f64,
+    /// The last flight over the one before.
+    shrinking: f64,
+}
+
+/// The slow bounces of a shot.
+#[derive(Clone, Debug)]
+pub struct Chatters([Bounces; PLACES]);
+
+impl Chatters {
+    /// No bounces yet.
+    pub const fn new() -> Self {
+        Self([Bounces { count: 0, last: f64::NEG_INFINITY, flight: f64::INFINITY, shrinking: 0.0 }; PLACES])
+    }
+
+    fn place(contact: &Contact) -> usize {
+        match contact.second {
+            Some(second) => contact.first + second - 1,
+            None => {
+                let n = contact.cushion_normal;
+                let rail = if n.x == 0.0 { 2 + usize::from(n.y > 0.0) } else { usize::from(n.x > 0.0) };
+                PAIRS.len() + 4 * contact.first + rail
+            }
+        }
+    }
+
+    /// Takes note of a slow bounce; tells whether it is part of a chatter.
+    pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
+        let bounces = &mut self.0[Self::place(contact)];
+        let flight = now - bounces.last;
+        bounces.count = if flight <= PAUSE * bounces.flight { bounces.count + 1 } else { 0 };
+        bounces.shrinking = flight / bounces.flight;
+        (bounces.last, bounces.flight) = (now, flight);
+        bounces.count >= TOLD
+    }
+
+    /// The last flight of a contact over the one before.
+    pub fn shrinking(&self, contact: &Contact) -> f64 {
+        self.0[Self::place(contact)].shrinking
+    }
+
+    /// Whether a ball has left all its chatters.
+    pub fn are_over(&self, ball: usize, now: f64) -> bool {
+        let cushions = PAIRS.len() + 4 * ball..PAIRS.len() + 4 * ball + 4;
+        let pairs =
+            PAIRS.iter().enumerate().filter(|(_, pair)| pair.0 == ball || pair.1 == ball).map(|(index, _)| index);
+        pairs.chain(cushions).all(|place| {
+            let Bounces { count, last, flight, .. } = self.0[place];
+            count < TOLD || now - last > PAUSE * flight
+        })
+    }
+}
+
+/// A contact that bounces with some speed, and all others that its bounces shake.
+fn shaken(constants: &Constants, balls: &[BallState; BALLS], contact: &Contact, speed: f64) -> Contacts {
+    let slow = SHAKEN * speed.abs();
+    let high =
+        (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.given_up);
+    let mut contacts = nearly_touching(constants, balls, high, |opening| opening.abs() <= slow);
+    // It has met, whatever rounding says of its gap.
+    contacts.retain(|_, other| other != contact);
+    contacts.push(*contact);
+    contacts
+}
+
+/// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
+/// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. `shrinking` is by how much the last flight was
+/// shorter than the one before.
+pub fn settles(
+    table: &Table,
+    constants: &Constants,
+    contact: &Contact,
+    balls: &[BallState; BALLS],
+    shrinking: f64,
+) -> Option<Contacts> {
+    let tolerance = &constants.tolerance;
+    let speed = contact.opening_speed(balls);
+    if speed <= tolerance.slowest_bounce {
+        let mut alone = Contacts::NONE;
+        alone.push(*contact);
+        return Some(alone);
+    }
+    // What the bounces shake loose holds on average, and slips that they make are none.
+    let mut contacts = shaken(constants, balls, contact, speed);
+    contacts.retain(|_, other| other.shares_a_ball(contact));
+    let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
+    let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
+    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
+    let index = resolved.contacts.as_slice().iter().position(|pushing| pushing == contact)?;
+    let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
+    let pull = bodies * resolved.forces.normal[index];
+    // The friction that turns soonest: that of the ball whose slip ends first.
+    let slides = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball)).map(|(_, state)| {
+        let slip = slip(table.radius, state.velocity, state.spin).length();
+        if slip > none { slip * constants.slide_time } else { f64::INFINITY }
+    });
+    let slide = slides.fold(f64::INFINITY, f64::min);
+    let restitution = if contact.second.is_some() { constants.ball_restitution } else { constants.rail_restitution };
+    let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
+    let chatter = 2.0 * speed / (pull * (1.0 - restitution));
+    let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
+    // Contacts that shake each other need not bounce ever more softly: all that is known is how softly they do.
+    let negligible = if contacts.as_slice().len() > 1 { tolerance.negligible_crowd } else { tolerance.negligible };
+    (chatter <= slide && 0.5 * moment <= negligible * slide * slide).then_some(resolved.contacts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounces_are_told_until_they_are_a_chatter() {
+        let mut chatters = Chatters::new();
+        let contact = Contact::of_balls(0, 1);
+        let (mut now, mut flight) = (0.0, 0.1);
+        let mut told = 0;
+        for _ in 0..40 {
+            if !chatters.bounce(&contact, now) {
+                told += 1;
+            }
+            flight *= 0.9;
+            now += flight;
+        }
+        assert_eq!(told, 1 + TOLD);
+        assert!(!chatters.are_over(1, now) && chatters.are_over(2, now));
+        assert!(chatters.are_over(0, now + 1.0));
+    }
+}

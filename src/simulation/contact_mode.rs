@@ -1,0 +1,12 @@
+//! How a ball is in contact: the one place that knows it.
+
+/// What a ball's contacts do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ContactMode {
+    /// It is free, or hits something now and then.
+    Free,
+    /// It chatters: bounces that have been told as the beginning of a contact, and are played one by one without being told.
+    Bouncing,
+    /// It rests against something, the limit of its bounces.
+    Resting,
+}

@@ -1,0 +1,60 @@
+//! Which balls touch cushions or each other.
+
+use super::{Constants, Rail, extrapolation::State};
+use crate::physics::{Contact, Contacts};
+
+/// Pairs of balls, in the order used everywhere.
+pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+/// All contacts of the balls whose opening speed, m/s, is `wanted`.
+pub fn touching(constants: &Constants, balls: &State, wanted: impl Fn(f64) -> bool) -> Contacts {
+    nearly_touching(constants, balls, constants.tolerance.touching, wanted)
+}
+
+/// The same for gaps up to some size, m.
+pub fn nearly_touching(constants: &Constants, balls: &State, widest: f64, wanted: impl Fn(f64) -> bool) -> Contacts {
+    let mut contacts = Contacts::NONE;
+    let mut add = |gap: f64, contact: Contact| {
+        if gap <= widest && wanted(contact.opening_speed(balls)) {
+            contacts.push(contact);
+        }
+    };
+    for index in 0..balls.len() {
+        for rail in Rail::ALL {
+            let normal = rail.normal();
+            let contact = Contact::with_cushion(index, normal);
+            add(gap(constants, balls, &contact), contact);
+        }
+    }
+    for (first, second) in PAIRS {
+        let contact = Contact::of_balls(first, second);
+        add(gap(constants, balls, &contact), contact);
+    }
+    contacts
+}
+
+/// Distance of a contact's surfaces, m.
+fn gap(constants: &Constants, balls: &State, contact: &Contact) -> f64 {
+    let place = balls[contact.first].position;
+    match contact.second {
+        Some(second) => place.distance(balls[second].position) - constants.diameter,
+        None => contact.cushion_normal.abs().dot(constants.reach) + place.dot(contact.cushion_normal),
+    }
+}
+
+/// Rounds in which gaps are closed: what one contact needs opens others a little.
+const CLOSING_ROUNDS: usize = 6;
+
+/// Moves balls by the gaps of their contacts, which are as small as the bounces that are given up.
+pub fn close(constants: &Constants, balls: &mut State, contacts: &[Contact]) {
+    for _ in 0..CLOSING_ROUNDS {
+        for contact in contacts {
+            let (gap, n) = (gap(constants, balls, contact), contact.normal(balls));
+            let share = if contact.second.is_some() { 0.5 } else { 1.0 };
+            balls[contact.first].position -= share * gap * n;
+            if let Some(second) = contact.second {
+                balls[second].position += share * gap * n;
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Every number that decides when something counts as nothing: each derived from the table, with its unit, its reason and
+//! what goes wrong where it is chosen badly.
+
+use crate::table::Table;
+
+/// What counts as nothing on one table. Lengths grow with the table's length `L`, since coordinates are rounded to a share
+/// of it; speeds with `√(g R)`, accelerations with `g`.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// Gaps below this are contact, m. Coordinates are rounded to `ε L / 4`, gaps to a few times that. Larger: real gaps
+    /// are closed too early. Smaller: contacts are lost.
+    pub touching: f64,
+    /// A gap that stays above this is not closed by any rounding, m. Smaller: a prediction that is rounded otherwise than
+    /// the test could be missed. Larger: roots are sought in vain.
+    pub surely_apart: f64,
+    /// Bounces that are given up together with others are lower than this, m: so far a ball may be moved at the end of a
+    /// chatter. Larger: the course jumps. Smaller: contacts that shake each other end their chatters one at a time.
+    pub given_up: f64,
+    /// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller:
+    /// what rounding leaves of an impact counts as a bounce.
+    pub opening: f64,
+    /// Accelerations along a contact's normal below this do not press, m/s²: a hundred roundings of g. Smaller: rounding
+    /// presses balls together that roll on side by side.
+    pub pressing: f64,
+    /// Slips below this are none, m/s. It is well above the error of the integration, so that what sticks is seen to
+    /// stick; what is cut off would have moved a ball by less than 1e-10 m.
+    pub slip: f64,
+    /// A slip below this is stopped at once if it then holds, m/s: what it still does until it ends, an impulse does too,
+    /// but for the change of the other forces meanwhile, which is of second order.
+    pub ending_slip: f64,
+    /// Slips up to this may have begun slowly, m/s: their friction acts against their rate. Larger: the direction is wrong for
+    /// longer. Smaller: the steps get as short as the direction is stiff.
+    pub yielding: f64,
+    /// Balls in resting contact that are all slower than this are at rest, m/s: they would roll on for less than 1e-11 m,
+    /// in ever smaller steps as their slips fade with their speeds.
+    pub still: f64,
+    /// Estimated error that a step of a resting contact may make, in m, m/s, or R times rad/s. A contact takes some tens
+    /// of steps.
+    pub step: f64,
+    /// Forces per mass that are broken or missing by less than this count as rounding, m/s².
+    pub slack: f64,
+    /// Bounces slower than this may be the end of a chatter, m/s: the test costs nothing where it cannot matter.
+    pub slow_bounce: f64,
+    /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
+    /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
+    pub slowest_bounce: f64,
+    /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
+    pub negligible: f64,
+    /// The same where several contacts shake each other, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
+    pub negligible_crowd: f64,
+}
+
+impl Tolerance {
+    /// What counts as nothing on `table`.
+    pub fn of(table: &Table) -> Self {
+        let speed = (table.gravity * table.radius).sqrt();
+        let rolling = 5.0 / 7.0 * table.rolling_friction * table.gravity;
+        Self {
+            touching: 16.0 * f64::EPSILON * table.length.max(table.width),
+            surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
+            given_up: 1.6e4 * f64::EPSILON * table.length.max(table.width),
+            opening: 2e-11 * speed,
+            pressing: 1e-14 * table.gravity,
+            slip: 2e-10 * speed,
+            ending_slip: 4e-10 * speed,
+            yielding: 1e-4 * speed,
+            still: (2e-11 * rolling).sqrt(),
+            step: 2e-13 * speed.max(table.radius),
+            slack: 1e-12 * table.gravity,
+            slow_bounce: 2e-2 * speed,
+            slowest_bounce: 2e-10 * speed,
+            negligible: 2e-12 * speed,
+            negligible_crowd: 2e-10 * speed,
+        }
+    }
+}
