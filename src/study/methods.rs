@@ -6,9 +6,10 @@ use super::{
     ledger::Ledger,
     plain::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
     shots::StudyShot,
+    steps::Steps,
 };
 use crate::{
-    simulation::{Event, EventKind, Observer, Steps, simulate},
+    simulation::{Event, EventKind, Observer, simulate},
     table::{Layout, Table},
 };
 

@@ -14,6 +14,7 @@ pub mod reproduction;
 mod shots;
 pub mod stability;
 mod statistics;
+mod steps;
 pub mod throughput;
 mod truth;
 
@@ -26,4 +27,5 @@ pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references}
 pub use report::{csv, text};
 pub use shots::{StudyShot, random_shots};
 pub use statistics::{Share, Spread};
+pub use steps::{StepError, Stepped, Steps};
 pub use truth::Truth;
