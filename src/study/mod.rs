@@ -3,7 +3,6 @@
 mod chart;
 mod clock;
 mod errors;
-mod ledger;
 mod methods;
 pub mod plain;
 mod plots;

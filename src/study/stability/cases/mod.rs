@@ -69,15 +69,7 @@ impl Case {
         let mut figures = Figures::default();
         let mut goes_on = true;
         for table in (self.tables)() {
-            let sweep = Sweep {
-                table,
-                generator: self.shot,
-                check: self.check,
-                shots,
-                seed,
-                limits: self.limits,
-                slow: f64::INFINITY,
-            };
+            let sweep = Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
             figures.merge(&sweep.run(|progress, finding| {
                 goes_on = watch(progress, finding);
                 goes_on
