@@ -20,9 +20,11 @@ impl Default for Worst {
 }
 
 impl Worst {
-    /// Takes note of an error. NaN counts as the largest of all.
+    /// Takes note of an error. NaN counts as the largest of all; of equal ones the earliest is kept, in whatever order they
+    /// come.
     pub fn note(&mut self, value: f64, time: f64) {
-        if value.is_nan() && !self.value.is_nan() || value > self.value {
+        let earlier = value == self.value && time < self.time;
+        if value.is_nan() && !self.value.is_nan() || value > self.value || earlier {
             *self = Self { value, time };
         }
     }

@@ -29,7 +29,7 @@ const LISTEN: Duration = Duration::from_millis(5);
 const REPETITIONS: usize = 3;
 
 /// Shots slower than this are not played again, s.
-const TOO_SLOW_TO_REPEAT: f64 = 1.0;
+const TOO_SLOW_TO_REPEAT: f64 = 0.5;
 
 /// Draws one shot.
 pub type Generator = fn(&Table, &mut Xoshiro256PlusPlus) -> Shot;

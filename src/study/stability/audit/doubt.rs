@@ -35,7 +35,8 @@ pub struct Doubt {
     /// Whether several impacts leave a ball still: what stopped it is then told from their impulses only to
     /// [`STOPPED_SPEED`].
     pub stops: bool,
-    /// How far a ball is moved at once, m: the normals of its contacts turn by as much over the distance of two balls.
+    /// How far a ball is moved on to what it hits, m: the normals of other contacts turn by as much over the distance of
+    /// two balls.
     pub moved: f64,
 }
 

@@ -112,14 +112,13 @@ impl Audit<'_> {
             let group = moment.group(ball, &changed);
             let members = || (0..BALLS).filter(|&member| group[member]);
             members().for_each(|member| seen[member] = true);
+            let moved = || members().map(|member| before[member].position.distance(after[member].position));
             let doubt = Doubt {
                 energy: members().map(|member| self.courses[member].largest).sum(),
                 time: now,
                 rests: members().any(|member| rested[member] || rests[member]),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
-                moved: members()
-                    .map(|member| before[member].position.distance(after[member].position))
-                    .fold(0.0, f64::max),
+                moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.gap) },
             };
             let Taken { mut unexplained, bounces } = moment.taken(&group);
             let mut returned = 0.0;
@@ -187,3 +186,6 @@ impl Audit<'_> {
         self.account.allowed += allowed;
     }
 }
+
+#[cfg(test)]
+mod tests;

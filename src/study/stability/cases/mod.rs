@@ -1,5 +1,6 @@
 //! The stiff and extreme cases: each draws many shots and knows what must hold of them besides the invariants.
 
+mod chatter;
 mod cushion;
 mod grazing;
 mod lone;
@@ -56,6 +57,7 @@ pub fn all() -> Vec<Case> {
         touching::CASES,
         simultaneous::CASES,
         pressed::CASES,
+        chatter::CASES,
         smooth_courses::CASES,
         strokes::CASES,
         tables::CASES,
