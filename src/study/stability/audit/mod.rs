@@ -91,9 +91,12 @@ impl Audit<'_> {
         let rested = self.courses.map(|course| course.resting().is_some());
         let before = self.courses.map(|course| course.before);
         let before_energy = self.courses.map(|course| course.energy);
-        let after: [BallState; BALLS] = std::array::from_fn(|ball| match changed[ball] {
-            true => self.courses[ball].begin(self.table, self.trace),
-            false => self.courses[ball].state(&self.trace.constants, now),
+        let after: [BallState; BALLS] = std::array::from_fn(|ball| {
+            if changed[ball] {
+                self.courses[ball].begin(self.table, self.trace)
+            } else {
+                self.courses[ball].state(&self.trace.constants, now)
+            }
         });
         let rests = self.courses.map(|course| course.resting().is_some());
         let mut closed = Contact::all(self.table.radius, self.trace.constants.reach, &after, self.gap);
@@ -109,7 +112,7 @@ impl Audit<'_> {
             if !changed[ball] || seen[ball] {
                 continue;
             }
-            let group = moment.group(ball, &changed);
+            let group = moment.group(ball, changed);
             let members = || (0..BALLS).filter(|&member| group[member]);
             members().for_each(|member| seen[member] = true);
             let moved = || members().map(|member| before[member].position.distance(after[member].position));
@@ -120,7 +123,7 @@ impl Audit<'_> {
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.gap) },
             };
-            let Taken { mut unexplained, bounces } = moment.taken(&group);
+            let Taken { mut unexplained, bounces } = moment.taken(group);
             let mut returned = 0.0;
             for member in members().filter(|&member| rested[member] && !rests[member]) {
                 if let Some((since, bounces)) = self.courses[member].bounces.take() {
@@ -145,11 +148,11 @@ impl Audit<'_> {
     /// something and each other have common pieces.
     fn pieces(&mut self, now: f64, figures: &mut Figures) {
         let mut resting: [Option<&Piece>; BALLS] = [None; BALLS];
-        for ball in 0..BALLS {
+        for (ball, place) in resting.iter_mut().enumerate() {
             let course = &self.courses[ball];
             let Some(piece) = course.piece().filter(|piece| piece.segment.start == now) else { continue };
             if course.resting().is_some() {
-                resting[ball] = Some(piece);
+                *place = Some(piece);
                 continue;
             }
             let state = piece.segment.state_after(&self.trace.constants, 0.0);

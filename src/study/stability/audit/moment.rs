@@ -47,7 +47,7 @@ pub struct Bounces {
 
 impl Moment<'_> {
     /// The balls that are joined to `ball` by impacts or closed contacts, itself among them.
-    pub fn group(&self, ball: usize, changed: &[bool; BALLS]) -> [bool; BALLS] {
+    pub fn group(&self, ball: usize, changed: [bool; BALLS]) -> [bool; BALLS] {
         let mut group: [bool; BALLS] = std::array::from_fn(|other| other == ball);
         // Three balls are reached in two rounds.
         for _ in 1..BALLS {
@@ -65,11 +65,13 @@ impl Moment<'_> {
     }
 
     /// What is lost by the balls of a group beyond what its impacts take.
-    pub fn taken(&self, group: &[bool; BALLS]) -> Taken {
+    pub fn taken(&self, group: [bool; BALLS]) -> Taken {
         let of_group = |balls: &[BallState; BALLS]| {
             let mut all = motion(self.table.radius, balls);
             for (place, member) in all.chunks_exact_mut(5).zip(group) {
-                place.iter_mut().for_each(|speed| *speed = if *member { *speed } else { 0.0 });
+                if !member {
+                    place.fill(0.0);
+                }
             }
             all
         };
@@ -117,7 +119,7 @@ impl Moment<'_> {
     /// Several impacts, or some on balls that rest against something: whatever changes must be the work of impulses in
     /// closed contacts, none of which pulls or rubs more than Coulomb allows. So no more is lost than the energy of the
     /// relative motion in these contacts; how much of it their order and restitutions decide.
-    fn several(&self, group: &[bool; BALLS], impacts: &[&Contact], before: &Column, after: &Column) -> f64 {
+    fn several(&self, group: [bool; BALLS], impacts: &[&Contact], before: &Column, after: &Column) -> f64 {
         let mut contacts: Vec<Contact> = Vec::new();
         let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
         for contact in impacts.iter().copied().chain(self.closed.iter().filter(inside)) {

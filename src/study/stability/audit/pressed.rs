@@ -62,12 +62,11 @@ pub fn work(
     let mut contacts = Contact::all(table.radius, constants.reach, &states(from + half), gap);
     contacts.retain(|contact| members[contact.first] && contact.second.is_none_or(|second| members[second]));
     let mut sum = Work::default();
-    for ball in 0..BALLS {
-        let loss =
-            members[ball].then(|| on_one_cushion(table, ball, &contacts, &states(from)[ball], &ends, until - from));
+    for (ball, (member, state)) in members.iter_mut().zip(states(from)).enumerate() {
+        let loss = member.then(|| on_one_cushion(table, ball, &contacts, &state, &ends, until - from));
         if let Some(loss) = loss.flatten() {
             (sum.least, sum.most) = (sum.least + loss, sum.most + loss);
-            members[ball] = false;
+            *member = false;
             contacts.retain(|contact| contact.first != ball);
         }
     }

@@ -135,7 +135,7 @@ fn dead_impact(table: &Table, rests: bool) -> Taken {
     let after = [BallState::at_rest(DVec2::ZERO); BALLS];
     let rests = [rests, false, false];
     let moment = Moment { table, before, after, rested: [false; BALLS], rests, impacts, closed: vec![contact] };
-    moment.taken(&[true, false, false])
+    moment.taken([true, false, false])
 }
 
 #[test]
