@@ -83,7 +83,7 @@ pub enum Violation {
     #[error("energy grows by {value:.1} times what rounding explains at {time} s", value = .0.value, time = .0.time)]
     Energy(Worst),
     /// Energy is lost that nothing takes, or not lost where something takes it.
-    #[error("energy is off by {value:.1} times what is explained at {time} s", value = .0.value, time = .0.time)]
+    #[error("energy is off by {value:.3e} times what is explained at {time} s", value = .0.value, time = .0.time)]
     Unexplained(Worst),
     /// A ball is put somewhere else.
     #[error("a ball jumps by {value:.3e} m at {time} s", value = .0.value, time = .0.time)]

@@ -94,14 +94,19 @@ impl Row {
             self.name.to_owned(),
             self.figures.shots.to_string(),
             format!("{:.1e}", self.distance()),
-            format!("{:.2}", self.figures.energy.value.max(0.0)),
-            format!("{:.2}", self.figures.unexplained.value.max(0.0)),
+            multiple(self.figures.energy.value),
+            multiple(self.figures.unexplained.value),
             format!("{:.1e}", self.figures.missing.value.max(0.0)),
             self.figures.events.to_string(),
             format!("{:.1}", 1e3 * self.figures.seconds),
             self.verdict(),
         ]
     }
+}
+
+/// How many times what is allowed; NaN stays to be seen.
+fn multiple(value: f64) -> String {
+    if value > 1e4 { format!("{value:.1e}") } else { format!("{:.2}", if value < 0.0 { 0.0 } else { value }) }
 }
 
 /// Columns of the table.
@@ -178,7 +183,7 @@ ball pressed against one cushion by integrating its equations; other resting con
 course, to a thousandth. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
 long as they would. What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball), and in resting contacts errors of 1e-10 m/s, of 1e-10 m and of a \
-millionth of the work. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
+hundred-thousandth of the work. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
 multiples of what is explained and in m²/s² (energy over a ball's mass).";
 
 /// A page of Markdown around the table.

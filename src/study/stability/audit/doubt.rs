@@ -13,8 +13,9 @@ const RESTING_SPEED: f64 = 1e-10;
 /// Place to which the courses of resting contacts are right, m: the work of a force is as uncertain as its way.
 const RESTING_PLACE: f64 = 1e-10;
 
-/// Share to which the work of frictions in a resting contact is known: that of its integration.
-const RESTING_WORK: f64 = 1e-6;
+/// Share to which the work of frictions in a resting contact is known: that of its integration, and of slips that begin or
+/// end on the way and are still slow.
+const RESTING_WORK: f64 = 1e-5;
 
 /// Slips and speeds below this may be stopped at once, m/s.
 pub const STOPPED_SPEED: f64 = 1e-7;
