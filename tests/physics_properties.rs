@@ -38,6 +38,37 @@ fn shots() -> impl Strategy<Value = (Table, Layout, CueInputs)> {
     })
 }
 
+/// Radius of the balls that collide outside of any table, m.
+const RADIUS: f64 = 0.03;
+
+/// How far two states are apart in velocity and R times spin, m/s.
+fn distance(one: &BallState, other: &BallState) -> f64 {
+    one.velocity.distance(other.velocity).max(RADIUS * one.spin.distance(other.spin))
+}
+
+/// Whether no two impacts happen within a nanosecond, and nothing rests against anything: then the order in which balls
+/// are looked at cannot matter.
+fn only_single_impacts(recording: &Recording) -> bool {
+    let rests = |kind: EventKind| matches!(kind, EventKind::ContactBegins(_));
+    recording.events().iter().all(|event| !rests(event.kind))
+        && recording.events().windows(2).all(|pair| pair[1].time - pair[0].time > 1e-9)
+}
+
+/// The event with balls 1 and 2 exchanged.
+fn renamed(kind: EventKind) -> EventKind {
+    let name = |ball: usize| if ball == 0 { 0 } else { 3 - ball };
+    match kind {
+        EventKind::BallBall(first, second) => {
+            EventKind::BallBall(name(first).min(name(second)), name(first).max(name(second)))
+        }
+        EventKind::BallRail(ball, rail) => EventKind::BallRail(name(ball), rail),
+        EventKind::SlidingRolling(ball) => EventKind::SlidingRolling(name(ball)),
+        EventKind::RollingStationary(ball) => EventKind::RollingStationary(name(ball)),
+        EventKind::ContactBegins(ball) => EventKind::ContactBegins(name(ball)),
+        EventKind::ContactEnds(ball) => EventKind::ContactEnds(name(ball)),
+    }
+}
+
 fn energy(recording: &Recording, radius: f64, t: f64) -> f64 {
     (0..3).map(|ball| recording.state(ball, t).specific_energy(radius)).sum()
 }
@@ -108,6 +139,20 @@ proptest! {
         }
     }
 
+    /// Exchanging the object balls exchanges the names in the course and nothing else, to the last bit.
+    #[test]
+    fn the_balls_numbers_do_not_matter((table, layout, cue) in shots()) {
+        let [cue_ball, one, other] = layout.balls;
+        let recording = Recording::new(&table, &layout, &cue).unwrap();
+        prop_assume!(only_single_impacts(&recording));
+        let exchanged = Recording::new(&table, &Layout::new([cue_ball, other, one]), &cue).unwrap();
+        let named = recording.events().iter().map(|event| (event.time, renamed(event.kind)));
+        let found = exchanged.events().iter().map(|event| (event.time, event.kind));
+        prop_assert_eq!(named.collect::<Vec<_>>(), found.collect::<Vec<_>>());
+        let [end, first, second] = exchanged.final_layout().balls;
+        prop_assert_eq!(recording.final_layout().balls, [end, second, first]);
+    }
+
     #[test]
     fn the_same_shot_gives_the_same_bits((table, layout, cue) in shots()) {
         let run = || Recording::new(&table, &layout, &cue).unwrap();
@@ -146,6 +191,61 @@ proptest! {
         prop_assert!(((first.velocity - second.velocity).dot(n) - e * approach).abs() < 1e-12);
         let energy = |a: &BallState, b: &BallState| a.specific_energy(radius) + b.specific_energy(radius);
         prop_assert!(energy(&first, &second) <= energy(&before.0, &before.1) * (1.0 + 1e-14) + 1e-13);
+    }
+
+    /// Without loss an impact is undone by the same impact of the reversed velocities.
+    #[test]
+    fn lossless_impacts_run_backwards(
+        angle in -3.2..3.2_f64, v in prop::array::uniform4(-5.0..5.0_f64), w in prop::array::uniform6(-200.0..200.0_f64),
+    ) {
+        let n = DVec2::from_angle(angle);
+        let state = |position, v: &[f64], w: &[f64]| BallState {
+            position,
+            velocity: DVec2::from_slice(v),
+            spin: DVec3::from_slice(w),
+        };
+        let reversed = |ball: &BallState| BallState { velocity: -ball.velocity, spin: -ball.spin, ..*ball };
+        let before = (state(n * 2.0 * RADIUS, &v[..2], &w[..3]), state(DVec2::ZERO, &v[2..], &w[3..]));
+        prop_assume!((before.1.velocity - before.0.velocity).dot(n) > 1e-3);
+        let mut balls = before;
+        collide_balls(RADIUS, 1.0, Some(0.0), &mut balls.0, &mut balls.1);
+        balls = (reversed(&balls.0), reversed(&balls.1));
+        collide_balls(RADIUS, 1.0, Some(0.0), &mut balls.0, &mut balls.1);
+        prop_assert!(distance(&reversed(&balls.0), &before.0) < ROUNDING);
+        prop_assert!(distance(&reversed(&balls.1), &before.1) < ROUNDING);
+        let at_cushion = BallState { velocity: before.0.velocity - before.1.velocity, ..before.0 };
+        let mut ball = at_cushion;
+        collide_rail(RADIUS, 1.0, 0.0, n, &mut ball);
+        ball = reversed(&ball);
+        collide_rail(RADIUS, 1.0, 0.0, n, &mut ball);
+        prop_assert!(distance(&reversed(&ball), &at_cushion) < ROUNDING);
+    }
+
+    /// A mirrored impact has the mirrored outcome: velocities are mirrored as they are, spins as the axes they are.
+    #[test]
+    fn mirrored_impacts_are_mirrored(
+        angle in -3.2..3.2_f64, v in prop::array::uniform4(-5.0..5.0_f64), w in prop::array::uniform6(-200.0..200.0_f64),
+        e in 0.0..=1.0_f64, mu in prop::option::of(0.0..1.0_f64),
+    ) {
+        let mirror = |ball: &BallState| BallState {
+            position: ball.position * DVec2::new(1.0, -1.0),
+            velocity: ball.velocity * DVec2::new(1.0, -1.0),
+            spin: ball.spin * DVec3::new(-1.0, 1.0, -1.0),
+        };
+        let n = DVec2::from_angle(angle);
+        let mut balls = [
+            BallState { position: n * 2.0 * RADIUS, velocity: DVec2::new(v[0], v[1]), spin: DVec3::new(w[0], w[1], w[2]) },
+            BallState { position: DVec2::ZERO, velocity: DVec2::new(v[2], v[3]), spin: DVec3::new(w[3], w[4], w[5]) },
+        ];
+        let mut mirrored = [mirror(&balls[0]), mirror(&balls[1])];
+        for balls in [&mut balls, &mut mirrored] {
+            let [first, second] = balls;
+            collide_balls(RADIUS, e, mu, first, second);
+        }
+        prop_assert!(balls.iter().zip(&mirrored).all(|(ball, other)| distance(&mirror(ball), other) < ROUNDING));
+        collide_rail(RADIUS, e, mu.unwrap_or(0.2), n, &mut balls[0]);
+        collide_rail(RADIUS, e, mu.unwrap_or(0.2), n * DVec2::new(1.0, -1.0), &mut mirrored[0]);
+        prop_assert!(distance(&mirror(&balls[0]), &mirrored[0]) < ROUNDING);
     }
 
     #[test]

@@ -24,8 +24,8 @@ pub struct Args {
     /// Few shots and no time steps below 1e-4 s: seconds instead of minutes.
     #[arg(long)]
     quick: bool,
-    /// Number of random shots on each table. Default: 1000, or 96 with --quick
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1_000_000_000))]
     shots: Option<u32>,
     /// Seed of the shots.
     #[arg(long, default_value_t = 2026)]
@@ -33,9 +33,9 @@ pub struct Args {
     /// The table: "match", "thesis" or the path of a TOML file. Default: match and thesis
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
-    /// Play the stability table only: ten million random and a hundred thousand adversarial shots on each table, which
-    /// takes long; a hundredth of them with --quick.
-    #[arg(long, conflicts_with_all = ["shots", "table"])]
+    /// Play the stability table only: a hundred thousand random, ten thousand adversarial and a thousand shots of each
+    /// stiff or extreme case on each table, or a tenth of them with --quick. --shots sets the random ones.
+    #[arg(long, conflicts_with = "table")]
     stability: bool,
     /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
     #[arg(long, value_name = "DIR")]
@@ -44,6 +44,9 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 }
+
+/// Most shots whose every method is studied: all of them are kept.
+const MOST_STUDIED: u32 = 1_000_000;
 
 /// How much is done.
 struct Size {
@@ -64,8 +67,14 @@ impl Size {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.stability {
-        let plan = if args.quick { stability::Plan::QUICK } else { stability::Plan::FULL };
-        return play_stability(args, &plan);
+        let plan = if args.quick { stability::Plan::QUICK } else { stability::Plan::REPORT };
+        let random = args.shots.map_or(plan.random, u64::from);
+        return play_stability(args, &stability::Plan { random, ..plan });
+    }
+    if let Some(shots) = args.shots.filter(|shots| *shots > MOST_STUDIED) {
+        return Err(Failure::wrong_input(format_args!(
+            "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
+        )));
     }
     let tables: Vec<Table> = match &args.table {
         Some(name) => vec![table_named(name)?],
@@ -98,7 +107,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         eprintln!("The stability table takes minutes: leave --quick out, or use --stability.");
         return Ok(());
     }
-    play_stability(args, &stability::Plan::QUICK)
+    play_stability(args, &stability::Plan::REPORT)
 }
 
 /// The stability table, which tells of each stiff or extreme case how many shots fail and why.

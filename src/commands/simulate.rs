@@ -11,7 +11,8 @@ use super::{
 };
 use crate::{
     physics::CueInputs,
-    simulation::{Event, Recording, Stepped, Steps},
+    simulation::{Event, Recording},
+    study::{Stepped, Steps},
     table::{Layout, Table},
 };
 
@@ -144,9 +145,7 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
     match steps {
         None => Recording::new(table, layout, cue).map(|recording| (recording, None)),
-        Some(steps) => {
-            Recording::stepped(table, layout, cue, steps).map(|(recording, stepped)| (recording, Some(stepped)))
-        }
+        Some(steps) => steps.record(table, layout, cue).map(|(recording, stepped)| (recording, Some(stepped))),
     }
     .map_err(Failure::wrong_input)
 }

@@ -1,4 +1,4 @@
-//! When things happen: event prediction, the engine, the fixed-step method, and playback of what it recorded.
+//! When things happen: event prediction, the engine, and playback of what it recorded.
 
 mod chatter;
 mod constants;
@@ -16,14 +16,12 @@ mod resting;
 mod roots;
 mod savings;
 mod segment;
-mod steps;
 mod tolerance;
 
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, Patience, Rail};
-pub use playback::{Recording, ShotError};
+pub use playback::{Recorder, Recording, ShotError};
 pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};
-pub use steps::{StepError, Stepped, Steps};
 pub use tolerance::Tolerance;

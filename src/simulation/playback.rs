@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::{Constants, End, Event, Observer, Segment, Stepped, Steps, simulate};
+use super::{Constants, End, Event, Observer, Segment, simulate};
 use crate::{
     physics::{BallState, CueError, CueInputs, Impulse, Motion, strike},
     table::{BALLS, Layout, LayoutError, Table},
@@ -59,24 +59,25 @@ impl Recording {
         Ok(())
     }
 
-    /// The same shot by the intuitive method of fixed steps, and what the steps did.
+    /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
+    /// recorder what happens, and returns how the shot ended with anything else that it has to say.
     ///
     /// # Errors
     /// What is wrong with the layout or the stroke.
-    pub fn stepped(
+    pub fn played_by<T>(
         table: &Table,
         layout: &Layout,
         cue: &CueInputs,
-        steps: Steps,
-    ) -> Result<(Self, Stepped), ShotError> {
+        play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
+    ) -> Result<(Self, T), ShotError> {
         layout.validate(table)?;
         cue.validate()?;
         let impulse = strike(table, cue);
         let mut recording =
             Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 };
-        let stepped = steps.simulate(table, layout, &impulse, &mut recording.kept);
-        recording.end_with(&stepped.end);
-        Ok((recording, stepped))
+        let (end, more) = play(&impulse, &mut recording.kept);
+        recording.end_with(&end);
+        Ok((recording, more))
     }
 
     /// Lets all balls rest where they have come to.
@@ -142,9 +143,9 @@ impl Recording {
     }
 }
 
-/// Keeps everything.
+/// The observer that keeps everything for a [`Recording`].
 #[derive(Clone, Debug)]
-struct Recorder {
+pub struct Recorder {
     events: Vec<Event>,
     segments: [Vec<Segment>; BALLS],
 }

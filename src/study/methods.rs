@@ -3,12 +3,13 @@
 use std::{fmt, ops::ControlFlow};
 
 use super::{
-    ledger::Ledger,
     plain::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
     shots::StudyShot,
+    stability::{Trace, account},
+    steps::Steps,
 };
 use crate::{
-    simulation::{Event, EventKind, Observer, Steps, simulate},
+    simulation::{Event, EventKind, Observer, simulate},
     table::{Layout, Table},
 };
 
@@ -81,22 +82,20 @@ impl Method {
         }
     }
 
-    /// Share of the energy for which friction and impacts do not account. Not of resting contacts, whose friction only
-    /// the plain engine integrates.
+    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep.
     pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
+        let mut trace = Trace::new(table);
         match self {
             Self::Engine => {
-                let mut ledger = Ledger::new(table, shot);
-                let end = simulate(table, &shot.layout, &shot.impulse, &mut ledger);
-                ledger.unaccounted(&end)
+                trace.record(&shot.impulse, |trace| simulate(table, &shot.layout, &shot.impulse, trace));
             }
             Self::Steps(steps) => {
-                let mut ledger = Ledger::new(table, shot);
-                let stepped = steps.simulate(table, &shot.layout, &shot.impulse, &mut ledger);
-                ledger.unaccounted(&stepped.end)
+                trace.record(&shot.impulse, |trace| steps.simulate(table, &shot.layout, &shot.impulse, trace).end);
             }
-            _ => run.unaccounted,
+            _ => return run.unaccounted,
         }
+        let account = account(table, &trace);
+        (trace.kept_until == f64::INFINITY).then(|| (account.unexplained / account.start).abs())
     }
 }
 

@@ -3,7 +3,6 @@
 mod chart;
 mod clock;
 mod errors;
-mod ledger;
 mod methods;
 pub mod plain;
 mod plots;
@@ -14,6 +13,7 @@ pub mod reproduction;
 mod shots;
 pub mod stability;
 mod statistics;
+mod steps;
 pub mod throughput;
 mod truth;
 
@@ -26,4 +26,5 @@ pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references}
 pub use report::{csv, text};
 pub use shots::{StudyShot, random_shots};
 pub use statistics::{Share, Spread};
+pub use steps::{StepError, Stepped, Steps};
 pub use truth::Truth;

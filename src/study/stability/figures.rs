@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::table::Table;
+
 /// The largest of some error, and when in its shot it happened.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Worst {
@@ -18,9 +20,11 @@ impl Default for Worst {
 }
 
 impl Worst {
-    /// Takes note of an error. NaN counts as the largest of all.
+    /// Takes note of an error. NaN counts as the largest of all; of equal ones the earliest is kept, in whatever order they
+    /// come.
     pub fn note(&mut self, value: f64, time: f64) {
-        if value.is_nan() && !self.value.is_nan() || value > self.value {
+        let earlier = value == self.value && time < self.time;
+        if value.is_nan() && !self.value.is_nan() || value > self.value || earlier {
             *self = Self { value, time };
         }
     }
@@ -39,6 +43,11 @@ pub struct Figures {
     pub energy: Worst,
     /// The same in m²/s², energy per mass of a ball.
     pub gained: Worst,
+    /// Energy lost that no friction and no impact takes, or that one should have taken and did not, at an event, on the way
+    /// to the next, or in the whole shot, in units of what rounding and the tolerances explain.
+    pub unexplained: Worst,
+    /// The same in m²/s².
+    pub missing: Worst,
     /// How far a ball is displaced from one piece of its course to the next, m.
     pub jump: Worst,
     /// How far apart balls, or ball and cushion, are that are told to collide, m.
@@ -53,7 +62,7 @@ pub struct Figures {
     pub events: usize,
     /// Most pieces of course of a shot.
     pub steps: usize,
-    /// Longest time that the simulation of a shot took, s.
+    /// Longest time that the simulation of a shot took, s: of a slow one the least of several attempts.
     pub seconds: f64,
 }
 
@@ -73,6 +82,9 @@ pub enum Violation {
     /// Energy is gained.
     #[error("energy grows by {value:.1} times what rounding explains at {time} s", value = .0.value, time = .0.time)]
     Energy(Worst),
+    /// Energy is lost that nothing takes, or not lost where something takes it.
+    #[error("energy is off by {value:.3e} times what is explained at {time} s", value = .0.value, time = .0.time)]
+    Unexplained(Worst),
     /// A ball is put somewhere else.
     #[error("a ball jumps by {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
     Jump(Worst),
@@ -85,6 +97,9 @@ pub enum Violation {
     /// The shot did not end by itself.
     #[error("the shot does not end")]
     Unfinished,
+    /// The shot takes too long to simulate.
+    #[error("the shot takes {ms:.0} ms", ms = 1e3 * .0)]
+    Slow(f64),
     /// The shot needs more events than any real one.
     #[error("the shot needs {0} events")]
     Events(usize),
@@ -100,15 +115,27 @@ pub struct Limits {
     pub distance: f64,
     /// Events of a shot.
     pub events: usize,
+    /// Time that the simulation of a shot may take, s.
+    pub seconds: f64,
 }
 
 impl Limits {
-    /// The goal: a billionth of a metre, five hundred events.
-    pub const STRICT: Self = Self { distance: 1e-9, events: 500 };
+    /// The goal on tables as people play on: a billionth of a metre, five hundred events, 50 ms.
+    pub const STRICT: Self = Self { distance: 1e-9, events: 500, seconds: 0.05 };
 
     /// For tables on which a shot has more events by nature.
     pub const ANY_EVENTS: Self = Self { events: usize::MAX, ..Self::STRICT };
+
+    /// These limits on a table: on one that is longer than those people play on, distances may be larger in proportion, as
+    /// the rounding of places is.
+    #[must_use]
+    pub fn on(self, table: &Table) -> Self {
+        Self { distance: self.distance * (table.length / LONGEST_USUAL).max(1.0), ..self }
+    }
 }
+
+/// Length of a match table, m.
+const LONGEST_USUAL: f64 = 2.84;
 
 impl Figures {
     /// Adds the figures of other shots.
@@ -119,6 +146,8 @@ impl Figures {
             (&mut self.outside, other.outside),
             (&mut self.energy, other.energy),
             (&mut self.gained, other.gained),
+            (&mut self.unexplained, other.unexplained),
+            (&mut self.missing, other.missing),
             (&mut self.jump, other.jump),
             (&mut self.apart, other.apart),
             (&mut self.backwards, other.backwards),
@@ -143,8 +172,10 @@ impl Figures {
             (beyond(self.jump, limits.distance), Violation::Jump(self.jump)),
             (beyond(self.apart, limits.distance), Violation::Apart(self.apart)),
             (beyond(self.energy, 1.0), Violation::Energy(self.energy)),
+            (beyond(self.unexplained, 1.0), Violation::Unexplained(self.unexplained)),
             (beyond(self.backwards, 0.0), Violation::Backwards(self.backwards)),
             (self.events > limits.events, Violation::Events(self.events)),
+            (self.seconds > limits.seconds, Violation::Slow(self.seconds)),
         ];
         candidates.into_iter().filter_map(|(is, violation)| is.then_some(violation)).collect()
     }

@@ -8,7 +8,7 @@ use crate::table::Table;
 /// A shot that has not even had an event for so long hangs, s.
 pub const HANG: f64 = 3.0 * BREAK_AFTER_SECONDS;
 
-/// A shot that does something that it should not, or is extreme.
+/// A shot that does something that it should not.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// The table's name.
@@ -16,7 +16,7 @@ pub struct Finding {
     /// The shot.
     #[serde(flatten)]
     pub shot: Shot,
-    /// What is wrong, in words; "slow" or "hang" where nothing but the time is.
+    /// What is wrong, in words.
     pub what: String,
     /// Its violations.
     pub violations: Vec<Violation>,
@@ -24,18 +24,18 @@ pub struct Finding {
     pub events: usize,
     /// Pieces of course that it needs.
     pub steps: usize,
-    /// Time that it took, ms: the least of three attempts where that was affordable.
+    /// Time that it took, ms: where that was too much, the least of several attempts if they were affordable.
     pub ms: f64,
 }
 
 impl Finding {
-    /// A shot that breaks something, or is slow.
+    /// A shot that breaks something.
     pub fn new(table: &Table, shot: &Shot, measured: &Figures, violations: Vec<Violation>) -> Self {
         let words: Vec<String> = violations.iter().map(ToString::to_string).collect();
         Self {
             table: table.name.clone(),
             shot: *shot,
-            what: if words.is_empty() { "slow".to_owned() } else { words.join("; ") },
+            what: words.join("; "),
             violations,
             events: measured.events,
             steps: measured.steps,

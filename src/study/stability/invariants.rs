@@ -12,7 +12,7 @@ use crate::{
 };
 
 use super::{
-    energy,
+    audit::audit,
     figures::Figures,
     polynomial::{MAX_DEGREE, least},
     shot::Shot,
@@ -56,7 +56,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         overlaps(&trace.constants, &trace.pieces[first], &trace.pieces[second], &mut figures);
     }
     contacts(trace, &mut figures);
-    energy::measure(table, trace, &mut figures);
+    audit(table, trace, &mut figures);
     figures
 }
 

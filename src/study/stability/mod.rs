@@ -1,9 +1,9 @@
 //! Stability: what must hold in every shot, and shots made to break it.
 
 pub mod adversarial;
+mod audit;
 mod cases;
 mod draw;
-mod energy;
 mod figures;
 mod finding;
 mod invariants;
@@ -15,6 +15,7 @@ mod shot;
 mod sweep;
 mod trace;
 
+pub use audit::{Account, account};
 pub use cases::{Case, Size, all as cases};
 pub use figures::{Figures, Limits, Violation, Worst};
 pub use finding::Finding;

@@ -25,11 +25,11 @@ const WATCH_EVERY: Duration = Duration::from_millis(500);
 /// How long it listens for news before it sees whether all threads have gone home.
 const LISTEN: Duration = Duration::from_millis(5);
 
-/// A shot that is slower than this is played again to see whether it was the machine, s.
-const SLOW: f64 = 5e-3;
+/// How often a shot that is too slow is played again, since it may have been the machine: the least time counts.
+const REPETITIONS: usize = 3;
 
 /// Shots slower than this are not played again, s.
-const TOO_SLOW_TO_REPEAT: f64 = 1.0;
+const TOO_SLOW_TO_REPEAT: f64 = 0.5;
 
 /// Draws one shot.
 pub type Generator = fn(&Table, &mut Xoshiro256PlusPlus) -> Shot;
@@ -50,10 +50,8 @@ pub struct Sweep {
     pub shots: u64,
     /// Seed of all of them.
     pub seed: u64,
-    /// What counts as a violation.
+    /// What counts as a violation on a table as people play on.
     pub limits: Limits,
-    /// Shots slower than this become findings even if nothing is wrong with them, s.
-    pub slow: f64,
 }
 
 /// How far a sweep is.
@@ -160,6 +158,7 @@ impl Work {
     fn through(&self, desk: &Desk, sender: &mpsc::Sender<Message>) {
         let sweep = &self.sweep;
         let mut trace = Trace::new(&sweep.table);
+        let limits = sweep.limits.on(&sweep.table);
         while !self.stop.load(Ordering::Relaxed) {
             let chunk = self.next_chunk.fetch_add(1, Ordering::Relaxed);
             let begin = chunk * CHUNK;
@@ -175,18 +174,19 @@ impl Work {
                 // A shot that has been broken off has failed already.
                 let check = sweep.check.filter(|_| trace.finished);
                 let also = check.map_or(Ok(()), |check| check(&sweep.table, &shot, &trace));
-                if sweep.slow.is_finite() && (SLOW..TOO_SLOW_TO_REPEAT).contains(&measured.seconds) {
-                    for _ in 0..2 {
-                        trace.play(&sweep.table, &shot);
-                        measured.seconds = measured.seconds.min(trace.seconds);
+                for _ in 0..REPETITIONS {
+                    if !(limits.seconds..TOO_SLOW_TO_REPEAT).contains(&measured.seconds) {
+                        break;
                     }
+                    trace.play(&sweep.table, &shot);
+                    measured.seconds = measured.seconds.min(trace.seconds);
                 }
                 if desk.given_up.load(Ordering::Relaxed) {
                     return;
                 }
-                let mut violations = measured.violations(&sweep.limits);
+                let mut violations = measured.violations(&limits);
                 violations.extend(also.err().map(Violation::Wrong));
-                if (!violations.is_empty() || measured.seconds > sweep.slow)
+                if !violations.is_empty()
                     && sender
                         .send(Message::Finding(Box::new(Finding::new(&sweep.table, &shot, &measured, violations))))
                         .is_err()
@@ -216,7 +216,6 @@ mod tests {
             shots: 1050,
             seed: 3,
             limits: Limits::STRICT,
-            slow: f64::INFINITY,
         }
     }
 

@@ -5,6 +5,7 @@ use std::{ops::ControlFlow, time::Instant};
 use crate::{
     physics::{Impulse, strike},
     simulation::{Constants, End, Event, Observer, Segment, simulate},
+    study::clock::timed,
     table::{BALLS, Table},
 };
 
@@ -49,7 +50,7 @@ pub struct Trace {
     pub end: End,
     /// Whether all balls came to rest; otherwise the shot was broken off.
     pub finished: bool,
-    /// Time that the simulation took, s.
+    /// Time that the simulation took, s: the thread's own, where that is to be had.
     pub seconds: f64,
     started: Instant,
 }
@@ -75,14 +76,18 @@ impl Trace {
 
     /// Plays `shot`, which is taken as it is, and keeps its course.
     pub fn play(&mut self, table: &Table, shot: &Shot) {
+        let impulse = strike(table, &shot.cue.inputs());
+        self.record(&impulse, |trace| simulate(table, &shot.layout, &impulse, trace));
+    }
+
+    /// Keeps the course of a shot that begins with `impulse` and that `play` plays.
+    pub fn record(&mut self, impulse: &Impulse, play: impl FnOnce(&mut Self) -> End) {
         self.events.clear();
         self.pieces.iter_mut().for_each(Vec::clear);
         (self.event_count, self.steps, self.finished, self.kept_until) = (0, 0, true, f64::INFINITY);
-        self.impulse = strike(table, &shot.cue.inputs());
-        let impulse = self.impulse;
+        self.impulse = *impulse;
         self.started = Instant::now();
-        self.end = simulate(table, &shot.layout, &impulse, self);
-        self.seconds = self.started.elapsed().as_secs_f64();
+        (self.end, self.seconds) = timed(|| play(self));
     }
 
     /// Keeps no more once there are `count` of something.

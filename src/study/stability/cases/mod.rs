@@ -1,5 +1,6 @@
 //! The stiff and extreme cases: each draws many shots and knows what must hold of them besides the invariants.
 
+mod chatter;
 mod cushion;
 mod grazing;
 mod lone;
@@ -56,6 +57,7 @@ pub fn all() -> Vec<Case> {
         touching::CASES,
         simultaneous::CASES,
         pressed::CASES,
+        chatter::CASES,
         smooth_courses::CASES,
         strokes::CASES,
         tables::CASES,
@@ -69,15 +71,7 @@ impl Case {
         let mut figures = Figures::default();
         let mut goes_on = true;
         for table in (self.tables)() {
-            let sweep = Sweep {
-                table,
-                generator: self.shot,
-                check: self.check,
-                shots,
-                seed,
-                limits: self.limits,
-                slow: f64::INFINITY,
-            };
+            let sweep = Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
             figures.merge(&sweep.run(|progress, finding| {
                 goes_on = watch(progress, finding);
                 goes_on

@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::{Constants, End, Event, EventKind, Observer, Rail, Segment};
 use crate::{
-    physics::{BallState, Impulse, Motion, collide_balls, collide_rail, rolling_deceleration, rolling_spin},
+    physics::{BallState, CueInputs, Impulse, Motion, collide_balls, collide_rail, rolling_deceleration, rolling_spin},
+    simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
     table::{BALLS, Layout, Table},
 };
 
@@ -54,7 +54,18 @@ impl Steps {
         if (1e-8..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
     }
 
-    /// Plays a shot as [`simulate`](super::simulate) does, step by step.
+    /// Records a shot as [`Recording::new`] does, but step by step, and tells what the steps did.
+    ///
+    /// # Errors
+    /// What is wrong with the layout or the stroke.
+    pub fn record(self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(Recording, Stepped), ShotError> {
+        Recording::played_by(table, layout, cue, |impulse, recorder| {
+            let stepped = self.simulate(table, layout, impulse, recorder);
+            (stepped.end, stepped)
+        })
+    }
+
+    /// Plays a shot as [`simulate`](crate::simulation::simulate) does, step by step.
     pub fn simulate<O: Observer>(self, table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) -> Stepped {
         let mut stepper = Stepper::new(table, layout, observer);
         let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..stepper.balls[0].state };
@@ -310,12 +321,11 @@ fn closing(gap: impl Fn(f64) -> f64, span: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{physics::CueInputs, simulation::Recording};
 
     fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
         let table = Table::default();
         let cue = CueInputs::parse(shot).unwrap();
-        Recording::stepped(&table, &Layout::opening(&table), &cue, Steps::new(dt, locate).unwrap()).unwrap()
+        Steps::new(dt, locate).unwrap().record(&table, &Layout::opening(&table), &cue).unwrap()
     }
 
     fn error(dt: f64, locate: bool) -> f64 {

@@ -1,0 +1,76 @@
+//! One ball's course as the audit walks along it, piece by piece.
+
+use super::{Motion, moment::Bounces};
+use crate::{
+    physics::BallState,
+    simulation::{Constants, Segment},
+    study::stability::trace::{Piece, Trace},
+    table::Table,
+};
+
+/// Where a ball's course has got to.
+#[derive(Clone, Copy)]
+pub struct Course<'a> {
+    ball: usize,
+    pieces: &'a [Piece],
+    /// How many pieces have begun; one more when the last has ended.
+    begun: usize,
+    /// State at the end of the last piece that has begun, or after the stroke.
+    pub before: BallState,
+    /// Energy at that end, at that piece's start, and the largest that entered either, m²/s².
+    pub energy: f64,
+    pub first_energy: f64,
+    pub largest: f64,
+    /// Bounces that a resting contact has replaced since a time, s.
+    pub bounces: Option<(f64, Bounces)>,
+}
+
+impl<'a> Course<'a> {
+    /// A course that the stroke begins.
+    pub fn new(table: &Table, trace: &'a Trace, ball: usize) -> Self {
+        let mut before = BallState::at_rest(trace.end.balls[ball].position);
+        if ball == 0 {
+            (before.velocity, before.spin) = (trace.impulse.velocity, trace.impulse.spin);
+        }
+        let energy = before.specific_energy(table.radius);
+        let pieces = &trace.pieces[ball];
+        Self { ball, pieces, begun: 0, before, energy, first_energy: energy, largest: energy, bounces: None }
+    }
+
+    /// When it changes next, s; infinity after its end.
+    pub fn changes(&self) -> f64 {
+        match (self.pieces.get(self.begun), self.pieces.last()) {
+            (Some(piece), _) => piece.segment.start,
+            (None, Some(last)) if self.begun == self.pieces.len() => last.end,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The piece that holds now.
+    pub fn piece(&self) -> Option<&'a Piece> {
+        self.pieces.get(self.begun.checked_sub(1)?)
+    }
+
+    /// The present course if it is that of a resting contact.
+    pub fn resting(&self) -> Option<&'a Segment> {
+        self.piece().map(|piece| &piece.segment).filter(|segment| segment.motion == Motion::Resting)
+    }
+
+    /// Where the ball is at time `now`, s.
+    pub fn state(&self, constants: &Constants, now: f64) -> BallState {
+        self.piece().map_or(self.before, |piece| piece.segment.state_after(constants, now - piece.segment.start))
+    }
+
+    /// Begins the next piece, or the rest after the last one, and returns the state at its start.
+    pub fn begin(&mut self, table: &Table, trace: &Trace) -> BallState {
+        self.begun += 1;
+        let Some(piece) = self.piece() else { return trace.end.balls[self.ball] };
+        let first = piece.segment.state_after(&trace.constants, 0.0);
+        self.before = piece.segment.state_after(&trace.constants, piece.end - piece.segment.start);
+        let last = self.energy;
+        self.first_energy = first.specific_energy(table.radius);
+        self.energy = self.before.specific_energy(table.radius);
+        self.largest = last.max(self.first_energy).max(self.energy);
+        first
+    }
+}

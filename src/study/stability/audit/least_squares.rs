@@ -1,0 +1,95 @@
+//! Least squares with few unknowns, by Gram and Schmidt's method with the largest column first: what the unknowns are, or
+//! that they are not unique.
+
+/// A column, or the right-hand side.
+pub type Column = [f64; super::motion::SIZE];
+
+/// Columns whose part independent of the others is shorter than this share of them depend on the others.
+const DEPENDENT: f64 = 1e-9;
+
+/// The best that some columns can do for a right-hand side.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Factor of each column, in their order; `None` where there is more than one solution.
+    pub factors: Option<Vec<f64>>,
+    /// What no factors explain.
+    pub residual: Column,
+}
+
+/// Finds factors with which the sum of `columns` comes as near to `target` as can be.
+pub fn fit(columns: &[Column], target: &Column) -> Fit {
+    let count = columns.len();
+    let mut rest: Vec<Column> = columns.to_vec();
+    let mut order: Vec<usize> = (0..count).collect();
+    // Row `i` of the triangle belongs to the `i`th column in `order`.
+    let mut triangle = vec![vec![0.0; count]; count];
+    let mut residual = *target;
+    let mut shares = Vec::with_capacity(count);
+    let longest = columns.iter().map(|column| dot(column, column)).fold(0.0, f64::max).sqrt();
+    for rank in 0..count {
+        let size = |place: &usize| dot(&rest[order[*place]], &rest[order[*place]]);
+        let Some(pivot) = (rank..count).max_by(|a, b| size(a).total_cmp(&size(b))) else { break };
+        order.swap(rank, pivot);
+        let column = rest[order[rank]];
+        let length = dot(&column, &column).sqrt();
+        if length <= DEPENDENT * longest {
+            break;
+        }
+        let unit = column.map(|x| x / length);
+        triangle[rank][order[rank]] = length;
+        for &later in &order[rank + 1..] {
+            triangle[rank][later] = project_out(&unit, &mut rest[later]);
+        }
+        shares.push(project_out(&unit, &mut residual));
+    }
+    if shares.len() < count {
+        return Fit { factors: None, residual };
+    }
+    let mut factors = vec![0.0; count];
+    for rank in (0..count).rev() {
+        let known: f64 = order[rank + 1..].iter().map(|&later| triangle[rank][later] * factors[later]).sum();
+        factors[order[rank]] = (shares[rank] - known) / triangle[rank][order[rank]];
+    }
+    Fit { factors: Some(factors), residual }
+}
+
+/// Takes the part along a unit vector out of another and returns its length; twice, which leaves rounding alone.
+fn project_out(unit: &Column, from: &mut Column) -> f64 {
+    let mut sum = 0.0;
+    for _ in 0..2 {
+        let share = dot(unit, from);
+        from.iter_mut().zip(unit).for_each(|(from, unit)| *from -= share * unit);
+        sum += share;
+    }
+    sum
+}
+
+/// The scalar product.
+pub fn dot(a: &Column, b: &Column) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(start: &[f64]) -> Column {
+        std::array::from_fn(|place| start.get(place).copied().unwrap_or(0.0))
+    }
+
+    #[test]
+    fn factors_come_back_and_what_is_beyond_them_is_left() {
+        let columns = [column(&[1.0, 2.0]), column(&[0.0, 1.0, 1.0]), column(&[3.0, 0.0, 1.0])];
+        let target = column(&[1.0 + 6.0, 2.0 - 1.0, -1.0 + 2.0, 5.0]);
+        let found = fit(&columns, &target);
+        let factors = found.factors.unwrap();
+        assert!(factors.iter().zip([1.0, -1.0, 2.0]).all(|(found, meant)| (found - meant).abs() < 1e-14));
+        assert!((found.residual[3] - 5.0).abs() < 1e-14 && found.residual[0].abs() < 1e-14);
+    }
+
+    #[test]
+    fn columns_that_repeat_each_other_have_no_factors_of_their_own() {
+        let found = fit(&[column(&[1.0, 1.0]), column(&[2.0, 2.0])], &column(&[3.0, 3.0]));
+        assert!(found.factors.is_none() && dot(&found.residual, &found.residual) < 1e-28);
+    }
+}

@@ -1,0 +1,194 @@
+//! The audit of work: every loss of energy has a friction or an impact that takes it, and takes no more.
+//!
+//! The energy of a shot falls along the stretches between two changes and at the changes themselves. For each of them the
+//! laws say what is taken, or between which bounds it lies; what the recorded course loses beside that is unexplained,
+//! whether it is too much or too little. Nor does anything gain energy.
+
+mod course;
+mod doubt;
+mod laws;
+mod least_squares;
+mod moment;
+mod motion;
+mod on_cushion;
+mod pressed;
+
+use crate::{
+    physics::{BallState, Motion},
+    simulation::{Event, EventKind},
+    table::{BALLS, Table},
+};
+
+use super::{
+    figures::Figures,
+    trace::{Piece, Trace},
+};
+use course::Course;
+use doubt::Doubt;
+use moment::{Moment, Taken};
+use motion::Contact;
+
+/// Balls and cushions are in contact where their gap is less than this share of the table's length: what a billionth of a
+/// metre is on the shortest bundled table.
+const CLOSED: f64 = 1e-9 / 2.54;
+
+/// The account of one shot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Account {
+    /// Energy at the stroke, m²/s².
+    pub start: f64,
+    /// Energy that is lost in the whole shot beyond what the laws take, m²/s²; negative where too little is lost.
+    pub unexplained: f64,
+    /// How much of that rounding and the tolerances explain, m²/s².
+    pub allowed: f64,
+}
+
+struct Audit<'a> {
+    table: &'a Table,
+    trace: &'a Trace,
+    courses: [Course<'a>; BALLS],
+    account: Account,
+    /// Gap below which a contact is closed, m.
+    gap: f64,
+}
+
+/// The account of a shot that has been recorded on `table`.
+pub fn account(table: &Table, trace: &Trace) -> Account {
+    audit(table, trace, &mut Figures::default())
+}
+
+/// Takes account of a shot and notes the largest gain and the largest unexplained loss of its parts and of the whole.
+pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Account {
+    let courses = std::array::from_fn(|ball| Course::new(table, trace, ball));
+    let start = courses.iter().map(|course: &Course| course.energy).sum();
+    let account = Account { start, ..Account::default() };
+    let mut audit = Audit { table, trace, courses, account, gap: CLOSED * table.length };
+    let mut events = trace.events.as_slice();
+    loop {
+        let now = audit.next_change();
+        if now == f64::INFINITY || now >= trace.kept_until {
+            break;
+        }
+        let told;
+        (told, events) = events.split_at(events.partition_point(|event| event.time <= now));
+        audit.moment(now, told, figures);
+        audit.pieces(now, figures);
+    }
+    let Account { unexplained, allowed, .. } = audit.account;
+    figures.unexplained.note(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), trace.end.time);
+    figures.missing.note(unexplained.abs(), trace.end.time);
+    audit.account
+}
+
+impl Audit<'_> {
+    fn next_change(&self) -> f64 {
+        self.courses.iter().map(Course::changes).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Everything that changes at time `now`, s, group by group; then the changed balls' next pieces have begun.
+    fn moment(&mut self, now: f64, told: &[Event], figures: &mut Figures) {
+        let changed: [bool; BALLS] = std::array::from_fn(|ball| self.courses[ball].changes() == now);
+        let rested = self.courses.map(|course| course.resting().is_some());
+        let before = self.courses.map(|course| course.before);
+        let before_energy = self.courses.map(|course| course.energy);
+        let after: [BallState; BALLS] = std::array::from_fn(|ball| {
+            if changed[ball] {
+                self.courses[ball].begin(self.table, self.trace)
+            } else {
+                self.courses[ball].state(&self.trace.constants, now)
+            }
+        });
+        let rests = self.courses.map(|course| course.resting().is_some());
+        let mut closed = Contact::all(self.table.radius, self.trace.constants.reach, &after, self.gap);
+        closed.retain(|contact| changed[contact.first] && contact.second.is_none_or(|second| changed[second]));
+        let impacts = told.iter().filter_map(|event| match event.kind {
+            EventKind::BallBall(first, second) => Some(Contact::of_balls(first, second, &after)),
+            EventKind::BallRail(ball, rail) => Some(Contact::with_rail(ball, rail)),
+            _ => None,
+        });
+        let moment = Moment { table: self.table, before, after, rested, rests, impacts: impacts.collect(), closed };
+        let mut seen = [false; BALLS];
+        for ball in 0..BALLS {
+            if !changed[ball] || seen[ball] {
+                continue;
+            }
+            let group = moment.group(ball, changed);
+            let members = || (0..BALLS).filter(|&member| group[member]);
+            members().for_each(|member| seen[member] = true);
+            let moved = || members().map(|member| before[member].position.distance(after[member].position));
+            let doubt = Doubt {
+                energy: members().map(|member| self.courses[member].largest).sum(),
+                time: now,
+                rests: members().any(|member| rested[member] || rests[member]),
+                stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
+                moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.gap) },
+            };
+            let Taken { mut unexplained, bounces } = moment.taken(group);
+            let mut returned = 0.0;
+            for member in members().filter(|&member| rested[member] && !rests[member]) {
+                if let Some((since, bounces)) = self.courses[member].bounces.take() {
+                    let left = bounces.energy * (1.0 - (now - since) / bounces.lasts).max(0.0).powi(2);
+                    // What has not been bounced off by now comes back, at least; at most everything.
+                    unexplained = (unexplained + left).max((unexplained + bounces.energy).min(0.0));
+                    returned += bounces.energy;
+                }
+            }
+            if let Some(bounces) = bounces {
+                self.courses[bounces.ball].bounces = Some((now, bounces));
+            }
+            let energy = |balls: &[BallState; BALLS]| -> f64 {
+                members().map(|member| balls[member].specific_energy(self.table.radius)).sum()
+            };
+            let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&moment.after);
+            self.note(figures, lost + returned, unexplained, &doubt, doubt.at_a_change(self.table));
+        }
+    }
+
+    /// What happens on the pieces that begin at `now`, s: each by itself where a ball moves freely; balls that rest against
+    /// something and each other have common pieces.
+    fn pieces(&mut self, now: f64, figures: &mut Figures) {
+        let mut resting: [Option<&Piece>; BALLS] = [None; BALLS];
+        for (ball, place) in resting.iter_mut().enumerate() {
+            let course = &self.courses[ball];
+            let Some(piece) = course.piece().filter(|piece| piece.segment.start == now) else { continue };
+            if course.resting().is_some() {
+                *place = Some(piece);
+                continue;
+            }
+            let state = piece.segment.state_after(&self.trace.constants, 0.0);
+            let lost = course.first_energy - course.energy;
+            let taken = laws::free_loss(self.table, &state, piece.segment.motion, piece.end - now);
+            let doubt = Doubt { energy: course.first_energy, time: piece.end, ..Doubt::default() };
+            self.note(figures, lost, lost - taken, &doubt, doubt.on_the_way(self.table, taken));
+        }
+        while let Some(first) = resting.iter().flatten().next() {
+            let until = first.end;
+            let together = resting.map(|piece| piece.filter(|piece| piece.end == until));
+            let members = || (0..BALLS).filter(|&ball| together[ball].is_some()).map(|ball| &self.courses[ball]);
+            let lost: f64 = members().map(|course| course.first_energy - course.energy).sum();
+            let energy = members().map(|course| course.largest).sum();
+            let courses = together.map(|piece| piece.map(|piece| &piece.segment));
+            let work = pressed::work(self.table, &self.trace.constants, &courses, (now, until), self.gap);
+            let doubt = Doubt { energy, time: until, rests: true, ..Doubt::default() };
+            let unexplained = lost - lost.clamp(work.least, work.most);
+            self.note(figures, lost, unexplained, &doubt, doubt.on_the_way(self.table, work.least));
+            resting
+                .iter_mut()
+                .filter(|piece| piece.is_some_and(|piece| piece.end == until))
+                .for_each(|piece| *piece = None);
+        }
+    }
+
+    fn note(&mut self, figures: &mut Figures, lost: f64, unexplained: f64, doubt: &Doubt, allowed: f64) {
+        figures.gained.note(-lost, doubt.time);
+        figures.energy.note(if lost < 0.0 { -lost / doubt.of_a_gain(self.table) } else { 0.0 }, doubt.time);
+        figures.missing.note(unexplained.abs(), doubt.time);
+        // What has no energy has no rounding either.
+        figures.unexplained.note(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), doubt.time);
+        self.account.unexplained += unexplained;
+        self.account.allowed += allowed;
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,144 @@
+//! What changes at one moment: impacts, ends of slips, resting contacts that begin and end.
+
+use super::{
+    doubt::STOPPED_SPEED,
+    laws::{friction, impact_loss, restitution},
+    least_squares::{Column, dot, fit},
+    motion::{Contact, energy, motion},
+};
+use crate::{
+    physics::BallState,
+    table::{BALLS, Table},
+};
+
+/// The balls just before and just after a moment.
+pub struct Moment<'a> {
+    pub table: &'a Table,
+    pub before: [BallState; BALLS],
+    pub after: [BallState; BALLS],
+    /// Whether each ball was in resting contact, and whether it is.
+    pub rested: [bool; BALLS],
+    pub rests: [bool; BALLS],
+    /// The impacts that are told, in order.
+    pub impacts: Vec<Contact>,
+    /// The contacts that are closed.
+    pub closed: Vec<Contact>,
+}
+
+/// What a moment takes that no law does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Taken {
+    /// Energy that is lost beyond what the laws take, m²/s²; negative where too little is lost.
+    pub unexplained: f64,
+    /// Energy of the bounces that a resting contact replaces from now on.
+    pub bounces: Option<Bounces>,
+}
+
+/// A chatter that is told as one resting contact: its remaining bounces take their energy little by little.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounces {
+    /// The ball that bounces.
+    pub ball: usize,
+    /// Energy of the first bounce that is left out, m²/s².
+    pub energy: f64,
+    /// How long the bounces go on at least, s.
+    pub lasts: f64,
+}
+
+impl Moment<'_> {
+    /// The balls that are joined to `ball` by impacts or closed contacts, itself among them.
+    pub fn group(&self, ball: usize, changed: [bool; BALLS]) -> [bool; BALLS] {
+        let mut group: [bool; BALLS] = std::array::from_fn(|other| other == ball);
+        // Three balls are reached in two rounds.
+        for _ in 1..BALLS {
+            for contact in self.impacts.iter().chain(&self.closed) {
+                if let Some(second) = contact.second
+                    && changed[contact.first]
+                    && changed[second]
+                    && (group[contact.first] || group[second])
+                {
+                    (group[contact.first], group[second]) = (true, true);
+                }
+            }
+        }
+        group
+    }
+
+    /// What is lost by the balls of a group beyond what its impacts take.
+    pub fn taken(&self, group: [bool; BALLS]) -> Taken {
+        let of_group = |balls: &[BallState; BALLS]| {
+            let mut all = motion(self.table.radius, balls);
+            for (place, member) in all.chunks_exact_mut(5).zip(group) {
+                if !member {
+                    place.fill(0.0);
+                }
+            }
+            all
+        };
+        let (before, after) = (of_group(&self.before), of_group(&self.after));
+        let lost = energy(&before) - energy(&after);
+        let impacts: Vec<&Contact> = self.impacts.iter().filter(|contact| group[contact.first]).collect();
+        let was_free = (0..BALLS).all(|ball| !(group[ball] && self.rested[ball]));
+        match impacts[..] {
+            [] => Taken { unexplained: lost, bounces: None },
+            [contact] if was_free && !self.grips(contact) => self.one_impact(contact, &before, lost),
+            _ => Taken { unexplained: self.several(group, &impacts, &before, &after), bounces: None },
+        }
+    }
+
+    /// Whether two balls rest against each other that never slip where they touch: what an impact has left of their slip
+    /// ends at once, too.
+    fn grips(&self, contact: &Contact) -> bool {
+        let rests = |second: usize| self.rests[contact.first] && self.rests[second];
+        contact.second.is_some_and(rests) && friction(self.table, contact).is_none()
+    }
+
+    /// One impact of free balls takes what the formulas say: with the contact's restitution or, where the balls stay in
+    /// contact, with none.
+    fn one_impact(&self, contact: &Contact, before: &Column, lost: f64) -> Taken {
+        let e = restitution(self.table, contact);
+        let unexplained = lost - impact_loss(self.table, contact, before, e);
+        let [opening, ..] = contact.directions();
+        let speed = e * dot(&opening, before).abs();
+        let stays = |ball: usize| self.rests[ball];
+        let may_stay = speed <= STOPPED_SPEED || stays(contact.first) && contact.second.is_none_or(stays);
+        let dead = lost - impact_loss(self.table, contact, before, 0.0);
+        if !may_stay || unexplained.abs() <= dead.abs() {
+            return Taken { unexplained, bounces: None };
+        }
+        // No more than the cloth under all balls presses them together.
+        let pull = BALLS as f64 * self.table.sliding_friction * self.table.gravity;
+        let bounces = Bounces {
+            ball: contact.first,
+            energy: 0.5 * speed * speed / dot(&opening, &opening),
+            lasts: 2.0 * speed / (pull * (1.0 - e)),
+        };
+        Taken { unexplained: dead, bounces: Some(bounces) }
+    }
+
+    /// Several impacts, or some on balls that rest against something: whatever changes must be the work of impulses in
+    /// closed contacts, none of which pulls or rubs more than Coulomb allows. So no more is lost than the energy of the
+    /// relative motion in these contacts; how much of it their order and restitutions decide.
+    fn several(&self, group: [bool; BALLS], impacts: &[&Contact], before: &Column, after: &Column) -> f64 {
+        let mut contacts: Vec<Contact> = Vec::new();
+        let inside = |contact: &&Contact| group[contact.first] && contact.second.is_none_or(|second| group[second]);
+        for contact in impacts.iter().copied().chain(self.closed.iter().filter(inside)) {
+            if !contacts.contains(contact) {
+                contacts.push(*contact);
+            }
+        }
+        let directions: Vec<_> = contacts.iter().flat_map(Contact::directions).collect();
+        let change = std::array::from_fn(|place| after[place] - before[place]);
+        let mean = std::array::from_fn(|place| 0.5 * (after[place] + before[place]));
+        let found = fit(&directions, &change);
+        let mut unexplained = -dot(&mean, &found.residual);
+        for (index, contact) in contacts.iter().enumerate() {
+            let (Some(impulses), Some(mu)) = (&found.factors, friction(self.table, contact)) else { continue };
+            let [push, along, up] = [0, 1, 2].map(|axis| impulses[3 * index + axis]);
+            let excess = (along.hypot(up) - mu * push.max(0.0)).max(0.0);
+            let [opening, slip, rise] = contact.directions().map(|direction| dot(&direction, &mean));
+            unexplained += excess * slip.hypot(rise) + (-push).max(0.0) * opening.abs();
+        }
+        unexplained
+    }
+}

@@ -1,0 +1,77 @@
+//! Chatter of lively contacts: a ball whose spin presses it against a cushion or another ball, and whose bounces lose so
+//! little that hundreds would be needed before they are too small to matter.
+
+use glam::DVec2;
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{Case, Size, variant};
+use crate::{
+    simulation::Rail,
+    study::stability::{Limits, Shot, Stroke, Trace, draw},
+    table::{Layout, PRESETS, Table},
+};
+
+const fn case(
+    name: &'static str,
+    tables: fn() -> Vec<Table>,
+    shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot,
+) -> Case {
+    Case { name, holds: HOLDS, tables, shot, check: Some(few_events), limits: Limits::STRICT, size: Size::Case }
+}
+
+pub const CASES: &[Case] = &[
+    case("a ball spinning against a cushion, e = 0.95", || lively(0.95), at_cushion),
+    case("a ball spinning against a cushion, e = 0.99", || lively(0.99), at_cushion),
+    case("a ball spinning against another, e = 0.95", || lively(0.95), at_ball),
+    case("a ball spinning against another, e = 0.99", || lively(0.99), at_ball),
+];
+
+/// Events of a shot in which one chatter is all that happens.
+const MOST_EVENTS: usize = 60;
+
+const HOLDS: &str = "at most 60 events: a chatter is a few of them, however many its bounces";
+
+fn lively(e: f64) -> Vec<Table> {
+    let change = move |table: &mut Table| (table.ball_restitution, table.rail_restitution) = (e, e);
+    PRESETS.iter().filter_map(|name| variant(name, &format!("e = {e}"), change)).collect()
+}
+
+/// So steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long time.
+fn masse(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> Stroke {
+    let (a, b) = (rng.random_range(-0.1..0.1), rng.random_range(-0.3..0.3));
+    let theta_deg = 90.0 - draw::log_uniform(rng, 0.02, 5.0);
+    Stroke { a, b, theta_deg, phi_deg, speed: draw::log_uniform(rng, 0.3, 6.0) }
+}
+
+/// The third ball stands out of the way.
+fn aside(table: &Table) -> DVec2 {
+    0.9 * table.reach()
+}
+
+fn at_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let n = Rail::Bottom.normal();
+    let x = 0.3 * table.half_length() * rng.random_range(-1.0..1.0);
+    let back = if rng.random_bool(0.5) { 0.0 } else { draw::log_uniform(rng, 1e-9, 1e-3) };
+    let from = DVec2::new(x, -table.reach().y) + back * n;
+    let away = DVec2::from_angle(rng.random_range(-0.5..0.5)).rotate(n);
+    let others = aside(table);
+    let layout = Layout::new([from, others, others * DVec2::new(-1.0, 1.0)]);
+    Shot { layout, cue: masse(away.to_angle().to_degrees(), rng) }
+}
+
+fn at_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let from = DVec2::new(-0.5 * table.half_length(), 0.0);
+    let apart = 2.0 * table.radius + if rng.random_bool(0.5) { 0.0 } else { draw::log_uniform(rng, 1e-9, 1e-3) };
+    let turn = draw::one_of(rng, &[0.0, 0.01, 0.1]) * rng.random_range(-1.0..1.0_f64);
+    let layout = Layout::new([from, from + DVec2::new(apart, 0.0), aside(table)]);
+    Shot { layout, cue: masse(180.0 + turn.to_degrees(), rng) }
+}
+
+fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
+    if trace.event_count <= MOST_EVENTS {
+        Ok(())
+    } else {
+        Err(format!("one chatter takes {} events", trace.event_count))
+    }
+}
