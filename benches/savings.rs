@@ -104,18 +104,19 @@ macro_rules! without {
 }
 
 fn main() {
-    let rows: [(&str, Play); 9] = [
+    let rows: [(&str, Play); 10] = [
         ("all savings", watched::<All>),
         ("balls at rest predict nothing", without!(BALLS_AT_REST)),
         ("predictions are kept", without!(KEPT_PREDICTIONS)),
         ("only cushions in reach", without!(CUSHIONS_IN_REACH)),
         ("no roots for courses apart", without!(COURSES_APART)),
+        ("a loop of its own for a lone ball", without!(ALONE)),
         ("the last ball is not rolled out", without!(LAST_ROLLS)),
         ("the end when it is decided", without!(EARLY_END)),
         ("nothing recorded unasked", hoarded),
         (
             "all of these but recording",
-            without!(BALLS_AT_REST, KEPT_PREDICTIONS, CUSHIONS_IN_REACH, COURSES_APART, LAST_ROLLS, EARLY_END),
+            without!(BALLS_AT_REST, KEPT_PREDICTIONS, CUSHIONS_IN_REACH, COURSES_APART, ALONE, LAST_ROLLS, EARLY_END),
         ),
     ];
     let scenes = [far_apart(), gathered(), alone(), chatter()];

@@ -1,5 +1,6 @@
 //! When things happen: event prediction, the engine, the fixed-step method, and playback of what it recorded.
 
+mod alone;
 mod constants;
 mod crowd;
 mod cushions;
