@@ -10,6 +10,9 @@ use super::{
 };
 use crate::physics::Motion;
 
+/// A sum above this share of its terms' sizes is positive, however it is rounded: a few times 1e-16 would do.
+const SURELY_POSITIVE: f64 = 1e-9;
+
 /// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
 /// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
 #[inline(never)]
@@ -34,7 +37,7 @@ pub fn balls_ahead<S: Savings>(
     }
     let gap = d.length_squared() - diameter * diameter;
     if gap <= 2.0 * diameter * TOUCHING {
-        return touching_balls_ahead(d, dv, dk, diameter, horizon, may_rest);
+        return touching_balls_ahead::<S>(d, dv, dk, diameter, horizon, may_rest);
     }
     if matches!(
         (first.motion, second.motion),
@@ -86,7 +89,14 @@ impl Triangle {
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
-fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: f64, may_rest: bool) -> Ahead {
+fn touching_balls_ahead<S: Savings>(
+    d: DVec2,
+    dv: DVec2,
+    dk: DVec2,
+    diameter: f64,
+    horizon: f64,
+    may_rest: bool,
+) -> Ahead {
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
     let separation = c1 / (2.0 * diameter);
@@ -98,12 +108,22 @@ fn touching_balls_ahead(d: DVec2, dv: DVec2, dk: DVec2, diameter: f64, horizon: 
     }
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < PRESSING { 0.0 } else { c };
-    polynomial_closes(
-        &[0.0, c1, clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
-        true,
-        2.0 * diameter,
-        horizon,
-    )
+    let (c2, c3, c4) = (clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared());
+    let square = horizon * horizon;
+    if S::BALLS_THAT_PART
+        && separation > RESTING_SPEED
+        && stays_positive(c1, c2 * horizon, c3 * square, c4 * (square * horizon))
+    {
+        return Ahead::Nothing;
+    }
+    polynomial_closes(&[0.0, c1, c2, c3, c4], true, 2.0 * diameter, horizon)
+}
+
+/// Whether `a + b s + c s² + d s³` is surely positive for all `s` from 0 to 1: its Bernstein coefficients, which bound it,
+/// are so by far more than rounding can change.
+fn stays_positive(a: f64, b: f64, c: f64, d: f64) -> bool {
+    let least = lesser(lesser(a, a + b / 3.0), lesser(a + (2.0 * b + c) / 3.0, a + b + c + d));
+    least > SURELY_POSITIVE * (a.abs() + b.abs() + c.abs() + d.abs())
 }
 
 /// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
