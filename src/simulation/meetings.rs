@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{
     Constants, Segment,
     predict::{Ahead, PRESSING, RESTING_SPEED, SURELY_APART, TOUCHING, curved_balls_ahead, lesser, polynomial_closes},
-    roots::first_crossing,
+    roots::first_crossing_of_quartic,
     savings::Savings,
 };
 use crate::physics::Motion;
@@ -51,7 +51,7 @@ pub fn balls_ahead<S: Savings>(
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
-    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing_of_quartic(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A triangle that contains a stretch of a course: the control points of its parabola.
