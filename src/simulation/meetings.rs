@@ -15,7 +15,7 @@ const SURELY_POSITIVE: f64 = 1e-9;
 
 /// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
 /// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
-#[inline(never)]
+#[inline(always)]
 pub fn balls_ahead<S: Savings>(
     constants: &Constants,
     first: &Segment,
@@ -35,14 +35,29 @@ pub fn balls_ahead<S: Savings>(
     if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, diameter) {
         return Ahead::Nothing;
     }
+    let rolls_straight = matches!(
+        (first.motion, second.motion),
+        (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
+    );
+    approach::<S>(d, dv, dk, horizon, diameter, may_rest, rolls_straight)
+}
+
+/// The same for balls whose courses no line was found to part: `d + t dv + t² dk` from one to the other.
+#[inline(never)]
+fn approach<S: Savings>(
+    d: DVec2,
+    dv: DVec2,
+    dk: DVec2,
+    horizon: f64,
+    diameter: f64,
+    may_rest: bool,
+    rolls_straight: bool,
+) -> Ahead {
     let gap = d.length_squared() - diameter * diameter;
     if gap <= 2.0 * diameter * TOUCHING {
         return touching_balls_ahead::<S>(d, dv, dk, diameter, horizon, may_rest);
     }
-    if matches!(
-        (first.motion, second.motion),
-        (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
-    ) {
+    if rolls_straight {
         return straight_ahead(d, dv, dk, gap, diameter, horizon);
     }
     let c1 = 2.0 * d.dot(dv);
