@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use carom::{
     physics::Impulse,
-    simulation::{All, Event, EventKind, Observer, Savings, simulate_with, watch, watch_with},
+    simulation::{All, Event, EventKind, Observer, Savings, Segment, simulate_with, watch, watch_with},
     table::{BALLS, Layout, Table},
 };
 use glam::{DVec2, DVec3};
@@ -81,6 +81,8 @@ without!(predicting_for_balls_at_rest_changes_no_bit, BALLS_AT_REST);
 without!(predicting_everything_anew_changes_no_bit, KEPT_PREDICTIONS);
 without!(solving_for_every_cushion_changes_no_bit, CUSHIONS_IN_REACH);
 without!(seeking_roots_for_courses_apart_changes_no_bit, COURSES_APART);
+without!(seeking_roots_for_balls_that_part_changes_no_bit, BALLS_THAT_PART);
+without!(following_a_lone_ball_like_any_other_changes_no_bit, ALONE);
 without!(ignoring_a_decided_outcome_changes_no_bit, EARLY_END);
 
 #[test]
@@ -91,10 +93,49 @@ fn no_saving_at_all_changes_no_bit() {
         const KEPT_PREDICTIONS: bool = false;
         const CUSHIONS_IN_REACH: bool = false;
         const COURSES_APART: bool = false;
+        const BALLS_THAT_PART: bool = false;
+        const ALONE: bool = false;
         const LAST_ROLLS: bool = false;
         const EARLY_END: bool = false;
     }
     changes_no_bit::<Nothing>();
+}
+
+/// A trace of all courses, with the events between them.
+#[derive(Default, Debug, PartialEq)]
+struct Courses(Trace);
+
+impl Observer for Courses {
+    const SEGMENTS: bool = true;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.0.event(event)
+    }
+
+    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
+        let Segment { start, position, velocity, half_acceleration, spin, .. } = segment;
+        let numbers = [*start, end, position.x, position.y, velocity.x, velocity.y, spin.x, spin.y, spin.z];
+        let bends = half_acceleration.to_array();
+        self.0.bits.push(ball as u64);
+        self.0.bits.extend(numbers.into_iter().chain(bends).map(f64::to_bits));
+    }
+}
+
+#[test]
+fn following_a_lone_ball_like_any_other_changes_no_course() {
+    struct Without;
+    impl Savings for Without {
+        const ALONE: bool = false;
+    }
+    for (name, count) in PLAYED {
+        let table = Table::preset(name).unwrap();
+        for (layout, impulse) in &shots(&table, 1, count) {
+            let (mut with, mut without) = (Courses::default(), Courses::default());
+            watch(&table, layout, impulse, &mut with);
+            watch_with::<Without, _>(&table, layout, impulse, &mut without);
+            assert_eq!(with, without);
+        }
+    }
 }
 
 /// A trace without the stops, which are not asked for.

@@ -107,7 +107,7 @@ impl Meeting {
 pub(super) struct Engine<'a, S, O> {
     table: &'a Table,
     pub(super) constants: Constants,
-    observer: &'a mut O,
+    pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
     pub(super) pairs: [Meeting; 3],
     /// When each ball, and then each pair, has its next event, s; infinity for none.
@@ -151,6 +151,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.launch(0, 0.0, &cue_ball);
         let mut flow = self.look_ahead_of(0.0, 0);
         let mut now = 0.0;
+        if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
+            flow = self.play_alone(0, &mut now);
+        }
         while flow.is_continue() {
             let (mut next, mut source) = (f64::INFINITY, usize::MAX);
             for (index, &time) in self.times.iter().enumerate() {
@@ -619,7 +622,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     }
 
     #[inline(always)]
-    fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
+    pub(super) fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
         let flow = self.observer.event(Event { time, kind });
         if S::EARLY_END { flow } else { ControlFlow::Continue(()) }
     }

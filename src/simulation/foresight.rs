@@ -18,7 +18,7 @@ use crate::{physics::Motion, table::BALLS};
 const LONGEST: f64 = 1e9;
 
 /// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
-const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
+pub(super) const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
 
 impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// Puts a ball on a course that can last for `lasts` seconds, and predicts which cushion it will meet.

@@ -5,15 +5,18 @@ use glam::DVec2;
 use super::{
     Constants, Segment,
     predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
-    roots::first_crossing,
+    roots::first_crossing_of_quartic,
     savings::Savings,
     tolerance::Tolerance,
 };
 use crate::physics::Motion;
 
+/// A sum above this share of its terms' sizes is positive, however it is rounded: a few times 1e-16 would do.
+const SURELY_POSITIVE: f64 = 1e-9;
+
 /// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
 /// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
-#[inline(never)]
+#[inline(always)]
 pub fn balls_ahead<S: Savings>(
     constants: &Constants,
     first: &Segment,
@@ -33,14 +36,30 @@ pub fn balls_ahead<S: Savings>(
     if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, diameter + tolerance.surely_apart) {
         return Ahead::Nothing;
     }
-    let gap = d.length_squared() - diameter * diameter;
-    if gap <= 2.0 * diameter * tolerance.touching {
-        return touching_balls_ahead(tolerance, d, dv, dk, diameter, horizon, may_rest);
-    }
-    if matches!(
+    let rolls_straight = matches!(
         (first.motion, second.motion),
         (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
-    ) {
+    );
+    approach::<S>(tolerance, d, dv, dk, horizon, diameter, may_rest, rolls_straight)
+}
+
+/// The same for balls whose courses no line was found to part: `d + t dv + t² dk` from one to the other.
+#[inline(never)]
+fn approach<S: Savings>(
+    tolerance: &Tolerance,
+    d: DVec2,
+    dv: DVec2,
+    dk: DVec2,
+    horizon: f64,
+    diameter: f64,
+    may_rest: bool,
+    rolls_straight: bool,
+) -> Ahead {
+    let gap = d.length_squared() - diameter * diameter;
+    if gap <= 2.0 * diameter * tolerance.touching {
+        return touching_balls_ahead::<S>(tolerance, d, dv, dk, diameter, horizon, may_rest);
+    }
+    if rolls_straight {
         return straight_ahead(d, dv, dk, gap, diameter, horizon);
     }
     let c1 = 2.0 * d.dot(dv);
@@ -49,7 +68,7 @@ pub fn balls_ahead<S: Savings>(
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
-    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing_of_quartic(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
 /// A triangle that contains a stretch of a course: the control points of its parabola.
@@ -86,7 +105,7 @@ impl Triangle {
 }
 
 /// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
-fn touching_balls_ahead(
+fn touching_balls_ahead<S: Savings>(
     tolerance: &Tolerance,
     d: DVec2,
     dv: DVec2,
@@ -106,13 +125,22 @@ fn touching_balls_ahead(
     }
     // Coefficients of rounding's size would close and open the gap without end.
     let clean = |c: f64| if c.abs() < tolerance.pressing { 0.0 } else { c };
-    polynomial_closes(
-        tolerance,
-        &[0.0, c1, clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared()],
-        true,
-        2.0 * diameter,
-        horizon,
-    )
+    let (c2, c3, c4) = (clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared());
+    let square = horizon * horizon;
+    if S::BALLS_THAT_PART
+        && separation > tolerance.opening
+        && stays_positive(c1, c2 * horizon, c3 * square, c4 * (square * horizon))
+    {
+        return Ahead::Nothing;
+    }
+    polynomial_closes(tolerance, &[0.0, c1, c2, c3, c4], true, 2.0 * diameter, horizon)
+}
+
+/// Whether `a + b s + c s² + d s³` is surely positive for all `s` from 0 to 1: its Bernstein coefficients, which bound it,
+/// are so by far more than rounding can change.
+fn stays_positive(a: f64, b: f64, c: f64, d: f64) -> bool {
+    let least = lesser(lesser(a, a + b / 3.0), lesser(a + (2.0 * b + c) / 3.0, a + b + c + d));
+    least > SURELY_POSITIVE * (a.abs() + b.abs() + c.abs() + d.abs())
 }
 
 /// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.

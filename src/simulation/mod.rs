@@ -1,5 +1,6 @@
 //! When things happen: event prediction, the engine, and playback of what it recorded.
 
+mod alone;
 mod chatter;
 mod constants;
 mod contact_mode;

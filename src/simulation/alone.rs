@@ -1,0 +1,135 @@
+//! The stretches of a shot in which one ball alone moves: from cushion to cushion, with nothing to choose from.
+//!
+//! Most of a shot is this, and most shots are nothing else. The engine's general loop asks six times at every event what
+//! comes next, and keeps all of a ball in memory between two events; here the ball's own next event is the only one, and
+//! its course stays in registers. All numbers are worked out by the same operations in the same order, and whatever is
+//! out of the ordinary is left to the general loop before anything of it has happened.
+
+use std::ops::ControlFlow;
+
+use super::{
+    EventKind, Observer, Rail, Segment,
+    contact_mode::ContactMode,
+    cushions::cushion_ahead,
+    engine::{Ball, Engine},
+    foresight::PAIRS_OF,
+    meetings::Triangle,
+    predict::Ahead,
+    savings::Savings,
+};
+use crate::{
+    physics::{Motion, collide_rail},
+    table::BALLS,
+};
+
+/// A free ball's course and its next event.
+struct Course {
+    segment: Segment,
+    lasts: f64,
+    /// Infinity for a course that meets no cushion.
+    rail_after: f64,
+    rail: Rail,
+}
+
+impl<S: Savings, O: Observer> Engine<'_, S, O> {
+    /// Whether `index` is the only ball that moves, freely and with no other ball in its way.
+    #[inline(always)]
+    pub(super) fn moves_alone(&self, index: usize) -> bool {
+        let still = |ball: usize| self.balls[ball].segment.motion == Motion::Stationary;
+        matches!(self.balls[index].segment.motion, Motion::Sliding | Motion::Rolling)
+            && PAIRS_OF[index].iter().all(|&(pair, other)| still(other) && self.times[BALLS + pair] == f64::INFINITY)
+            && self.balls[index].mode == ContactMode::Free
+            && self.resting.is_none()
+    }
+
+    /// Plays on as long as ball `index` moves alone, from the event at `now` on; `now` becomes the time of the last event.
+    pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
+        let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
+        let constants = self.constants;
+        let mut course = Course::of(&self.balls[index]);
+        loop {
+            let Course { segment, lasts, rail_after, rail } = &course;
+            let next = course.ends();
+            let (mut after, lasts_after, kind);
+            if rail_after < lasts {
+                let n = rail.normal();
+                let mut state = segment.state_after(&constants, *rail_after);
+                state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
+                collide_rail(constants.radius, constants.rail_restitution, constants.rail_friction, n, &mut state);
+                // What might be part of a chatter.
+                if state.velocity.dot(n) <= constants.tolerance.slow_bounce {
+                    break;
+                }
+                (after, lasts_after) = Segment::free(&constants, next, &state);
+                kind = EventKind::BallRail(index, *rail);
+            } else {
+                if segment.motion == Motion::Rolling {
+                    break;
+                }
+                (after, lasts_after) = segment.successor(&constants, *lasts);
+                after.start = next;
+                kind = EventKind::SlidingRolling(index);
+            }
+            if after.motion == Motion::Stationary {
+                break;
+            }
+            if O::SEGMENTS {
+                self.observer.segment(index, segment, next);
+            }
+            *now = next;
+            let flow = self.tell(next, kind);
+            let (ahead, rail) = cushion_ahead::<S>(&constants, &after, lasts_after);
+            let rail_after = if let Ahead::Meeting(after) = ahead { after } else { f64::INFINITY };
+            course = Course { segment: after, lasts: lasts_after, rail_after, rail };
+            let Segment { position, velocity, half_acceleration, .. } = course.segment;
+            let way = Triangle::new(position, velocity, half_acceleration, course.ends() - next);
+            let clears = |other| S::COURSES_APART && way.clears(other, constants.diameter + constants.tolerance.surely_apart);
+            if flow.is_break() || ahead == Ahead::Pressed || !(clears(others[0]) & clears(others[1])) {
+                if ahead == Ahead::Pressed {
+                    self.set(index, course.segment, course.lasts);
+                } else {
+                    self.follow(index, course);
+                }
+                flow?;
+                self.look_ahead_of(next, index)?;
+                if !self.moves_alone(index) {
+                    return ControlFlow::Continue(());
+                }
+                course = Course::of(&self.balls[index]);
+            }
+        }
+        self.follow(index, course);
+        ControlFlow::Continue(())
+    }
+
+    /// Puts a ball on a course whose next event is known.
+    #[inline(always)]
+    fn follow(&mut self, index: usize, course: Course) {
+        self.times[index] = course.ends();
+        let ball = &mut self.balls[index];
+        ball.segment = course.segment;
+        ball.lasts = course.lasts;
+        ball.rail_after = course.rail_after;
+        ball.rail = course.rail;
+    }
+}
+
+impl Course {
+    /// The same course, of which the compiler knows that nothing presses the ball.
+    #[inline(always)]
+    fn of(ball: &Ball) -> Self {
+        let &Segment { start, position, velocity, half_acceleration, spin, motion, .. } = &ball.segment;
+        Self {
+            segment: Segment { start, position, velocity, half_acceleration, spin, motion, curve: None },
+            lasts: ball.lasts,
+            rail_after: ball.rail_after,
+            rail: ball.rail,
+        }
+    }
+
+    /// Time of the next event, s.
+    #[inline(always)]
+    fn ends(&self) -> f64 {
+        self.segment.start + if self.rail_after < self.lasts { self.rail_after } else { self.lasts }
+    }
+}
