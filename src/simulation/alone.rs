@@ -83,7 +83,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             course = Course { segment: after, lasts: lasts_after, rail_after, rail };
             let Segment { position, velocity, half_acceleration, .. } = course.segment;
             let way = Triangle::new(position, velocity, half_acceleration, course.ends() - next);
-            let clears = |other| S::COURSES_APART && way.clears(other, constants.diameter + constants.tolerance.surely_apart);
+            let clears =
+                |other| S::COURSES_APART && way.clears(other, constants.diameter + constants.tolerance.surely_apart);
             if flow.is_break() || ahead == Ahead::Pressed || !(clears(others[0]) & clears(others[1])) {
                 if ahead == Ahead::Pressed {
                     self.set(index, course.segment, course.lasts);

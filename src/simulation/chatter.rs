@@ -132,17 +132,30 @@ pub fn settles(
     let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
     let pull = bodies * resolved.forces.normal[index];
     // The friction that turns soonest: that of the ball whose slip ends first.
-    let slides = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball)).map(|(_, state)| {
-        let slip = slip(table.radius, state.velocity, state.spin).length();
-        if slip > none { slip * constants.slide_time } else { f64::INFINITY }
-    });
-    let slide = slides.fold(f64::INFINITY, f64::min);
+    let slips = balls
+        .iter()
+        .enumerate()
+        .filter(|(ball, _)| contacts.hold(*ball))
+        .map(|(_, state)| slip(table.radius, state.velocity, state.spin).length());
+    let (mut slide, mut made) = (f64::INFINITY, false);
+    for slip in slips {
+        if slip > none {
+            slide = slide.min(slip * constants.slide_time);
+        } else if slip > tolerance.ending_slip {
+            made = true;
+        }
+    }
+    // A slip that the bounces make turns with each of them: what they do is of their own size.
+    let alone = contacts.as_slice().len() == 1;
+    if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slow_crowd } {
+        return None;
+    }
     let restitution = if contact.second.is_some() { constants.ball_restitution } else { constants.rail_restitution };
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let chatter = 2.0 * speed / (pull * (1.0 - restitution));
     let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
     // Contacts that shake each other need not bounce ever more softly: all that is known is how softly they do.
-    let negligible = if contacts.as_slice().len() > 1 { tolerance.negligible_crowd } else { tolerance.negligible };
+    let negligible = if alone { tolerance.negligible } else { tolerance.negligible_crowd };
     (chatter <= slide && 0.5 * moment <= negligible * slide * slide).then_some(resolved.contacts)
 }
 

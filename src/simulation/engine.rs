@@ -25,6 +25,10 @@ use crate::{
 /// none meanwhile, at any speed on a table.
 const MOMENT: f64 = 1e-15;
 
+/// Steps of contacts and bounces of chatters after which a shot is brought to its end. This is a guard, not physics: what
+/// takes part in another contact stands still from then on. The stability table counts the shots that come to it.
+const MOST_STEPS: u32 = 1500;
+
 /// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a
 /// cushion exchange some dozens, an inelastic collapse infinitely many.
 const MOST_ROUNDS: u32 = 64;
@@ -120,6 +124,8 @@ pub(super) struct Engine<'a, S, O> {
     /// Time of the last impact, s, and how many there have been at that moment.
     last_impact: f64,
     rounds: u32,
+    /// Steps of contacts and bounces of chatters so far.
+    steps: u32,
     /// The slow bounces, once there is one.
     chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
@@ -139,6 +145,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             pressed: false,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
+            steps: 0,
             chatters: None,
             savings: PhantomData,
         }
@@ -231,15 +238,14 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
                     freed,
                     &[(index, before)],
                     &rests,
-                    told.then_some(EventKind::BallRail(index, rail)),
+                    EventKind::BallRail(index, rail),
+                    told,
                 );
             }
         }
         self.close(index, now);
         self.launch(index, now, &state);
-        if told {
-            self.tell(now, EventKind::BallRail(index, rail))?;
-        }
+        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
         if freed.is_some() {
             self.look_ahead(now, either(true, self.freed_members(), only(index)))
         } else {
@@ -274,22 +280,14 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             told = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
-                return self.end_chatter(
-                    now,
-                    freed,
-                    &before,
-                    &rests,
-                    told.then_some(EventKind::BallBall(first, second)),
-                );
+                return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), told);
             }
         }
         self.close(first, now);
         self.close(second, now);
         self.launch(first, now, &a);
         self.launch(second, now, &b);
-        if told {
-            self.tell(now, EventKind::BallBall(first, second))?;
-        }
+        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
     }
 
@@ -308,6 +306,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     /// All contacts that close now collide together, if there are several.
     #[cold]
     fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
+        self.steps += 1;
         let members = self.freed_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
@@ -347,16 +346,21 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             self.close(index, now);
             self.launch(index, now, &states[index]);
         }
-        for (contact, _) in contacts.as_slice().iter().zip(told).filter(|(_, told)| *told) {
+        for (index, contact) in contacts.as_slice().iter().enumerate().filter(|(index, _)| impulses[*index] > 0.0) {
             let rail = Rail::ALL.into_iter().find(|rail| rail.normal() == contact.cushion_normal);
-            match (contact.second, rail) {
-                (Some(second), _) => self.tell(now, EventKind::BallBall(contact.first, second))?,
-                (None, Some(rail)) => self.tell(now, EventKind::BallRail(contact.first, rail))?,
-                (None, None) => {}
-            }
+            let kind = match (contact.second, rail) {
+                (Some(second), _) => EventKind::BallBall(contact.first, second),
+                (None, rail) => EventKind::BallRail(contact.first, rail.unwrap_or(Rail::Left)),
+            };
+            self.tell_impact(now, kind, told[index])?;
         }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
         ControlFlow::Continue(true)
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.steps += 1;
+        self.observer.contact_step()
     }
 
     /// Whether a bouncing ball still chatters; tells the end of its contact if not.
@@ -370,14 +374,25 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         ControlFlow::Continue(false)
     }
 
+    /// Tells an impact, or only who keeps accounts of it where it belongs to a chatter.
+    #[inline(always)]
+    fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {
+        if told {
+            return self.tell(now, kind);
+        }
+        self.observer.bounce(Event { time: now, kind });
+        ControlFlow::Continue(())
+    }
+
     /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
     #[cold]
     fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
+        self.steps += 1;
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) {
             return ControlFlow::Continue(true);
         }
-        self.observer.contact_step()?;
+        self.contact_step()?;
         for ball in [Some(contact.first), contact.second].into_iter().flatten() {
             if self.balls[ball].mode == ContactMode::Free {
                 self.balls[ball].mode = ContactMode::Bouncing;
@@ -426,7 +441,8 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         freed: Option<[BallState; BALLS]>,
         before: &[(usize, BallState)],
         rests: &Contacts,
-        told: Option<EventKind>,
+        impact: EventKind,
+        told: bool,
     ) -> ControlFlow<()> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
@@ -446,9 +462,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             self.close(index, now);
             self.launch(index, now, &states[index]);
         }
-        if let Some(kind) = told {
-            self.tell(now, kind)?;
-        }
+        self.tell_impact(now, impact, told)?;
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
     }
 
@@ -514,7 +528,12 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     /// Sends a ball off on the free course that follows from its state.
     #[inline(always)]
     fn launch(&mut self, index: usize, now: f64, state: &BallState) {
-        let (segment, lasts) = Segment::free(&self.constants, now, state);
+        let (segment, lasts) = if self.steps <= MOST_STEPS {
+            Segment::free(&self.constants, now, state)
+        } else {
+            let spin = glam::DVec3::new(0.0, 0.0, state.spin.z);
+            Segment::free(&self.constants, now, &BallState { velocity: DVec2::ZERO, spin, ..*state })
+        };
         self.set(index, segment, lasts);
     }
 
@@ -539,7 +558,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             }),
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        self.observer.contact_step()?;
+        self.contact_step()?;
         let previous = self.resting.take();
         self.resting =
             match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {

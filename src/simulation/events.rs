@@ -149,6 +149,9 @@ pub trait Observer {
     /// An event has happened. `Break` ends the simulation: the outcome is decided.
     fn event(&mut self, event: Event) -> ControlFlow<()>;
 
+    /// A bounce of a chatter, which is told as an event only at its beginning: for whoever keeps accounts of every impact.
+    fn bounce(&mut self, _bounce: Event) {}
+
     /// A resting contact is about to be followed for another step. `Break` gives the shot up.
     fn contact_step(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())

@@ -30,13 +30,12 @@ const SHORTEST_STEP: f64 = 1e-13;
 /// A slip may fall to this power of `e` in a step: to a tenth.
 const FALL: f64 = 2.3;
 
-/// Longest step in s for a slip that turns in a time of one second; it grows with the time's power 2/3. The course is
-/// handed on as a polynomial of degree five, which strays by about `a h⁶/(2000 turn⁴)` in a step of `h` seconds: less
-/// than 1e-10 m for accelerations `a` of a few m/s².
-const LONGEST_STEP: f64 = 0.06;
+/// How far a course may stray from the polynomial of degree five as which it is handed on, m. In a step of `h` seconds along
+/// which a slip turns in `turn` seconds under accelerations `a` it strays by about `a h⁶/(2000 turn⁴)`.
+const STRAY: f64 = 1e-10;
 
-/// Longest step of all, s: courses along which nothing slips bend, too.
-const LONGEST_CURVE: f64 = 0.02;
+/// Longest change of speed by the cloth's friction in a step, m/s: courses along which nothing slips bend, too.
+const LONGEST_CURVE: f64 = 0.04;
 
 /// In steps shorter than this many seconds the places at both ends, rounded to 1e-16 m, say less about the velocity than
 /// the velocities themselves.
@@ -142,21 +141,34 @@ impl Resting {
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
         let longest = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
-        let mut trial = self.attempt(table, longest);
+        let exact = self.constants.tolerance.step;
         // What is not a number is no small error.
-        while !(trial.step.error <= self.constants.tolerance.step || trial.span <= SHORTEST_STEP) {
-            trial = self.attempt(table, 0.4 * trial.span);
-        }
-        let growth = match trial.step.rounds.cmp(&GOOD_ROUNDS) {
-            Ordering::Less => 4.0,
-            Ordering::Equal => 1.2,
-            Ordering::Greater => 0.7,
+        let is_exact = |trial: &Trial| trial.step.error <= exact || trial.span <= SHORTEST_STEP;
+        let mut span = longest;
+        let trial = loop {
+            let mut trial = self.attempt(table, span);
+            if is_exact(&trial) {
+                let growth = match trial.step.rounds.cmp(&GOOD_ROUNDS) {
+                    Ordering::Less => 4.0,
+                    Ordering::Equal => 1.2,
+                    Ordering::Greater => 0.7,
+                };
+                // Never so short that a long series of steps could not grow out of it.
+                self.next_step = (growth * trial.step.end.time).max(1e3 * SHORTEST_STEP);
+                let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
+                if doubtful && !self.holds(table, &trial) {
+                    trial = self.until_a_law_breaks(table, &trial);
+                }
+                if is_exact(&trial) {
+                    break trial;
+                }
+            }
+            span *= 0.4;
         };
-        // Never so short that a long series of steps could not grow out of it.
-        self.next_step = (growth * trial.step.end.time).max(1e3 * SHORTEST_STEP);
-        let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
-        if doubtful && !self.holds(table, &trial) {
-            trial = self.until_a_law_breaks(table, &trial);
+        if !(trial.step.end.time > 0.0) {
+            // Nothing can be followed: time goes on.
+            (self.step, self.end) = (SHORTEST_STEP, self.begin);
+            return;
         }
         self.step = trial.step.end.time;
         self.last = trial.forces;
@@ -235,14 +247,16 @@ impl Resting {
 
     /// Longest step whose course a polynomial can follow, in rescaled time; sets the pace.
     fn longest_step(&mut self, radius: f64) -> f64 {
-        let mut longest = LONGEST_CURVE;
+        let sliding = self.constants.sliding;
+        let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut pace) = (f64::INFINITY, Pace::Time);
         let mut limit = |friction: Friction, size: DVec2, rate: DVec2, paced: fn(usize, f64) -> Pace, index| {
             let length = size.length();
             if !matches!(friction, Friction::Slips(_)) || length <= self.constants.tolerance.slip {
                 return;
             }
-            longest = longest.min(LONGEST_STEP * (length / rate.length()).powf(2.0 / 3.0));
+            let turn = length / rate.length();
+            longest = longest.min((2000.0 * STRAY / sliding * turn.powi(4)).powf(1.0 / 6.0));
             let falls = -length * length / rate.dot(size);
             if falls > 0.0 && falls < soonest {
                 (soonest, pace) = (falls, paced(index, length));
@@ -447,8 +461,9 @@ fn lawful(
             previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
         }
         settle(table, constants, &mut begin, touching, &set);
-        // What yields goes on from the forces that it had.
-        let similar = previous.filter(|_| set.yields()).map(|previous| &previous.last);
+        // Where forces are not unique they go on as they were.
+        let same = |previous: &&Resting| previous.contacts.as_slice() == touching;
+        let similar = previous.filter(same).map(|previous| &previous.last);
         let resolved = resolve(table, &begin, contacts, &set, pushing, similar)?;
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);

@@ -44,6 +44,8 @@ pub struct Tolerance {
     /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
     /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
+    /// The same where several contacts shake each other and make slips, m/s: the places are then right to as many metres.
+    pub slow_crowd: f64,
     /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
     pub negligible: f64,
     /// The same where several contacts shake each other, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
@@ -69,6 +71,7 @@ impl Tolerance {
             slack: 1e-12 * table.gravity,
             slow_bounce: 2e-2 * speed,
             slowest_bounce: 2e-10 * speed,
+            slow_crowd: 2e-8 * speed,
             negligible: 2e-12 * speed,
             negligible_crowd: 2e-10 * speed,
         }

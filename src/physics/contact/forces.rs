@@ -245,7 +245,7 @@ fn slipping(table: &Table, balls: &[BallState; BALLS], contact: &Contact, set: &
         bodies = 2.0;
     }
     let normal = -(rates.dot(n) + centripetal) / bodies;
-    forces.normal[0] = normal;
+    (forces.normal[0], forces.sizes[0]) = (normal, normal);
     forces.slack = normal.min(spin_slack(radius, balls, set));
     let friction = if let Some(against) = set.contact[0].direction(slip_at) {
         -mu * normal * against

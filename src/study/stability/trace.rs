@@ -18,7 +18,7 @@ const BREAK_AFTER_EVENTS: usize = 2_000_000;
 const KEPT: usize = 20_000;
 
 /// A shot is broken off after this long, s.
-pub const BREAK_AFTER_SECONDS: f64 = 10.0;
+pub const BREAK_AFTER_SECONDS: f64 = 1.0;
 
 /// A piece of a ball's course with the time at which it ended, s.
 #[derive(Clone, Debug)]
@@ -44,6 +44,8 @@ pub struct Trace {
     pub kept_until: f64,
     /// How many events there were.
     pub event_count: usize,
+    /// Steps of resting contacts and bounces of chatters.
+    pub contact_steps: usize,
     /// How many pieces there were, those of no length too.
     pub steps: usize,
     /// How the shot ended.
@@ -66,6 +68,7 @@ impl Trace {
             pieces: [const { Vec::new() }; BALLS],
             kept_until: f64::INFINITY,
             event_count: 0,
+            contact_steps: 0,
             steps: 0,
             end: End { time: 0.0, balls: [still; BALLS] },
             finished: true,
@@ -84,6 +87,7 @@ impl Trace {
     pub fn record(&mut self, impulse: &Impulse, play: impl FnOnce(&mut Self) -> End) {
         self.events.clear();
         self.pieces.iter_mut().for_each(Vec::clear);
+        self.contact_steps = 0;
         (self.event_count, self.steps, self.finished, self.kept_until) = (0, 0, true, f64::INFINITY);
         self.impulse = *impulse;
         self.started = Instant::now();
@@ -112,6 +116,25 @@ impl Observer for Trace {
         let too_long =
             self.event_count.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
         if too_long || self.event_count >= BREAK_AFTER_EVENTS {
+            self.finished = false;
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn bounce(&mut self, bounce: Event) {
+        // It is no event of the shot, but an impact of its course.
+        if self.kept_until == f64::INFINITY {
+            self.events.push(bounce);
+        }
+        self.fill(self.events.len());
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.contact_steps += 1;
+        let too_long =
+            self.contact_steps.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
+        if too_long {
             self.finished = false;
             return ControlFlow::Break(());
         }

@@ -119,7 +119,7 @@ impl Audit<'_> {
             let doubt = Doubt {
                 energy: members().map(|member| self.courses[member].largest).sum(),
                 time: now,
-                rests: members().any(|member| rested[member] || rests[member]),
+                rests: members().any(|member| rested[member] || rests[member]) || moment.ends_a_chatter(group),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.gap) },
             };

@@ -45,7 +45,18 @@ pub struct Bounces {
     pub lasts: f64,
 }
 
+/// Bounces slower than this may be the last of a chatter, m/s: they take and leave as little as a resting contact.
+const LAST_BOUNCE: f64 = 1e-7;
+
 impl Moment<'_> {
+    /// Whether a group's impact is so slow that it may end a chatter.
+    pub fn ends_a_chatter(&self, group: [bool; BALLS]) -> bool {
+        self.impacts.iter().filter(|contact| group[contact.first]).any(|contact| {
+            let others = contact.second.map_or(glam::DVec2::ZERO, |second| self.before[second].velocity);
+            (self.before[contact.first].velocity - others).dot(contact.normal).abs() < LAST_BOUNCE
+        })
+    }
+
     /// The balls that are joined to `ball` by impacts or closed contacts, itself among them.
     pub fn group(&self, ball: usize, changed: [bool; BALLS]) -> [bool; BALLS] {
         let mut group: [bool; BALLS] = std::array::from_fn(|other| other == ball);
