@@ -3,17 +3,27 @@
 //!
 //! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.
 
+mod complementarity;
+mod contact;
 mod course;
 mod cue;
 mod double_double;
 mod engine;
+mod extrapolation;
 mod impact;
+mod laws;
+mod linear;
 mod meeting;
+mod moment;
 mod motion;
-mod press;
+mod piece;
 mod real;
+mod rest;
 mod roots;
+mod rounds;
+mod rows;
 mod table;
+mod tolerance;
 mod vector;
 
 pub use cue::{Stroke, strike};

@@ -56,16 +56,6 @@ impl<R: Real> Numbers<R> {
             Rail::Bottom | Rail::Top => self.half_width,
         }
     }
-
-    /// Speeds below this are the end of a chatter: its remaining bounces would move a ball by about the square of it.
-    pub fn settled() -> R {
-        R::of(R::ROUNDING.powf(0.75))
-    }
-
-    /// Gaps below this are contact, m.
-    pub fn touching() -> R {
-        R::of(64.0 * R::ROUNDING)
-    }
 }
 
 /// Unit vector from a cushion into the table.

@@ -1,0 +1,130 @@
+//! Which closed contacts press at one moment, and which of the balls' slips end or begin there.
+
+use super::{
+    Numbers, Real, Unjudged,
+    complementarity::Problem,
+    contact::{Balls, Contact},
+    laws::{Law, Laws, System},
+    rounds::touching_contacts,
+    tolerance::{settled, slack, touching},
+};
+use crate::table::BALLS;
+
+/// Slips that can begin one after the other at one moment, with room to spare.
+const MOST_CHANGES: usize = 32;
+
+/// A slip that begins has this speed, in units of what counts as none.
+const BEGINNING: f64 = 4.0;
+
+/// Balls whose contacts press.
+#[derive(Clone, Debug)]
+pub struct Rest<R> {
+    /// The laws in force.
+    pub laws: Laws<R>,
+    /// The forces of unknown size.
+    pub forces: Vec<R>,
+}
+
+impl<R: Real> Rest<R> {
+    /// Whether a contact presses.
+    pub fn presses(&self, contact: Contact) -> bool {
+        self.laws.contacts.iter().any(|(pressing, _)| *pressing == contact)
+    }
+}
+
+/// Finds the contacts that press, `None` if none does, and the energy over mass that friction takes in no time at all.
+///
+/// # Errors
+/// [`Unjudged::Unsolved`], where no forces are found that obey all laws.
+pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Option<Rest<R>>, R), Unjudged> {
+    let mut work = R::zero();
+    for _ in 0..MOST_CHANGES {
+        let mut closed = touching_contacts(numbers, balls);
+        closed.retain(|contact| contact.opening(balls).abs() <= settled());
+        let (pressing, _) = pressing(numbers, balls, &closed)?;
+        if pressing.is_empty() {
+            return Ok((None, work));
+        }
+        if let Some(lost) = stick(numbers, balls, &pressing) {
+            work = work + lost;
+            continue;
+        }
+        let laws = Laws::of(numbers, balls, &pressing);
+        let system = System::new(numbers, balls, &laws);
+        let forces = lawful(numbers, &system)?;
+        let (speeds, begins) = wanted_speeds(numbers, &system, &forces);
+        work = work + system.set_speeds(numbers, balls, &speeds);
+        if !begins {
+            close(numbers, balls, &pressing);
+            let ended = |ball: usize| laws.turning_ended(ball);
+            (0..BALLS).filter(|ball| ended(*ball)).for_each(|ball| balls[ball].spin.z = R::zero());
+            for (ball, motion) in balls.iter_mut().zip(laws.cloth) {
+                ball.motion = motion.unwrap_or(ball.motion);
+            }
+            return Ok((Some(Rest { laws, forces }), work));
+        }
+    }
+    Err(Unjudged::Unsolved)
+}
+
+/// The contacts among `closed` that press.
+fn pressing<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &Balls<R>,
+    closed: &[Contact],
+) -> Result<(Vec<Contact>, Vec<R>), Unjudged> {
+    if closed.is_empty() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let system = System::new(numbers, balls, &Laws::of(numbers, balls, closed));
+    let forces = lawful(numbers, &system)?;
+    let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
+    let pressing = closed.iter().zip(pushes).filter(|(_, push)| *push > slack()).map(|(contact, _)| *contact);
+    Ok((pressing.collect(), forces))
+}
+
+fn lawful<R: Real>(numbers: &Numbers<R>, system: &System<R>) -> Result<Vec<R>, Unjudged> {
+    let rates = system.rates(numbers, &vec![R::zero(); system.len()]);
+    let problem = Problem { matrix: &system.matrix(numbers), rates: &rates, blocks: &system.blocks };
+    problem.solve().ok_or(Unjudged::Unsolved)
+}
+
+/// Contacts that never slip stop slipping as soon as they press, as in a collision: the cloth has no time to take part.
+fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) -> Option<R> {
+    let slips = |contact: &Contact| {
+        contact.friction(numbers).is_none() && contact.slip(numbers, balls).length() > settled()
+    };
+    if !pressing.iter().any(slips) {
+        return None;
+    }
+    let laws = Laws::of(numbers, balls, pressing).without_cloth();
+    let system = System::new(numbers, balls, &laws);
+    Some(system.set_speeds(numbers, balls, &vec![R::zero(); system.len()]))
+}
+
+/// Zero for what is held, and for what begins to slip a first little speed; tells whether there is any.
+fn wanted_speeds<R: Real>(numbers: &Numbers<R>, system: &System<R>, forces: &[R]) -> (Vec<R>, bool) {
+    let rates = system.rates(numbers, forces);
+    let mut wanted = vec![R::zero(); rates.len()];
+    let mut begins = false;
+    for block in system.blocks.iter().filter(|block| !matches!(block.law, Law::Push)) {
+        let rows = block.at..block.at + block.axes;
+        let size = rows.clone().fold(R::zero(), |sum, row| sum + rates[row] * rates[row]).sqrt();
+        if size > slack() {
+            begins = true;
+            for row in rows {
+                wanted[row] = rates[row] / size * (R::of(BEGINNING) * settled());
+            }
+        }
+    }
+    (wanted, begins)
+}
+
+/// Takes the rounding out of the gaps. An overlap with which a shot began is left as it is.
+fn close<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) {
+    for contact in pressing {
+        if contact.gap(numbers, balls).abs() <= R::of(1e3) * touching() {
+            contact.close(numbers, balls);
+        }
+    }
+}

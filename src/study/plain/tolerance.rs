@@ -1,0 +1,25 @@
+//! What counts as nothing: every tolerance of the engine, derived from the rounding of its numbers.
+
+use super::Real;
+
+/// Gaps below this are contact, m: rounding of places on the table.
+pub fn touching<R: Real>() -> R {
+    R::of(64.0 * R::ROUNDING)
+}
+
+/// Speeds and slips below this are zero, m/s.
+pub fn settled<R: Real>() -> R {
+    R::of(R::ROUNDING.powf(0.75))
+}
+
+/// A bounce slower than this ends a chatter where the contact presses, m/s: what is left of the chatter would move a
+/// ball by about the square of it, which is rounding.
+pub fn chatter<R: Real>() -> R {
+    R::of(R::ROUNDING.sqrt())
+}
+
+/// Forces per mass and accelerations below this are zero, m/s². A law that breaks is seen so much late: the slip or gap
+/// that is missed grows with the square of it.
+pub fn slack<R: Real>() -> R {
+    R::of(R::ROUNDING.sqrt())
+}
