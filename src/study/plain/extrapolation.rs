@@ -8,7 +8,7 @@ pub const COLUMNS: usize = 14;
 /// Two columns that differ by less are the same, in units of rounding: the last one is better by some orders.
 const SAME: f64 = 256.0;
 
-/// What is integrated, and its rates of change.
+/// What is integrated, its changes since a start, or its rates of change.
 #[derive(Clone, Copy, Debug)]
 pub struct State<R> {
     /// Time since the start, s.
@@ -20,6 +20,18 @@ pub struct State<R> {
 }
 
 impl<R: Real> State<R> {
+    /// The same balls with all numbers zero.
+    #[must_use]
+    pub fn zero(&self) -> Self {
+        self.with(self, |x, same| x - same)
+    }
+
+    /// This state after changes.
+    #[must_use]
+    pub fn and(&self, changes: &Self) -> Self {
+        self.with(changes, |x, change| x + change)
+    }
+
     /// Every number by a function of itself and of its fellow in another state.
     fn with(&self, other: &Self, combine: impl Fn(R, R) -> R + Copy) -> Self {
         let mut state = *self;
@@ -50,11 +62,17 @@ impl<R: Real> State<R> {
 }
 
 /// The state one step later, and how many columns it took: `None` where they do not agree in the end.
+///
+/// Changes are integrated: what is large in the state itself would leave its rounding in them, and the extrapolation
+/// amplifies that.
 pub fn extrapolate<R: Real>(
     start: &State<R>,
     step: R,
     rates: impl Fn(&State<R>) -> State<R>,
 ) -> (State<R>, Option<usize>) {
+    let (origin, zero) = (start, start.zero());
+    let start = &zero;
+    let rates = |changes: &State<R>| rates(&origin.and(changes));
     let first = rates(start);
     // row[k] extrapolates the last k + 1 step counts 2, 4, 6, … to none at all.
     let mut row: Vec<State<R>> = Vec::with_capacity(COLUMNS);
@@ -76,8 +94,8 @@ pub fn extrapolate<R: Real>(
         let is_settled = row.last().is_some_and(|last| last.agrees(&best));
         row.push(best);
         if is_settled {
-            return (best, Some(column + 1));
+            return (origin.and(&best), Some(column + 1));
         }
     }
-    (row[COLUMNS - 1], None)
+    (origin.and(&row[COLUMNS - 1]), None)
 }

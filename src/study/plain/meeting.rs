@@ -99,20 +99,25 @@ fn seen_to_close<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> O
     let first_opening = contact.opening(&course.balls);
     let (last_gap, last_opening, _) = at(end);
     let gap_until = |low: R, high: R| {
-        let tau = falls(|tau| at(tau).0, low, high);
+        let tau = falls(|tau| at(tau).0, low, high, zero);
         at(tau).2
     };
+    if std::env::var_os("DD_TRACE").is_some() { eprintln!("  seen {contact:?} gap {:e} level {:e} opening {:e} last {:e} {:e} end tau {:e} time {:e} horizon {:e}", first_gap.to_f64(), level.to_f64(), first_opening.to_f64(), last_gap.to_f64(), last_opening.to_f64(), end.to_f64(), at(end).2.to_f64(), horizon.to_f64()); } // DEBUG
     if level < zero && first_opening > settled() && last_opening < zero {
         // It opens and closes again, perhaps at once: the gap's top lies between.
-        let top = falls(|tau| at(tau).1, zero, end);
+        let top = falls(|tau| at(tau).1, zero, end, zero);
         let of_contact = |tau: R| at(tau).0 + level - first_gap;
-        return (of_contact(end) < zero).then(|| at(falls(of_contact, top, end)).2);
+        if of_contact(top) <= touching() {
+            // Too low for its height to be seen, and so short that it falls as it rises.
+            return Some(R::of(2.0) * at(top).2).filter(|time| *time <= horizon);
+        }
+        return (of_contact(end) < zero).then(|| at(falls(of_contact, top, end, zero)).2);
     }
     if last_gap < zero {
         return Some(gap_until(zero, end));
     }
     if first_opening < zero && last_opening > zero {
-        let nearest = falls(|tau| -at(tau).1, zero, end);
+        let nearest = falls(|tau| -at(tau).1, zero, end, zero);
         return (at(nearest).0 < zero).then(|| gap_until(zero, nearest));
     }
     None

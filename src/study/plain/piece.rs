@@ -12,7 +12,7 @@ use super::{
     rest::Rest,
     roots::falls,
     rows::movement,
-    tolerance::slack,
+    tolerance::{settled, slack},
 };
 
 /// Longest piece, s: how finely its neighbours are looked at.
@@ -67,8 +67,8 @@ impl<R: Real> Piece<R> {
         }
         self.stride = self.stride.max(0.125);
         if self.room(&self.end) < R::zero() {
-            self.tau = falls(|tau| self.room(&self.at(tau)), R::zero(), self.tau);
-            self.end = self.at(self.tau);
+            let tau = falls(|tau| self.room(&self.at(tau)), R::zero(), self.tau, slack());
+            (self.end, self.tau) = (self.at(tau), tau);
         }
     }
 
@@ -93,7 +93,9 @@ impl<R: Real> Piece<R> {
     fn room(&self, state: &State<R>) -> R {
         let (system, forces) = self.forces(&state.balls);
         let rooms = system.room(&forces).into_iter().zip(&self.allowed).map(|(room, allowed)| room + *allowed);
-        let turns = self.rest.laws.turns(&self.numbers, &state.balls);
+        // A turning that ends does so as exactly as a slip.
+        let scale = slack::<R>() / settled();
+        let turns = self.rest.laws.turns(&self.numbers, &state.balls).map(|speed| speed * scale);
         rooms.chain(turns).fold(R::of(1.0), R::min)
     }
 
@@ -118,6 +120,11 @@ impl<R: Real> Piece<R> {
     pub fn has(&self, ball: usize) -> bool {
         self.rest.laws.cloth[ball].is_some()
     }
+
+    pub fn describe(&self) -> String { // DEBUG
+        let f: Vec<f32> = self.rest.forces.iter().map(|f| f.to_f64() as f32).collect(); // DEBUG
+        format!("{:?} tau {:.2e} str {} f {f:?}", self.rest.laws.contacts, self.tau.to_f64(), self.stride) // DEBUG
+    } // DEBUG
 
     /// Whether a contact presses.
     pub fn presses(&self, contact: Contact) -> bool {

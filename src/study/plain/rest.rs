@@ -99,7 +99,13 @@ fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contac
     }
     let laws = Laws::of(numbers, balls, pressing).without_cloth();
     let system = System::new(numbers, balls, &laws);
-    Some(system.set_speeds(numbers, balls, &vec![R::zero(); system.len()]))
+    let work = system.set_speeds(numbers, balls, &vec![R::zero(); system.len()]);
+    for (index, ball) in balls.iter_mut().enumerate() {
+        if pressing.iter().any(|contact| contact.has(index)) {
+            ball.go_on(numbers, settled());
+        }
+    }
+    Some(work)
 }
 
 /// Zero for what is held, and for what begins to slip a first little speed; tells whether there is any.

@@ -86,16 +86,15 @@ impl<R: Real> Row<R> {
 
     /// The speed that a unit of force along `force` makes.
     pub fn response(&self, numbers: &Numbers<R>, force: &Self) -> R {
-        let twist = R::of(2.5) / (numbers.radius * numbers.radius);
         self.parts.iter().zip(&force.parts).fold(R::zero(), |sum, parts| match parts {
-            (Some((linear, lever)), Some((push, turn))) => sum + linear.dot(*push) + lever.dot(*turn) * twist,
+            (Some((linear, lever)), Some((push, turn))) => sum + linear.dot(*push) + lever.dot(*turn) * numbers.turnability,
             _ => sum,
         })
     }
 
     /// Adds what a force of this size does.
     pub fn push(&self, numbers: &Numbers<R>, size: R, movement: &mut Movement<R>) {
-        let twist = R::of(2.5) / (numbers.radius * numbers.radius) * size;
+        let twist = numbers.turnability * size;
         for (part, (v, w)) in self.parts.iter().zip(movement) {
             if let Some((linear, lever)) = part {
                 (*v, *w) = (*v + *linear * size, *w + *lever * twist);
