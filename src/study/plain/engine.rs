@@ -81,12 +81,6 @@ pub fn play<R: Real>(
             let unaccounted = energy - energy_of(&balls) - work;
             return Ok(Shot { events, end: balls, duration, pressed, energy: [energy, unaccounted] });
         };
-        if std::env::var_os("DD_TRACE").is_some() { // DEBUG
-            let next_ = match next { Next::MotionEnds(i) => format!("ends {i}"), Next::PieceEnds => "piece".into(), Next::Meets(c) => format!("{c:?}") }; // DEBUG
-            let e = energy_of(&course.balls); // DEBUG
-            for c in super::rounds::touching_contacts(numbers, &course.balls) { eprint!("[{c:?} {:.1e}]", c.opening(&course.balls).to_f64()); } // DEBUG
-            eprintln!("{:.17} +{:.3e} {next_} un {:.2e} {:?} {:?}", now.to_f64(), time.to_f64(), (energy - e - work).to_f64(), course.balls.map(|b| (b.motion, b.velocity.length().to_f64() as f32, b.slip(numbers).length().to_f64() as f32, (numbers.radius*b.spin.z).to_f64() as f32, (b.slip(numbers).y.to_f64()).atan2(b.slip(numbers).x.to_f64()) as f32)), course.piece.as_ref().map(|p| p.describe())); // DEBUG
-        } // DEBUG
         now = now + time;
         let (moved, lost) = course.after(time);
         (balls, work) = (moved, work + lost);

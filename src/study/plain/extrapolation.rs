@@ -8,6 +8,9 @@ pub const COLUMNS: usize = 14;
 /// Two columns that differ by less are the same, in units of rounding: the last one is better by some orders.
 const SAME: f64 = 256.0;
 
+/// Most by which blur makes that more.
+const BLURRED: f64 = 1e6;
+
 /// What is integrated, its changes since a start, or its rates of change.
 #[derive(Clone, Copy, Debug)]
 pub struct State<R> {
@@ -55,19 +58,22 @@ impl<R: Real> State<R> {
         [self.time, self.work].into_iter().chain(balls)
     }
 
-    fn agrees(&self, other: &Self) -> bool {
-        let same = R::of(SAME * R::ROUNDING);
-        self.numbers().zip(other.numbers()).all(|(a, b)| (a - b).abs() <= same * (R::of(1.0) + a.abs()))
+    fn agrees(&self, other: &Self, blur: R) -> bool {
+        let (same, more, most) = (R::of(SAME * R::ROUNDING), R::of(1.0) + blur, R::of(BLURRED));
+        self.numbers().zip(other.numbers()).all(|(a, b)| (a - b).abs() <= same * (R::of(1.0) + (more * a.abs()).min(most)))
     }
 }
 
 /// The state one step later, and how many columns it took: `None` where they do not agree in the end.
+///
+/// Columns agree where they differ by rounding, or by rounding times `blur` times the change itself.
 ///
 /// Changes are integrated: what is large in the state itself would leave its rounding in them, and the extrapolation
 /// amplifies that.
 pub fn extrapolate<R: Real>(
     start: &State<R>,
     step: R,
+    blur: R,
     rates: impl Fn(&State<R>) -> State<R>,
 ) -> (State<R>, Option<usize>) {
     let (origin, zero) = (start, start.zero());
@@ -91,7 +97,7 @@ pub fn extrapolate<R: Real>(
             let previous = std::mem::replace(entry, best);
             best = best.with(&previous, |best, previous| best + (best - previous) * factor);
         }
-        let is_settled = row.last().is_some_and(|last| last.agrees(&best));
+        let is_settled = row.last().is_some_and(|last| last.agrees(&best, blur));
         row.push(best);
         if is_settled {
             return (origin.and(&best), Some(column + 1));

@@ -5,10 +5,11 @@
 
 use super::{
     Motion, Numbers, Real, Vector,
+    complementarity::Problem,
     contact::{Balls, Contact},
     linear::solve,
     rows::{Movement, Row, movement},
-    tolerance::settled,
+    tolerance::{settled, slack},
 };
 use crate::table::BALLS;
 
@@ -26,17 +27,17 @@ pub struct Laws<R> {
 impl<R: Real> Laws<R> {
     /// The laws of `contacts` that are closed and neither open nor close.
     pub fn of(numbers: &Numbers<R>, balls: &Balls<R>, contacts: &[Contact]) -> Self {
-        let slips = |contact: &Contact| {
-            contact.friction(numbers).is_some() && contact.slip(numbers, balls).length() > settled()
-        };
+        let none = settled();
+        let slips =
+            |contact: &Contact| contact.friction(numbers).is_some() && contact.slip(numbers, balls).length() > none;
         let in_contact = |ball: usize| contacts.iter().any(|contact| contact.has(ball));
         Self {
             contacts: contacts.iter().map(|contact| (*contact, slips(contact))).collect(),
-            cloth: std::array::from_fn(|ball| in_contact(ball).then(|| balls[ball].on_cloth(numbers, settled()))),
+            cloth: std::array::from_fn(|ball| in_contact(ball).then(|| balls[ball].on_cloth(numbers, none))),
             turning: balls.map(|ball| {
                 let speed = numbers.radius * ball.spin.z;
                 let sign = R::of(if speed > R::zero() { 1.0 } else { -1.0 });
-                if speed.abs() > settled() { sign } else { R::zero() }
+                if speed.abs() > none { sign } else { R::zero() }
             }),
         }
     }
@@ -217,6 +218,17 @@ impl<R: Real> System<R> {
         let missing = self.rates(numbers, guess).into_iter().map(|rate| -rate).collect();
         let changes = solve(self.matrix(numbers), missing);
         guess.iter().zip(changes).map(|(guess, change)| *guess + change).collect()
+    }
+
+    /// Forces that obey all laws, if any are found.
+    pub fn lawful(&self, numbers: &Numbers<R>) -> Option<Vec<R>> {
+        let rates = self.rates(numbers, &vec![R::zero(); self.len()]);
+        Problem { matrix: &self.matrix(numbers), rates: &rates, blocks: &self.blocks }.solve()
+    }
+
+    /// Whether forces that obey all laws keep every contact closed and all that is held from slipping.
+    pub fn holds(&self, numbers: &Numbers<R>) -> bool {
+        self.lawful(numbers).is_some_and(|forces| self.rates(numbers, &forces).into_iter().all(|rate| rate.abs() <= slack()))
     }
 
     /// Accelerations under forces of these sizes.

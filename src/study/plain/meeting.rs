@@ -7,7 +7,7 @@ use super::{
     contact::{Balls, Contact},
     course::Course,
     roots::falls,
-    tolerance::{settled, slack, touching},
+    tolerance::{closed, slack, touching},
 };
 
 /// When a contact closes within `horizon`, s.
@@ -24,7 +24,7 @@ pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: 
         return None;
     }
     let opening = contact.opening(balls);
-    if gap <= touching() && opening < -settled::<R>() {
+    if gap <= touching() && opening < -closed::<R>() {
         return Some(R::zero());
     }
     if is_integrated {
@@ -47,7 +47,7 @@ pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: 
 fn quadratic_closes<R: Real>(gap: R, speed: R, pull: R) -> Option<R> {
     let (zero, two) = (R::zero(), R::of(2.0));
     if gap <= touching() {
-        return (speed > settled() && pull < zero).then(|| -speed / pull);
+        return (speed > closed() && pull < zero).then(|| -speed / pull);
     }
     let discriminant = speed * speed - R::of(4.0) * pull * gap;
     if discriminant < zero || (speed >= zero && pull >= zero) {
@@ -77,7 +77,7 @@ fn balls_meet<R: Real>(
     }
     // The root at zero of balls that touch is the contact that is over: it is divided out. They do not press, so what
     // neither opens nor closes them is rounding.
-    if opening > settled() {
+    if opening > closed() {
         return finder(&[c[1], c[2], c[3], c[4], zero], horizon);
     }
     if c[2] > diameter * slack() { finder(&[c[2], c[3], c[4], zero, zero], horizon) } else { None }
@@ -102,8 +102,7 @@ fn seen_to_close<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> O
         let tau = falls(|tau| at(tau).0, low, high, zero);
         at(tau).2
     };
-    if std::env::var_os("DD_TRACE").is_some() { eprintln!("  seen {contact:?} gap {:e} level {:e} opening {:e} last {:e} {:e} end tau {:e} time {:e} horizon {:e}", first_gap.to_f64(), level.to_f64(), first_opening.to_f64(), last_gap.to_f64(), last_opening.to_f64(), end.to_f64(), at(end).2.to_f64(), horizon.to_f64()); } // DEBUG
-    if level < zero && first_opening > settled() && last_opening < zero {
+    if level < zero && first_opening > closed() && last_opening < zero {
         // It opens and closes again, perhaps at once: the gap's top lies between.
         let top = falls(|tau| at(tau).1, zero, end, zero);
         let of_contact = |tau: R| at(tau).0 + level - first_gap;

@@ -5,7 +5,7 @@ use super::{
     contact::{Balls, Contact},
     rest::{Rest, rest},
     rounds::collide,
-    tolerance::{chatter, settled},
+    tolerance::{chatter, closed, settled},
 };
 use crate::{simulation::EventKind, table::BALLS};
 
@@ -44,7 +44,7 @@ pub fn happen<R: Real>(
         }
         let is_slow = |contact: &&Contact| {
             let known = ending.contains(contact) || going_on.contains(contact);
-            !known && contact.opening(balls) > settled() && contact.opening(balls) <= chatter()
+            !known && contact.opening(balls) > closed() && contact.opening(balls) <= chatter()
         };
         let slow: Vec<Contact> = met.iter().filter(is_slow).copied().collect();
         if !slow.is_empty() {

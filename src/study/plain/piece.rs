@@ -47,28 +47,26 @@ impl<R: Real> Piece<R> {
     }
 
     fn advance(&mut self) {
-        let mut tau = self.first_guess() * R::of(self.stride);
+        let natural = self.first_guess();
         let longest = R::of(LONGEST) / self.rates(&self.start).time;
-        tau = tau.min(longest);
+        let slowest = self.rest.laws.ending_speeds(&self.numbers, &self.start.balls).fold(R::of(1.0), R::min);
+        // Of a slip that is small, the direction is known to few digits, and so is what its friction does.
+        let blur = R::of(1.0) / slowest;
+        let mut tau = (natural * R::of(self.stride)).min(longest);
         for _ in 0..MOST_HALVINGS {
-            let (end, columns) = extrapolate(&self.start, tau, |state| self.rates(state));
+            let (end, columns) = extrapolate(&self.start, tau, blur, |state| self.rates(state));
             (self.tau, self.end) = (tau, end);
-            match columns {
-                Some(columns) => {
-                    let growth = if columns + 3 <= COLUMNS { 1.5 } else { 1.0 };
-                    self.stride = (self.stride * growth).min(16.0);
-                    break;
-                }
-                None => {
-                    tau = tau * R::of(0.5);
-                    self.stride *= 0.5;
-                }
+            if let Some(columns) = columns {
+                let growth = [1.0, 1.0, 1.5, 1.5, 2.0].get(COLUMNS - columns).unwrap_or(&4.0);
+                self.stride = ((tau / natural).to_f64() * growth).max(0.125);
+                break;
             }
+            tau = tau * R::of(0.5);
         }
-        self.stride = self.stride.max(0.125);
         if self.room(&self.end) < R::zero() {
             let tau = falls(|tau| self.room(&self.at(tau)), R::zero(), self.tau, slack());
             (self.end, self.tau) = (self.at(tau), tau);
+            self.stride = self.stride.min(1.0);
         }
     }
 
@@ -93,10 +91,15 @@ impl<R: Real> Piece<R> {
     fn room(&self, state: &State<R>) -> R {
         let (system, forces) = self.forces(&state.balls);
         let rooms = system.room(&forces).into_iter().zip(&self.allowed).map(|(room, allowed)| room + *allowed);
+        let mut room = rooms.fold(R::of(1.0), R::min);
+        if room < R::zero() && system.holds(&self.numbers) {
+            // Frictions share a load in more than one way, and another one breaks no law.
+            room = slack();
+        }
         // A turning that ends does so as exactly as a slip.
         let scale = slack::<R>() / settled();
         let turns = self.rest.laws.turns(&self.numbers, &state.balls).map(|speed| speed * scale);
-        rooms.chain(turns).fold(R::of(1.0), R::min)
+        turns.fold(room, R::min)
     }
 
     /// Derivatives with respect to `tau`.
@@ -121,10 +124,6 @@ impl<R: Real> Piece<R> {
         self.rest.laws.cloth[ball].is_some()
     }
 
-    pub fn describe(&self) -> String { // DEBUG
-        let f: Vec<f32> = self.rest.forces.iter().map(|f| f.to_f64() as f32).collect(); // DEBUG
-        format!("{:?} tau {:.2e} str {} f {f:?}", self.rest.laws.contacts, self.tau.to_f64(), self.stride) // DEBUG
-    } // DEBUG
 
     /// Whether a contact presses.
     pub fn presses(&self, contact: Contact) -> bool {
@@ -138,7 +137,7 @@ impl<R: Real> Piece<R> {
 
     /// The state at a `tau` within the piece.
     pub fn at(&self, tau: R) -> State<R> {
-        if tau == self.tau { self.end } else { extrapolate(&self.start, tau, |state| self.rates(state)).0 }
+        if tau == self.tau { self.end } else { extrapolate(&self.start, tau, R::zero(), |state| self.rates(state)).0 }
     }
 
     /// The `tau` of a time, s: Newton's steps, since `dt/dtau` is known.

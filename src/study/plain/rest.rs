@@ -2,11 +2,11 @@
 
 use super::{
     Numbers, Real, Unjudged,
-    complementarity::Problem,
     contact::{Balls, Contact},
     laws::{Law, Laws, System},
     rounds::touching_contacts,
-    tolerance::{settled, slack, touching},
+    rows::{Row, movement},
+    tolerance::{self, settled, slack, touching},
 };
 use crate::table::BALLS;
 
@@ -39,9 +39,13 @@ impl<R: Real> Rest<R> {
 pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Option<Rest<R>>, R), Unjudged> {
     let mut work = R::zero();
     for _ in 0..MOST_CHANGES {
-        let mut closed = touching_contacts(numbers, balls);
-        closed.retain(|contact| contact.opening(balls).abs() <= settled());
-        let (pressing, _) = pressing(numbers, balls, &closed)?;
+        let mut at_rest = touching_contacts(numbers, balls);
+        at_rest.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
+        let pressing = match pressing(numbers, balls, &at_rest) {
+            Ok(pressing) => pressing,
+            Err(_) if bounce(numbers, balls, &at_rest) => continue,
+            Err(error) => return Err(error),
+        };
         if pressing.is_empty() {
             return Ok((None, work));
         }
@@ -51,7 +55,7 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
         }
         let laws = Laws::of(numbers, balls, &pressing);
         let system = System::new(numbers, balls, &laws);
-        let forces = lawful(numbers, &system)?;
+        let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
         let (speeds, begins) = wanted_speeds(numbers, &system, &forces);
         work = work + system.set_speeds(numbers, balls, &speeds);
         if !begins {
@@ -68,25 +72,34 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
 }
 
 /// The contacts among `closed` that press.
-fn pressing<R: Real>(
-    numbers: &Numbers<R>,
-    balls: &Balls<R>,
-    closed: &[Contact],
-) -> Result<(Vec<Contact>, Vec<R>), Unjudged> {
+fn pressing<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>, closed: &[Contact]) -> Result<Vec<Contact>, Unjudged> {
     if closed.is_empty() {
-        return Ok((Vec::new(), Vec::new()));
+        return Ok(Vec::new());
     }
     let system = System::new(numbers, balls, &Laws::of(numbers, balls, closed));
-    let forces = lawful(numbers, &system)?;
+    let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
     let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
     let pressing = closed.iter().zip(pushes).filter(|(_, push)| *push > slack()).map(|(contact, _)| *contact);
-    Ok((pressing.collect(), forces))
+    Ok(pressing.collect())
 }
 
-fn lawful<R: Real>(numbers: &Numbers<R>, system: &System<R>) -> Result<Vec<R>, Unjudged> {
-    let rates = system.rates(numbers, &vec![R::zero(); system.len()]);
-    let problem = Problem { matrix: &system.matrix(numbers), rates: &rates, blocks: &system.blocks };
-    problem.solve().ok_or(Unjudged::Unsolved)
+/// Makes the contacts that never slip open with a first little speed, and tells whether there are any.
+///
+/// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip
+/// makes the contact open, and once it is open, and nothing holds, it closes. It begins to bounce then, each time higher.
+fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact]) -> bool {
+    let mut bounces = false;
+    for contact in closed.iter().filter(|contact| contact.friction(numbers).is_none()) {
+        let row = Row::opening(*contact, contact.normal(balls));
+        let mut moved = movement(balls);
+        let missing = R::of(BEGINNING) * tolerance::closed() - row.speed(&moved);
+        row.push(numbers, missing / row.response(numbers, &row), &mut moved);
+        for (ball, (velocity, _)) in balls.iter_mut().zip(moved) {
+            ball.velocity = velocity;
+        }
+        bounces = true;
+    }
+    bounces
 }
 
 /// Contacts that never slip stop slipping as soon as they press, as in a collision: the cloth has no time to take part.

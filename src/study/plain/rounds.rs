@@ -11,7 +11,7 @@ use super::{
     impact::coulomb,
     laws::{Block, Law},
     rows::{Movement, Row, movement},
-    tolerance::{settled, touching},
+    tolerance::{closed, touching},
 };
 
 /// Rounds after which what touches takes one inelastic impact.
@@ -36,7 +36,7 @@ pub fn collide<R: Real>(
     let (mut met, mut work) = (Vec::new(), R::zero());
     for round in 0..=MOST_ROUNDS {
         let is_last = round == MOST_ROUNDS;
-        let fastest = if is_last { settled() } else { -settled::<R>() };
+        let fastest = if is_last { closed() } else { -closed::<R>() };
         let closing = |balls: &Balls<R>| {
             let closes = |contact: &&Contact| contact.opening(balls) < fastest;
             contacts.iter().filter(closes).copied().collect::<Vec<_>>()

@@ -12,6 +12,12 @@ pub fn settled<R: Real>() -> R {
     R::of(R::ROUNDING.powf(0.75))
 }
 
+/// Contacts that open or close more slowly than this are closed and rest, m/s: what slips that have just begun do to a
+/// contact is less.
+pub fn closed<R: Real>() -> R {
+    R::of(256.0) * settled()
+}
+
 /// A bounce slower than this ends a chatter where the contact presses, m/s: what is left of the chatter would move a
 /// ball by about the square of it, which is rounding.
 pub fn chatter<R: Real>() -> R {
