@@ -26,6 +26,9 @@ mod table;
 mod tolerance;
 mod vector;
 
+#[cfg(test)]
+mod tests;
+
 pub use cue::{Stroke, strike};
 pub use double_double::DoubleDouble;
 pub use engine::{Shot, Unjudged, play};

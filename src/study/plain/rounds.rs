@@ -117,3 +117,64 @@ fn lossy_share<R: Real>(numbers: &Numbers<R>, movement: &Movement<R>, change: &M
         (R::of(-2.0) * gain / own).max(R::zero())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        study::plain::{Ball, DoubleDouble, Motion, balls_collide, rail_collides, rail_normal},
+        simulation::Rail,
+        table::Table,
+    };
+
+    type D = DoubleDouble;
+
+    fn of(x: f64, y: f64, z: f64) -> Vector<D> {
+        Vector::new(D::of(x), D::of(y), D::of(z))
+    }
+
+    fn agrees(one: &Ball<D>, other: &Ball<D>) {
+        assert!((one.velocity - other.velocity).length().to_f64() < 1e-30);
+        assert!((one.spin - other.spin).length().to_f64() < 1e-28);
+    }
+
+    #[test]
+    fn one_contact_alone_collides_by_the_formulas_of_a_single_impact() {
+        for table in ["thesis", "match"].map(|name| Table::preset(name).unwrap()) {
+            let numbers = Numbers::<D>::of(&table);
+            let ball = |position, velocity, spin| Ball { position, velocity, spin, motion: Motion::Sliding };
+            let balls = [
+                ball(of(0.0, 0.0, 0.0), of(0.3, 0.4, 0.0), of(9.0, -20.0, 30.0)),
+                ball(of(2.0 * table.radius, 0.0, 0.0), of(-0.2, 0.1, 0.0), of(-5.0, 12.0, 7.0)),
+                ball(of(-0.5, 0.0, 0.0), Vector::zero(), Vector::zero()),
+            ];
+            let mut both = balls;
+            let (met, work) = collide(&numbers, &mut both, &[]).unwrap();
+            let (mut first, mut second) = (balls[0], balls[1]);
+            let known = balls_collide(&numbers, numbers.ball_restitution, &mut first, &mut second);
+            assert_eq!(met, [Contact::Balls(0, 1)]);
+            assert!((work - known).to_f64().abs() < 1e-30);
+            agrees(&both[0], &first);
+            agrees(&both[1], &second);
+
+            let mut alone = balls;
+            alone[0].position = Vector::new(numbers.half_length, D::zero(), D::zero());
+            let mut single = alone[0];
+            let (met, work) = collide(&numbers, &mut alone, &[]).unwrap();
+            let known = rail_collides(&numbers, numbers.rail_restitution, rail_normal(Rail::Right), &mut single);
+            assert_eq!(met, [Contact::Rail(0, Rail::Right)]);
+            assert!((work - known).to_f64().abs() < 1e-30);
+            agrees(&alone[0], &single);
+        }
+    }
+
+    #[test]
+    fn frictions_of_a_round_add_no_energy() {
+        let numbers = Numbers::<D>::of(&Table::preset("thesis").unwrap());
+        let movement = [(of(1.0, 0.0, 0.0), Vector::zero()); 3];
+        let change = |x: f64| [(of(x, 0.0, 0.0), Vector::zero()); 3];
+        assert_eq!(lossy_share(&numbers, &movement, &change(-1.0)).to_f64(), 1.0);
+        assert_eq!(lossy_share(&numbers, &movement, &change(-4.0)).to_f64(), 0.5);
+        assert_eq!(lossy_share(&numbers, &movement, &change(1.0)).to_f64(), 0.0);
+    }
+}
