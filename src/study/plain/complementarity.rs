@@ -5,7 +5,11 @@
 //! the disk. Newton's method on these equations (Alart and Curnier 1991) ends in a few steps where it starts near the
 //! solution; sweeps of the projections themselves bring it there.
 
-use super::{Real, laws::{Block, Law}, linear::solve};
+use super::{
+    Real,
+    system::{Block, Law},
+    linear::solve,
+};
 
 /// Newton's steps in a row.
 const STEPS: usize = 24;

@@ -13,6 +13,9 @@ use crate::{simulation::EventKind, table::BALLS};
 /// More steps from event to event than any shot has whose balls come to rest.
 const MOST_STEPS: usize = 200_000;
 
+/// After so many slow pieces in a row what is slow is taken to creep.
+const MANY: usize = 300;
+
 /// What became of a shot.
 #[derive(Clone, Debug)]
 pub struct Shot<R> {
@@ -66,14 +69,15 @@ pub fn play<R: Real>(
     let energy_of = |balls: &[Ball<R>; BALLS]| balls.iter().fold(R::zero(), |sum, ball| sum + ball.energy(numbers));
     let energy = energy_of(&balls);
     let (mut events, mut now, mut pressed, mut work) = (Vec::new(), R::zero(), false, R::zero());
-    let (mut resting, mut stride) = ([false; BALLS], 1.0);
+    let (mut resting, mut stride, mut slow) = ([false; BALLS], 1.0, 0);
     for _ in 0..MOST_STEPS {
-        let moment = happen(numbers, &mut balls, resting)?;
+        let moment = happen(numbers, &mut balls, resting, slow > MANY)?;
         events.extend(moment.events.into_iter().map(|kind| (now, kind)));
         work = work + moment.work;
         let piece = moment.rest.map(|rest| Piece::new(numbers, &balls, rest, stride));
         pressed |= piece.is_some();
         stride = piece.as_ref().map_or(1.0, |piece| piece.stride);
+        slow = if piece.as_ref().is_some_and(Piece::is_slow) { slow + 1 } else { 0 };
         resting = std::array::from_fn(|ball| piece.as_ref().is_some_and(|piece| piece.has(ball)));
         let course = Course { numbers: *numbers, balls, piece };
         let Some((time, next)) = predict(&course, finder) else {

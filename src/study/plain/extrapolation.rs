@@ -60,7 +60,9 @@ impl<R: Real> State<R> {
 
     fn agrees(&self, other: &Self, blur: R) -> bool {
         let (same, more, most) = (R::of(SAME * R::ROUNDING), R::of(1.0) + blur, R::of(BLURRED));
-        self.numbers().zip(other.numbers()).all(|(a, b)| (a - b).abs() <= same * (R::of(1.0) + (more * a.abs()).min(most)))
+        self.numbers()
+            .zip(other.numbers())
+            .all(|(a, b)| (a - b).abs() <= same * (R::of(1.0) + (more * a.abs()).min(most)))
     }
 }
 

@@ -28,9 +28,10 @@ pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: 
         return Some(R::zero());
     }
     if is_integrated {
-        return course.piece.as_ref().and_then(|piece| {
-            if piece.presses(contact) { None } else { seen_to_close(course, contact, horizon) }
-        });
+        return course
+            .piece
+            .as_ref()
+            .and_then(|piece| if piece.presses(contact) { None } else { seen_to_close(course, contact, horizon) });
     }
     let a = &balls[first];
     let time = match second {

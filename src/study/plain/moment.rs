@@ -3,7 +3,7 @@
 use super::{
     Motion, Numbers, Real, Unjudged,
     contact::{Balls, Contact},
-    rest::{Rest, rest},
+    rest::{Rest, creep, rest},
     rounds::collide,
     tolerance::{chatter, closed, settled},
 };
@@ -20,7 +20,7 @@ pub struct Moment<R> {
     pub work: R,
 }
 
-/// Lets it happen to `balls`, some of which have been resting until now.
+/// Lets it happen to `balls`, some of which have been resting until now, and perhaps so long that something may creep.
 ///
 /// Bounces that shrink in geometric progression end in a resting contact. The last impact of such a chatter is done
 /// without restitution; that is tried once the rebound is slow enough, and kept where the contact presses then.
@@ -31,6 +31,7 @@ pub fn happen<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
     resting: [bool; BALLS],
+    creeping: bool,
 ) -> Result<Moment<R>, Unjudged> {
     let before = *balls;
     let (mut ending, mut going_on): (Vec<Contact>, Vec<Contact>) = (Vec::new(), Vec::new());
@@ -51,7 +52,8 @@ pub fn happen<R: Real>(
             ending.extend(slow);
             continue;
         }
-        let (rest, lost) = rest(numbers, balls)?;
+        let crept = if creeping && met.is_empty() { creep(numbers, balls) } else { None };
+        let (rest, lost) = if crept.is_some() { (crept, R::zero()) } else { rest(numbers, balls)? };
         let presses = |contact: &Contact| rest.as_ref().is_some_and(|rest| rest.presses(*contact));
         if let Some(index) = ending.iter().position(|contact| !presses(contact)) {
             going_on.push(ending.remove(index));
@@ -59,12 +61,15 @@ pub fn happen<R: Real>(
         }
         let mut events: Vec<EventKind> = met.iter().map(|contact| contact.event()).collect();
         for (index, ball) in balls.iter_mut().enumerate().filter(|(index, _)| resting[*index]) {
-            if rest.as_ref().is_none_or(|rest| rest.laws.cloth[index].is_none()) && before[index].motion == ball.motion {
+            if rest.as_ref().is_none_or(|rest| rest.laws.cloth[index].is_none()) && before[index].motion == ball.motion
+            {
                 ball.go_on(numbers, settled());
             }
             match (before[index].motion, ball.motion) {
                 _ if !met.is_empty() => {}
-                (Motion::Sliding, Motion::Rolling | Motion::Stationary) => events.push(EventKind::SlidingRolling(index)),
+                (Motion::Sliding, Motion::Rolling | Motion::Stationary) => {
+                    events.push(EventKind::SlidingRolling(index))
+                }
                 (Motion::Rolling, Motion::Stationary) => events.push(EventKind::RollingStationary(index)),
                 _ => {}
             }

@@ -8,15 +8,18 @@ use super::{
     Numbers, Real,
     contact::{Balls, Contact},
     extrapolation::{COLUMNS, State, extrapolate},
-    laws::{Laws, System},
     rest::Rest,
     roots::falls,
     rows::movement,
-    tolerance::{settled, slack},
+    system::System,
+    tolerance::{creeping, settled, slack},
 };
 
 /// Longest piece, s: how finely its neighbours are looked at.
 const LONGEST: f64 = 4e-3;
+
+/// A piece that lasts for more than so many of its own times is slow.
+const SLOW: f64 = 1e3;
 
 /// Halvings of a step that is too long to be extrapolated.
 const MOST_HALVINGS: usize = 200;
@@ -83,12 +86,17 @@ impl<R: Real> Piece<R> {
 
     fn forces(&self, balls: &Balls<R>) -> (System<R>, Vec<R>) {
         let system = System::new(&self.numbers, balls, &self.rest.laws);
-        let forces = system.balance(&self.numbers, &self.rest.forces);
+        let lawful = if self.rest.creeps { system.lawful(&self.numbers) } else { None };
+        let forces = lawful.unwrap_or_else(|| system.balance(&self.numbers, &self.rest.forces));
         (system, forces)
     }
 
     /// What is left until a law breaks; negative behind it.
     fn room(&self, state: &State<R>) -> R {
+        if self.rest.creeps {
+            let held = self.rest.laws.largest_held(&self.numbers, &state.balls);
+            return R::of(2.0) * creeping::<R>() - held;
+        }
         let (system, forces) = self.forces(&state.balls);
         let rooms = system.room(&forces).into_iter().zip(&self.allowed).map(|(room, allowed)| room + *allowed);
         let mut room = rooms.fold(R::of(1.0), R::min);
@@ -124,10 +132,14 @@ impl<R: Real> Piece<R> {
         self.rest.laws.cloth[ball].is_some()
     }
 
-
     /// Whether a contact presses.
     pub fn presses(&self, contact: Contact) -> bool {
         self.rest.presses(contact)
+    }
+
+    /// Whether a slip takes much longer to grow or fade than by itself.
+    pub fn is_slow(&self) -> bool {
+        self.stride > SLOW
     }
 
     /// Length of the piece, s.

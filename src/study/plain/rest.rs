@@ -3,9 +3,10 @@
 use super::{
     Numbers, Real, Unjudged,
     contact::{Balls, Contact},
-    laws::{Law, Laws, System},
+    laws::Laws,
     rounds::touching_contacts,
     rows::{Row, movement},
+    system::{Law, System},
     tolerance::{self, settled, slack, touching},
 };
 use crate::table::BALLS;
@@ -23,6 +24,8 @@ pub struct Rest<R> {
     pub laws: Laws<R>,
     /// The forces of unknown size.
     pub forces: Vec<R>,
+    /// Whether something creeps: what begins to slip follows its drive, and the forces are to be found anew all along.
+    pub creeps: bool,
 }
 
 impl<R: Real> Rest<R> {
@@ -65,10 +68,31 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
             for (ball, motion) in balls.iter_mut().zip(laws.cloth) {
                 ball.motion = motion.unwrap_or(ball.motion);
             }
-            return Ok((Some(Rest { laws, forces }), work));
+            return Ok((Some(Rest { laws, forces, creeps: false }), work));
         }
     }
     Err(Unjudged::Unsolved)
+}
+
+/// The contacts that press while something creeps, if that is so.
+///
+/// A slip that begins almost without a drive grows so slowly that the equations are stiff: the direction of its friction
+/// settles many thousand times faster. It is then the direction in which the slip would begin from nothing.
+pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<Rest<R>> {
+    let none = tolerance::creeping();
+    let mut at_rest = touching_contacts(numbers, balls);
+    at_rest.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
+    let mut laws = Laws::if_none(numbers, balls, &at_rest, none);
+    let mut system = System::new(numbers, balls, &laws);
+    let mut forces = system.lawful(numbers)?;
+    let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
+    let mut presses = pushes.map(|push| push > slack()).collect::<Vec<_>>().into_iter();
+    at_rest.retain(|_| presses.next() == Some(true));
+    laws = Laws::if_none(numbers, balls, &at_rest, none);
+    system = System::new(numbers, balls, &laws);
+    forces = system.lawful(numbers)?;
+    let creeps = wanted_speeds(numbers, &system, &forces).1;
+    creeps.then_some(Rest { laws, forces, creeps })
 }
 
 /// The contacts among `closed` that press.
@@ -104,9 +128,8 @@ fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact
 
 /// Contacts that never slip stop slipping as soon as they press, as in a collision: the cloth has no time to take part.
 fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) -> Option<R> {
-    let slips = |contact: &Contact| {
-        contact.friction(numbers).is_none() && contact.slip(numbers, balls).length() > settled()
-    };
+    let slips =
+        |contact: &Contact| contact.friction(numbers).is_none() && contact.slip(numbers, balls).length() > settled();
     if !pressing.iter().any(slips) {
         return None;
     }

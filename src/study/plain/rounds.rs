@@ -9,7 +9,7 @@ use super::{
     complementarity::Problem,
     contact::{Balls, Contact},
     impact::coulomb,
-    laws::{Block, Law},
+    system::{Block, Law},
     rows::{Movement, Row, movement},
     tolerance::{closed, touching},
 };
@@ -62,9 +62,9 @@ fn one_round<R: Real>(
 ) -> Result<R, Unjudged> {
     let half = R::of(0.5);
     let before = movement(balls);
-    let normals: Vec<Row<R>> =
-        contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
-    let speeds = contacts.iter().zip(&normals).map(|(contact, row)| (R::of(1.0) + restitution(contact)) * row.speed(&before));
+    let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
+    let speeds =
+        contacts.iter().zip(&normals).map(|(contact, row)| (R::of(1.0) + restitution(contact)) * row.speed(&before));
     let matrix: Vec<Vec<R>> =
         normals.iter().map(|of| normals.iter().map(|by| of.response(numbers, by)).collect()).collect();
     let blocks: Vec<Block<R>> = (0..contacts.len()).map(|at| Block { at, axes: 1, law: Law::Push }).collect();
@@ -74,9 +74,10 @@ fn one_round<R: Real>(
     for (row, push) in normals.iter().zip(&pushes) {
         row.push(numbers, *push, &mut pushed);
     }
-    let mut work = normals.iter().zip(&pushes).fold(R::zero(), |work, (row, push)| {
-        work - half * *push * (row.speed(&before) + row.speed(&pushed))
-    });
+    let mut work = normals
+        .iter()
+        .zip(&pushes)
+        .fold(R::zero(), |work, (row, push)| work - half * *push * (row.speed(&before) + row.speed(&pushed)));
     let mut frictions: Vec<(Row<R>, R)> = Vec::with_capacity(contacts.len());
     for (contact, push) in contacts.iter().zip(&pushes).filter(|(_, push)| **push > R::zero()) {
         met.push(*contact);
@@ -111,19 +112,15 @@ fn lossy_share<R: Real>(numbers: &Numbers<R>, movement: &Movement<R>, change: &M
     };
     let (gain, own) = (product(movement, change), product(change, change));
     // The energy grows by `share gain + share² own/2`.
-    if gain + R::of(0.5) * own <= R::zero() {
-        R::of(1.0)
-    } else {
-        (R::of(-2.0) * gain / own).max(R::zero())
-    }
+    if gain + R::of(0.5) * own <= R::zero() { R::of(1.0) } else { (R::of(-2.0) * gain / own).max(R::zero()) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        study::plain::{Ball, DoubleDouble, Motion, balls_collide, rail_collides, rail_normal},
         simulation::Rail,
+        study::plain::{Ball, DoubleDouble, Motion, balls_collide, rail_collides, rail_normal},
         table::Table,
     };
 

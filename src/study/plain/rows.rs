@@ -3,7 +3,10 @@
 //! One set of numbers tells both. The speed is `linear·v + lever·w`, summed over the balls; a force of size `f` per ball
 //! mass accelerates a ball by `f linear` and turns it by `f lever 5/(2R²)`.
 
-use super::{Numbers, Real, Vector, contact::{Balls, Contact}};
+use super::{
+    Numbers, Real, Vector,
+    contact::{Balls, Contact},
+};
 use crate::table::BALLS;
 
 /// Velocity and spin of every ball, or their rates of change.
@@ -87,7 +90,9 @@ impl<R: Real> Row<R> {
     /// The speed that a unit of force along `force` makes.
     pub fn response(&self, numbers: &Numbers<R>, force: &Self) -> R {
         self.parts.iter().zip(&force.parts).fold(R::zero(), |sum, parts| match parts {
-            (Some((linear, lever)), Some((push, turn))) => sum + linear.dot(*push) + lever.dot(*turn) * numbers.turnability,
+            (Some((linear, lever)), Some((push, turn))) => {
+                sum + linear.dot(*push) + lever.dot(*turn) * numbers.turnability
+            }
             _ => sum,
         })
     }

@@ -29,3 +29,9 @@ pub fn chatter<R: Real>() -> R {
 pub fn slack<R: Real>() -> R {
     R::of(R::ROUNDING.sqrt())
 }
+
+/// Slips below this follow the force that drives them without delay, m/s, where they grow so slowly that the direction of
+/// their friction settles much faster than they do.
+pub fn creeping<R: Real>() -> R {
+    R::of(R::ROUNDING.powf(0.375))
+}
