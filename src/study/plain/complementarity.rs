@@ -7,8 +7,8 @@
 
 use super::{
     Real,
-    system::{Block, Law},
     linear::solve,
+    system::{Block, Law},
 };
 
 /// Newton's steps in a row.
@@ -98,9 +98,8 @@ impl<R: Real> Problem<'_, R> {
             let mut error = R::zero();
             for block in self.blocks {
                 let projected = self.projected(block, &forces);
-                for axis in 0..block.axes {
-                    let row = block.at + axis;
-                    let gap = projected[axis] - forces[row];
+                for (row, projected) in (block.at..block.at + block.axes).zip(projected) {
+                    let gap = projected - forces[row];
                     error = error.max(gap.abs());
                     matrix[row][row] = R::of(1.0);
                     side[row] = gap;

@@ -53,6 +53,7 @@ pub fn happen<R: Real>(
             continue;
         }
         let crept = if creeping && met.is_empty() { creep(numbers, balls) } else { None };
+        let crept = crept.and_then(|(rest, creeps)| creeps.then_some(rest));
         let (rest, lost) = if crept.is_some() { (crept, R::zero()) } else { rest(numbers, balls)? };
         let presses = |contact: &Contact| rest.as_ref().is_some_and(|rest| rest.presses(*contact));
         if let Some(index) = ending.iter().position(|contact| !presses(contact)) {
@@ -68,7 +69,7 @@ pub fn happen<R: Real>(
             match (before[index].motion, ball.motion) {
                 _ if !met.is_empty() => {}
                 (Motion::Sliding, Motion::Rolling | Motion::Stationary) => {
-                    events.push(EventKind::SlidingRolling(index))
+                    events.push(EventKind::SlidingRolling(index));
                 }
                 (Motion::Rolling, Motion::Stationary) => events.push(EventKind::RollingStationary(index)),
                 _ => {}

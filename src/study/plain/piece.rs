@@ -81,7 +81,7 @@ impl<R: Real> Piece<R> {
         let fastest = fastest.fold(R::zero(), |most, ((linear, angular), _)| {
             most.max(linear.length() + self.numbers.radius * angular.length())
         });
-        R::of(1.0) / fastest
+        R::of(1.0) / fastest.max(slack())
     }
 
     fn forces(&self, balls: &Balls<R>) -> (System<R>, Vec<R>) {

@@ -71,14 +71,15 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
             return Ok((Some(Rest { laws, forces, creeps: false }), work));
         }
     }
-    Err(Unjudged::Unsolved)
+    // Slips that hinder each other's beginning begin together.
+    creep(numbers, balls).map(|(rest, _)| (Some(rest), work)).ok_or(Unjudged::Unsolved)
 }
 
-/// The contacts that press while something creeps, if that is so.
+/// The contacts that press while something may creep, if forces are found, and whether something does.
 ///
 /// A slip that begins almost without a drive grows so slowly that the equations are stiff: the direction of its friction
 /// settles many thousand times faster. It is then the direction in which the slip would begin from nothing.
-pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<Rest<R>> {
+pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<(Rest<R>, bool)> {
     let none = tolerance::creeping();
     let mut at_rest = touching_contacts(numbers, balls);
     at_rest.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
@@ -92,7 +93,7 @@ pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<Rest<R>>
     system = System::new(numbers, balls, &laws);
     forces = system.lawful(numbers)?;
     let creeps = wanted_speeds(numbers, &system, &forces).1;
-    creeps.then_some(Rest { laws, forces, creeps })
+    Some((Rest { laws, forces, creeps: true }, creeps))
 }
 
 /// The contacts among `closed` that press.

@@ -9,8 +9,8 @@ use super::{
     complementarity::Problem,
     contact::{Balls, Contact},
     impact::coulomb,
-    system::{Block, Law},
     rows::{Movement, Row, movement},
+    system::{Block, Law},
     tolerance::{closed, touching},
 };
 
