@@ -56,8 +56,9 @@ pub fn happen<R: Real>(
         let crept = crept.and_then(|(rest, creeps)| creeps.then_some(rest));
         let (rest, lost) = if crept.is_some() { (crept, R::zero()) } else { rest(numbers, balls)? };
         let presses = |contact: &Contact| rest.as_ref().is_some_and(|rest| rest.presses(*contact));
-        if let Some(index) = ending.iter().position(|contact| !presses(contact)) {
-            going_on.push(ending.remove(index));
+        if !ending.iter().all(presses) {
+            going_on.extend(ending.iter().filter(|contact| !presses(contact)));
+            ending.retain(presses);
             continue;
         }
         let mut events: Vec<EventKind> = met.iter().map(|contact| contact.event()).collect();

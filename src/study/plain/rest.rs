@@ -42,11 +42,10 @@ impl<R: Real> Rest<R> {
 pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Option<Rest<R>>, R), Unjudged> {
     let mut work = R::zero();
     for _ in 0..MOST_CHANGES {
-        let mut at_rest = touching_contacts(numbers, balls);
-        at_rest.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
-        let pressing = match pressing(numbers, balls, &at_rest) {
+        let closed = closed(numbers, balls);
+        let pressing = match pressing(numbers, balls, &closed, settled()) {
             Ok(pressing) => pressing,
-            Err(_) if bounce(numbers, balls, &at_rest) => continue,
+            Err(_) if bounce(numbers, balls, &closed) => continue,
             Err(error) => return Err(error),
         };
         if pressing.is_empty() {
@@ -81,27 +80,32 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
 /// settles many thousand times faster. It is then the direction in which the slip would begin from nothing.
 pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<(Rest<R>, bool)> {
     let none = tolerance::creeping();
-    let mut at_rest = touching_contacts(numbers, balls);
-    at_rest.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
-    let mut laws = Laws::if_none(numbers, balls, &at_rest, none);
-    let mut system = System::new(numbers, balls, &laws);
-    let mut forces = system.lawful(numbers)?;
-    let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
-    let mut presses = pushes.map(|push| push > slack()).collect::<Vec<_>>().into_iter();
-    at_rest.retain(|_| presses.next() == Some(true));
-    laws = Laws::if_none(numbers, balls, &at_rest, none);
-    system = System::new(numbers, balls, &laws);
-    forces = system.lawful(numbers)?;
+    let pressing = pressing(numbers, balls, &closed(numbers, balls), none).ok()?;
+    let laws = Laws::if_none(numbers, balls, &pressing, none);
+    let system = System::new(numbers, balls, &laws);
+    let forces = system.lawful(numbers)?;
     let creeps = wanted_speeds(numbers, &system, &forces).1;
     Some((Rest { laws, forces, creeps: true }, creeps))
 }
 
-/// The contacts among `closed` that press.
-fn pressing<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>, closed: &[Contact]) -> Result<Vec<Contact>, Unjudged> {
+/// The contacts that are closed and neither open nor close.
+fn closed<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
+    let mut contacts = touching_contacts(numbers, balls);
+    contacts.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
+    contacts
+}
+
+/// The contacts among `closed` that press, if slips and speeds up to `none`, m/s, are zero.
+fn pressing<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &Balls<R>,
+    closed: &[Contact],
+    none: R,
+) -> Result<Vec<Contact>, Unjudged> {
     if closed.is_empty() {
         return Ok(Vec::new());
     }
-    let system = System::new(numbers, balls, &Laws::of(numbers, balls, closed));
+    let system = System::new(numbers, balls, &Laws::if_none(numbers, balls, closed, none));
     let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
     let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
     let pressing = closed.iter().zip(pushes).filter(|(_, push)| *push > slack()).map(|(contact, _)| *contact);
