@@ -1,58 +1,51 @@
-//! How a ball goes on until something happens to it, free or pressed against a cushion.
+//! How all balls go on until something happens: free ones along parabolas, those in resting contact by their piece.
 
-use super::{Ball, Motion, Numbers, Real, engine::Unjudged, press::Press, table::normal};
-use crate::simulation::Rail;
+use super::{Numbers, Real, contact::Balls, extrapolation::State, piece::Piece};
+use crate::table::BALLS;
 
-/// A ball and, where it is pressed, the piece of its course that comes next.
-#[derive(Clone, Copy)]
+/// The balls now, and what they do next.
+#[derive(Clone, Debug)]
 pub struct Course<R> {
-    /// The ball now.
-    pub ball: Ball<R>,
-    /// Where it is pressed, the piece.
-    pub press: Option<Press<R>>,
+    /// The table.
+    pub numbers: Numbers<R>,
+    /// The balls.
+    pub balls: Balls<R>,
+    /// The piece of those whose contacts press.
+    pub piece: Option<Piece<R>>,
 }
 
 impl<R: Real> Course<R> {
-    /// The course of `ball` from now on.
-    pub fn new(numbers: &Numbers<R>, ball: Ball<R>) -> Self {
-        let press = match ball.motion {
-            Motion::Pressed(rail) => Some(Press::new(numbers, &ball, rail)),
-            _ => None,
-        };
-        Self { ball, press }
+    fn is_free(&self, ball: usize) -> bool {
+        self.piece.as_ref().is_none_or(|piece| !piece.has(ball))
     }
 
-    /// How long its present motion, or its present piece, lasts.
-    pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
-        self.press.map_or_else(|| self.ball.lasts(numbers), |press| Some(press.lasts()))
+    /// Balls that nothing presses, and how long their present motions last, s.
+    pub fn free_motions(&self) -> impl Iterator<Item = (usize, R)> {
+        let free = (0..BALLS).filter(|ball| self.is_free(*ball));
+        free.filter_map(|ball| Some((ball, self.balls[ball].lasts(&self.numbers)?)))
     }
 
-    /// The ball `time` later and the friction's work over mass.
-    pub fn after(&self, numbers: &Numbers<R>, time: R) -> (Ball<R>, R) {
-        self.press.map_or_else(|| self.ball.after(numbers, time), |press| press.after(time))
+    /// All balls at a `tau` of their piece, and the time, s.
+    pub fn at(&self, piece: &Piece<R>, tau: R) -> (Balls<R>, R) {
+        let state = if tau > R::zero() { piece.at(tau) } else { return (self.balls, R::zero()) };
+        (self.merged(&state).0, state.time)
     }
-}
 
-/// Makes a ball rest against a cushion that it touches and that the cloth presses it on.
-///
-/// # Errors
-/// [`Unjudged::Corner`] where there are two.
-pub fn press<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> Result<(), Unjudged> {
-    if ball.motion != Motion::Sliding {
-        return Ok(());
+    /// All balls `time` later, and the frictions' work over mass.
+    pub fn after(&self, time: R) -> (Balls<R>, R) {
+        let start = State { time: R::zero(), work: R::zero(), balls: self.balls };
+        match &self.piece {
+            Some(piece) if time > R::zero() => self.merged(&State { time, ..piece.at(piece.tau_at(time)) }),
+            _ => self.merged(&State { time, ..start }),
+        }
     }
-    let (pull, Ball { position, velocity, .. }) = (ball.acceleration(numbers), *ball);
-    let holds = |rail: &Rail| {
-        let n = normal(*rail);
-        let speed = velocity.dot(n);
-        numbers.reach(*rail) + position.dot(n) <= Numbers::touching()
-            && speed.abs() <= Numbers::settled()
-            && pull.dot(n) < R::zero()
-    };
-    let mut rails = Rail::ALL.into_iter().filter(holds);
-    let Some(rail) = rails.next() else { return Ok(()) };
-    let n = normal(rail);
-    ball.velocity = ball.velocity - n * ball.velocity.dot(n);
-    ball.motion = Motion::Pressed(rail);
-    if rails.next().is_some() { Err(Unjudged::Corner) } else { Ok(()) }
+
+    fn merged(&self, state: &State<R>) -> (Balls<R>, R) {
+        let (mut balls, mut work) = (state.balls, state.work);
+        for index in (0..BALLS).filter(|ball| self.is_free(*ball)) {
+            let (ball, lost) = self.balls[index].after(&self.numbers, state.time);
+            (balls[index], work) = (ball, work + lost);
+        }
+        (balls, work)
+    }
 }

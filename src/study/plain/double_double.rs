@@ -133,17 +133,14 @@ impl Real for DoubleDouble {
         self.high
     }
 
-    /// Newton's step from the `f64` root, twice: each doubles the digits.
+    /// Newton's step from the `f64` root: it doubles the digits.
     fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::zero();
         }
-        let half = Self::of(0.5);
-        let mut root = Self::of(self.high.sqrt());
-        for _ in 0..2 {
-            root = half * (root + self / root);
-        }
-        root
+        let root = self.high.sqrt();
+        let rest = self - Self::of_product(root, root);
+        Self::of_ordered(root, rest.high / (2.0 * root))
     }
 }
 

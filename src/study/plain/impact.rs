@@ -33,7 +33,7 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, restitution: R, n: Vector<R>
 }
 
 /// Tangential impulse over slip: Coulomb's, or what stops the slip if that is less.
-fn coulomb<R: Real>(friction: Option<R>, push: R, slip: R, stops: R) -> R {
+pub fn coulomb<R: Real>(friction: Option<R>, push: R, slip: R, stops: R) -> R {
     match friction {
         Some(friction) if friction * push < stops * slip => friction * push / slip,
         _ => stops,

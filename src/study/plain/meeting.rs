@@ -1,49 +1,54 @@
-//! When a ball meets a cushion or another ball, if nothing else happens first.
+//! When two bodies meet, if nothing else happens first.
 //!
-//! A gap that is closed already opens again or presses; only what closes it afresh is a meeting.
+//! A gap that is closed already opens again or rests; only what closes it afresh is a meeting.
 
-use super::{Finder, Motion, Numbers, Real, course::Course, roots::bracketed, table::normal};
-use crate::simulation::Rail;
+use super::{
+    Ball, Finder, Numbers, Real, Vector,
+    contact::{Balls, Contact},
+    course::Course,
+    roots::falls,
+    tolerance::{closed, slack, touching},
+};
 
-/// What lies ahead of two balls.
-pub enum Meeting<R> {
-    /// They do not meet.
-    Never,
-    /// They meet after this time, s.
-    After(R),
-    /// They touch and are pressed together.
-    Pressed,
-}
-
-/// When a ball meets a cushion within `horizon`, s.
-pub fn rail_met<R: Real>(numbers: &Numbers<R>, course: &Course<R>, rail: Rail, horizon: R) -> Option<R> {
-    let n = normal(rail);
-    let reach = numbers.reach(rail);
-    let ball = &course.ball;
-    let gap = reach + ball.position.dot(n);
-    if let Some(press) = &course.press {
-        if ball.motion == Motion::Pressed(rail) {
-            return None;
-        }
-        let at = |time| {
-            let ball = press.after(time).0;
-            (reach + ball.position.dot(n), ball.velocity.dot(n))
-        };
-        return seen_to_close(at, R::of(1.0), horizon);
+/// When a contact closes within `horizon`, s.
+pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: Finder<R>) -> Option<R> {
+    let Course { numbers, balls, piece } = course;
+    let gap = contact.gap(numbers, balls);
+    let (first, second) = contact.balls();
+    let relative = contact.relative(balls);
+    let integrated = |ball: usize| piece.as_ref().is_some_and(|piece| piece.has(ball));
+    let is_integrated = integrated(first) || second.is_some_and(integrated);
+    // Most bodies are too far apart to meet so soon: to solve for their roots costs most of a shot's time.
+    let pull = R::of(if is_integrated { 10.0 } else { 2.0 }) * numbers.slide;
+    if gap > horizon * (relative.length() + pull * horizon) {
+        return None;
     }
-    let (speed, pull) = (ball.velocity.dot(n), R::of(0.5) * ball.acceleration(numbers).dot(n));
-    let time = quadratic_closes(gap, speed, pull)?;
-    (time <= horizon).then_some(time)
+    let opening = contact.opening(balls);
+    if gap <= touching() && opening < -closed::<R>() {
+        return Some(R::zero());
+    }
+    if is_integrated {
+        return course
+            .piece
+            .as_ref()
+            .and_then(|piece| if piece.presses(contact) { None } else { seen_to_close(course, contact, horizon) });
+    }
+    let a = &balls[first];
+    let time = match second {
+        None => {
+            let n = contact.normal(balls);
+            quadratic_closes(gap, opening, R::of(0.5) * a.acceleration(numbers).dot(n))
+        }
+        Some(second) => balls_meet(numbers, a, &balls[second], gap, opening, horizon, finder),
+    };
+    time.filter(|time| *time <= horizon)
 }
 
 /// First time at which `gap + speed t + pull t²` falls through zero.
 fn quadratic_closes<R: Real>(gap: R, speed: R, pull: R) -> Option<R> {
     let (zero, two) = (R::zero(), R::of(2.0));
-    if gap <= Numbers::touching() {
-        if speed < -Numbers::<R>::settled() {
-            return Some(zero);
-        }
-        return (speed > zero && pull < zero).then(|| -speed / pull);
+    if gap <= touching() {
+        return (speed > closed() && pull < zero).then(|| -speed / pull);
     }
     let discriminant = speed * speed - R::of(4.0) * pull * gap;
     if discriminant < zero || (speed >= zero && pull >= zero) {
@@ -54,68 +59,74 @@ fn quadratic_closes<R: Real>(gap: R, speed: R, pull: R) -> Option<R> {
     Some(if speed < zero { two * gap / (root - speed) } else { (speed + root) / (-two * pull) })
 }
 
-/// When two balls meet within `horizon`, s.
-pub fn balls_meet<R: Real>(
+fn balls_meet<R: Real>(
     numbers: &Numbers<R>,
-    first: &Course<R>,
-    second: &Course<R>,
+    a: &Ball<R>,
+    b: &Ball<R>,
+    gap: R,
+    opening: R,
     horizon: R,
     finder: Finder<R>,
-) -> Meeting<R> {
-    let (a, b) = (&first.ball, &second.ball);
-    if a.motion == Motion::Stationary && b.motion == Motion::Stationary {
-        return Meeting::Never;
-    }
-    let (two, half) = (R::of(2.0), R::of(0.5));
+) -> Option<R> {
+    let (zero, two, half) = (R::zero(), R::of(2.0), R::of(0.5));
     let diameter = two * numbers.radius;
-    let (d, v) = (a.position - b.position, a.velocity - b.velocity);
+    let (d, v): (Vector<R>, Vector<R>) = (a.position - b.position, a.velocity - b.velocity);
     let k = (a.acceleration(numbers) - b.acceleration(numbers)) * half;
-    let gap = d.dot(d) - diameter * diameter;
-    let opening = d.dot(v) / diameter;
-    let touching = gap <= diameter * Numbers::touching();
-    // Most pairs are too far apart to meet so soon: to solve for their roots costs most of a shot's time.
-    let pull = if first.press.is_some() || second.press.is_some() { R::of(10.0) * numbers.slide } else { k.length() };
-    if d.length() - diameter > horizon * (v.length() + pull * horizon) {
-        return Meeting::Never;
+    let c = [d.dot(d) - diameter * diameter, two * d.dot(v), v.dot(v) + two * d.dot(k), two * v.dot(k), k.dot(k)];
+    if gap > touching() {
+        return finder(&c, horizon);
     }
-    if touching && opening < -Numbers::<R>::settled() {
-        return Meeting::After(R::zero());
+    // The root at zero of balls that touch is the contact that is over: it is divided out. They do not press, so what
+    // neither opens nor closes them is rounding.
+    if opening > closed() {
+        return finder(&[c[1], c[2], c[3], c[4], zero], horizon);
     }
-    if first.press.is_some() || second.press.is_some() {
-        let at = |time| {
-            let (a, b) = (first.after(numbers, time).0, second.after(numbers, time).0);
-            let d = a.position - b.position;
-            (d.dot(d) - diameter * diameter, two * d.dot(a.velocity - b.velocity))
-        };
-        if touching && opening <= Numbers::settled() && at(horizon).0 < R::zero() {
-            return Meeting::Pressed;
-        }
-        return seen_to_close(at, diameter, horizon).map_or(Meeting::Never, Meeting::After);
-    }
-    let c = [gap, two * d.dot(v), v.dot(v) + two * d.dot(k), two * v.dot(k), k.dot(k)];
-    if touching && opening <= Numbers::settled() && c[2] < R::zero() {
-        return Meeting::Pressed;
-    }
-    // The root at zero of balls that touch is the contact that is over: it is divided out.
-    let c = if touching { [c[1], c[2], c[3], c[4], R::zero()] } else { c };
-    finder(&c, horizon).map_or(Meeting::Never, Meeting::After)
+    if c[2] > diameter * slack() { finder(&[c[2], c[3], c[4], zero, zero], horizon) } else { None }
 }
 
-/// The same for a gap without closed form, over a time so short that it has at most one minimum. `at` gives the gap, in
-/// units of `scale` times metres, and its rate.
-fn seen_to_close<R: Real>(at: impl Fn(R) -> (R, R), scale: R, horizon: R) -> Option<R> {
+/// The same for a gap without closed form, over a time so short that it has at most one extremum.
+fn seen_to_close<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> Option<R> {
     let zero = R::zero();
-    let ((gap, rate), (last_gap, last_rate)) = (at(zero), at(horizon));
-    if gap <= scale * Numbers::touching() && rate < -scale * Numbers::<R>::settled() {
-        return Some(zero);
+    let piece = course.piece.as_ref()?;
+    let numbers = &course.numbers;
+    let end = piece.tau_at(horizon);
+    // Gap, rate of opening and time; a gap that is closed at the start is so until it is clearly less.
+    let first_gap = contact.gap(numbers, &course.balls);
+    let level = if first_gap <= touching() { first_gap - touching() } else { zero };
+    let at = |tau: R| {
+        let (balls, time) = course.at(piece, tau);
+        (contact.gap(numbers, &balls) - level, contact.opening(&balls), time)
+    };
+    let first_opening = contact.opening(&course.balls);
+    let (last_gap, last_opening, _) = at(end);
+    let gap_until = |low: R, high: R| {
+        let tau = falls(|tau| at(tau).0, low, high, zero);
+        at(tau).2
+    };
+    if level < zero && first_opening > closed() && last_opening < zero {
+        // It opens and closes again, perhaps at once: the gap's top lies between.
+        let top = falls(|tau| at(tau).1, zero, end, zero);
+        let of_contact = |tau: R| at(tau).0 + level - first_gap;
+        if of_contact(top) <= touching() {
+            // Too low for its height to be seen, and so short that it falls as it rises.
+            return Some(R::of(2.0) * at(top).2).filter(|time| *time <= horizon);
+        }
+        return (of_contact(end) < zero).then(|| at(falls(of_contact, top, end, zero)).2);
     }
-    let gap_until = |end| bracketed(|t| at(t).0, |t| at(t).1, zero, end);
     if last_gap < zero {
-        return Some(gap_until(horizon));
+        return Some(gap_until(zero, end));
     }
-    if rate < zero && last_rate > zero {
-        let nearest = bracketed(|t| -at(t).1, |_| zero, zero, horizon);
-        return (at(nearest).0 < zero).then(|| gap_until(nearest));
+    if first_opening < zero && last_opening > zero {
+        let nearest = falls(|tau| -at(tau).1, zero, end, zero);
+        return (at(nearest).0 < zero).then(|| gap_until(zero, nearest));
     }
     None
+}
+
+/// Moves balls that meet to where their gap is exactly closed.
+pub fn touch<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Balls<R>) {
+    let is_rail = matches!(contact, Contact::Rail(..));
+    if is_rail || contact.gap(numbers, balls).abs() <= R::of(1e3) * touching() {
+        contact.close(numbers, balls);
+    }
 }

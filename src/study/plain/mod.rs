@@ -2,19 +2,38 @@
 //! savings at all, and apart from `physics` and `simulation`, so that a slip in one is not in the other.
 //!
 //! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.
+//!
+//! Free balls go along parabolas from event to event (`motion`, `meeting`). Contacts that close at one moment collide
+//! together (`rounds`). Bounces that shrink without end become a resting contact (`moment`), whose forces follow from the
+//! laws by complementarity (`rest`, `laws`, `system`, `complementarity`) and are integrated from one change of the laws to
+//! the next (`piece`, `extrapolation`).
 
+mod complementarity;
+mod contact;
 mod course;
 mod cue;
 mod double_double;
 mod engine;
+mod extrapolation;
 mod impact;
+mod laws;
+mod linear;
 mod meeting;
+mod moment;
 mod motion;
-mod press;
+mod piece;
 mod real;
+mod rest;
 mod roots;
+mod rounds;
+mod rows;
+mod system;
 mod table;
+mod tolerance;
 mod vector;
+
+#[cfg(test)]
+mod tests;
 
 pub use cue::{Stroke, strike};
 pub use double_double::DoubleDouble;

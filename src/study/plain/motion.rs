@@ -1,7 +1,6 @@
 //! Motion of one ball between two events (thesis 2.1).
 
 use super::{Numbers, Real, Vector};
-use crate::simulation::Rail;
 
 /// Which equation of motion holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,8 +11,6 @@ pub enum Motion {
     Rolling,
     /// Slipping on the cloth.
     Sliding,
-    /// Pressed against a cushion by the cloth.
-    Pressed(Rail),
 }
 
 /// A ball at one moment.
@@ -41,35 +38,52 @@ impl<R: Real> Ball<R> {
         R::of(0.5) * self.velocity.dot(self.velocity) + around / R::of(5.0)
     }
 
-    /// Acceleration of a ball that is not pressed.
+    /// Acceleration of a ball that nothing presses.
     pub fn acceleration(&self, numbers: &Numbers<R>) -> Vector<R> {
         match self.motion {
             Motion::Sliding => self.slip(numbers).direction() * -numbers.slide,
             Motion::Rolling => self.velocity.direction() * (-R::ratio(5.0, 7.0) * numbers.roll),
-            Motion::Stationary | Motion::Pressed(_) => Vector::zero(),
+            Motion::Stationary => Vector::zero(),
         }
     }
 
-    /// How long the motion of a ball that is not pressed lasts (thesis equations 25 and 26).
+    /// How long the motion of a ball that nothing presses lasts (thesis equations 25 and 26).
     pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
         match self.motion {
             Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
             Motion::Rolling => Some(R::ratio(7.0, 5.0) * self.velocity.length() / numbers.roll),
-            Motion::Stationary | Motion::Pressed(_) => None,
+            Motion::Stationary => None,
+        }
+    }
+
+    /// What it does on the cloth, if slips and speeds up to `none`, m/s, are zero.
+    pub fn on_cloth(&self, numbers: &Numbers<R>, none: R) -> Motion {
+        if self.slip(numbers).length() > none {
+            Motion::Sliding
+        } else if self.velocity.length() > none {
+            Motion::Rolling
+        } else {
+            Motion::Stationary
         }
     }
 
     /// Chooses the motion after an impact: slips of rounding's size are none.
     pub fn set_off(&mut self, numbers: &Numbers<R>) {
         let speeds = self.velocity.length() + numbers.radius * self.spin.flat().length();
-        self.motion = if self.slip(numbers).length() > R::of(16.0 * R::ROUNDING) * speeds {
-            Motion::Sliding
-        } else {
-            Motion::Sliding.successor(self, numbers)
-        };
+        self.go_on(numbers, R::of(16.0 * R::ROUNDING) * speeds);
     }
 
-    /// The ball `time` later, if it is not pressed (thesis equations 2, 3, 6 and 8), and the friction's work over mass.
+    /// Chooses the motion, and makes what has ended end exactly: slips and speeds up to `none`, m/s.
+    pub fn go_on(&mut self, numbers: &Numbers<R>, none: R) {
+        self.motion = self.on_cloth(numbers, none);
+        match self.motion {
+            Motion::Sliding => {}
+            Motion::Rolling => _ = Motion::Sliding.successor(self, numbers),
+            Motion::Stationary => _ = Motion::Rolling.successor(self, numbers),
+        }
+    }
+
+    /// The ball `time` later, if nothing presses it (thesis equations 2, 3, 6 and 8), and the friction's work over mass.
     pub fn after(&self, numbers: &Numbers<R>, time: R) -> (Self, R) {
         let acceleration = self.acceleration(numbers);
         let mut ball = *self;
@@ -88,7 +102,7 @@ impl<R: Real> Ball<R> {
                 ball.spin = Vector::up().cross(ball.velocity) * (R::of(1.0) / numbers.radius);
                 work = numbers.roll * (ball.position - self.position).length();
             }
-            Motion::Stationary | Motion::Pressed(_) => {}
+            Motion::Stationary => {}
         }
         let size = self.spin.z.abs();
         let lost = (numbers.twist * time).min(size);

@@ -72,6 +72,45 @@ pub fn bracketed<R: Real>(value: impl Fn(R) -> R, slope: impl Fn(R) -> R, mut lo
     t
 }
 
+/// Where a function without a known slope falls through zero between `low`, not negative, and `high`, just behind it:
+/// false position after Anderson and Björck (1973). Every fourth step halves the range, or its decades. It is done where
+/// the value behind is not below `-enough`.
+pub fn falls<R: Real>(value: impl Fn(R) -> R, mut low: R, mut high: R, enough: R) -> R {
+    let (zero, half, one) = (R::zero(), R::of(0.5), R::of(1.0));
+    let narrow = R::of(4.0 * R::ROUNDING);
+    let (mut low_value, mut high_value) = (value(low), value(high));
+    let mut behind = high_value;
+    for round in 1..200 {
+        if high - low <= narrow * high || behind >= -enough {
+            break;
+        }
+        let middle = if round % 4 == 0 || low_value <= zero || high_value >= zero {
+            if low * R::of(4.0) < high { (low * high).sqrt().max(high * R::of(1e-4)) } else { half * (low + high) }
+        } else {
+            low + (high - low) * (low_value / (low_value - high_value))
+        };
+        if middle <= low || middle >= high {
+            break;
+        }
+        let height = value(middle);
+        // The side that stays is made to count less, the more the other has moved.
+        let lessened = |replaced: R| {
+            let left = one - height / replaced;
+            if left > zero { left } else { half }
+        };
+        if height < zero {
+            low_value = low_value * lessened(high_value);
+            (high, high_value, behind) = (middle, height, height);
+        } else {
+            if low_value > zero {
+                high_value = high_value * lessened(low_value);
+            }
+            (low, low_value) = (middle, height);
+        }
+    }
+    high
+}
+
 /// Algorithm 1010 (Orellana and De Michele 2020), by the crate `kurbo`.
 pub fn algorithm_1010(gap: &[f64; 5], end: f64) -> Option<f64> {
     let [c0, c1, c2, c3, c4] = *gap;

@@ -8,6 +8,8 @@ use crate::{simulation::Rail, table::Table};
 pub struct Numbers<R> {
     /// Ball radius `R`.
     pub radius: R,
+    /// Mass over moment of inertia, `5/(2R²)`, 1/m².
+    pub turnability: R,
     /// Largest |x| of a ball's centre, `L/2 - R`.
     pub half_length: R,
     /// Largest |y| of a ball's centre, `l/2 - R`.
@@ -36,6 +38,7 @@ impl<R: Real> Numbers<R> {
         let (radius, gravity, half) = (R::of(table.radius), R::of(table.gravity), R::of(0.5));
         Self {
             radius,
+            turnability: R::of(2.5) / (radius * radius),
             half_length: half * R::of(table.length) - radius,
             half_width: half * R::of(table.width) - radius,
             slide: R::of(table.sliding_friction) * gravity,
@@ -55,16 +58,6 @@ impl<R: Real> Numbers<R> {
             Rail::Left | Rail::Right => self.half_length,
             Rail::Bottom | Rail::Top => self.half_width,
         }
-    }
-
-    /// Speeds below this are the end of a chatter: its remaining bounces would move a ball by about the square of it.
-    pub fn settled() -> R {
-        R::of(R::ROUNDING.powf(0.75))
-    }
-
-    /// Gaps below this are contact, m.
-    pub fn touching() -> R {
-        R::of(64.0 * R::ROUNDING)
     }
 }
 

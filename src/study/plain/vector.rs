@@ -57,6 +57,12 @@ impl<R: Real> Vector<R> {
         Self::new(self.x, self.y, R::zero())
     }
 
+    /// Every component by a function of itself and of its fellow in another vector.
+    #[must_use]
+    pub fn with(self, other: Self, combine: impl Fn(R, R) -> R) -> Self {
+        Self::new(combine(self.x, other.x), combine(self.y, other.y), combine(self.z, other.z))
+    }
+
     /// The direction, or zero where there is none.
     #[must_use]
     pub fn direction(self) -> Self {

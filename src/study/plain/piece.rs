@@ -1,0 +1,171 @@
+//! A piece of the course of balls in resting contact, during which the same laws are in force.
+//!
+//! The equations are singular where a slip ends, since its direction does. With a time `tau` of which
+//! `dt = dtau / (1/s1 + 1/s2 + …)` over all speeds `s` that can end they are smooth throughout, and each speed that ends
+//! does so like an exponential.
+
+use super::{
+    Numbers, Real,
+    contact::{Balls, Contact},
+    extrapolation::{COLUMNS, State, extrapolate},
+    rest::Rest,
+    roots::falls,
+    rows::movement,
+    system::System,
+    tolerance::{creeping, settled, slack},
+};
+
+/// Longest piece, s: how finely its neighbours are looked at.
+const LONGEST: f64 = 4e-3;
+
+/// A piece that lasts for more than so many of its own times is slow.
+const SLOW: f64 = 1e3;
+
+/// Halvings of a step that is too long to be extrapolated.
+const MOST_HALVINGS: usize = 200;
+
+/// A piece of the course of all balls whose contacts press.
+#[derive(Clone, Debug)]
+pub struct Piece<R> {
+    numbers: Numbers<R>,
+    rest: Rest<R>,
+    /// By how much each law may be broken: a little, and what rounding has left at the start.
+    allowed: Vec<R>,
+    start: State<R>,
+    tau: R,
+    end: State<R>,
+    /// Length of the next piece that is worth trying, in units of the time in which speeds change by themselves.
+    pub stride: f64,
+}
+
+impl<R: Real> Piece<R> {
+    /// The course of `balls` to where a law breaks, or just some way.
+    pub fn new(numbers: &Numbers<R>, balls: &Balls<R>, rest: Rest<R>, stride: f64) -> Self {
+        let start = State { time: R::zero(), work: R::zero(), balls: *balls };
+        let allowed = System::new(numbers, balls, &rest.laws).room(&rest.forces).into_iter();
+        let allowed = allowed.map(|room| R::of(16.0) * slack() - R::of(2.0) * room.min(R::zero())).collect();
+        let mut piece = Self { numbers: *numbers, rest, allowed, start, tau: R::zero(), end: start, stride };
+        piece.advance();
+        piece
+    }
+
+    fn advance(&mut self) {
+        let natural = self.first_guess();
+        let longest = R::of(LONGEST) / self.rates(&self.start).time;
+        let slowest = self.rest.laws.ending_speeds(&self.numbers, &self.start.balls).fold(R::of(1.0), R::min);
+        // Of a slip that is small, the direction is known to few digits, and so is what its friction does.
+        let blur = R::of(1.0) / slowest;
+        let mut tau = (natural * R::of(self.stride)).min(longest);
+        for _ in 0..MOST_HALVINGS {
+            let (end, columns) = extrapolate(&self.start, tau, blur, |state| self.rates(state));
+            (self.tau, self.end) = (tau, end);
+            if let Some(columns) = columns {
+                let growth = [1.0, 1.0, 1.5, 1.5, 2.0].get(COLUMNS - columns).unwrap_or(&4.0);
+                self.stride = ((tau / natural).to_f64() * growth).max(0.125);
+                break;
+            }
+            tau = tau * R::of(0.5);
+        }
+        if self.room(&self.end) < R::zero() {
+            let tau = falls(|tau| self.room(&self.at(tau)), R::zero(), self.tau, slack());
+            (self.end, self.tau) = (self.at(tau), tau);
+            self.stride = self.stride.min(1.0);
+        }
+    }
+
+    /// The `tau` in which speeds change by themselves.
+    fn first_guess(&self) -> R {
+        let (system, forces) = self.forces(&self.start.balls);
+        let changes = system.accelerations(&self.numbers, &forces);
+        let fastest = changes.iter().zip(self.rest.laws.cloth).filter(|(_, cloth)| cloth.is_some());
+        let fastest = fastest.fold(R::zero(), |most, ((linear, angular), _)| {
+            most.max(linear.length() + self.numbers.radius * angular.length())
+        });
+        R::of(1.0) / fastest.max(slack())
+    }
+
+    fn forces(&self, balls: &Balls<R>) -> (System<R>, Vec<R>) {
+        let system = System::new(&self.numbers, balls, &self.rest.laws);
+        let lawful = if self.rest.creeps { system.lawful(&self.numbers) } else { None };
+        let forces = lawful.unwrap_or_else(|| system.balance(&self.numbers, &self.rest.forces));
+        (system, forces)
+    }
+
+    /// What is left until a law breaks; negative behind it.
+    fn room(&self, state: &State<R>) -> R {
+        if self.rest.creeps {
+            let held = self.rest.laws.largest_held(&self.numbers, &state.balls);
+            return R::of(2.0) * creeping::<R>() - held;
+        }
+        let (system, forces) = self.forces(&state.balls);
+        let rooms = system.room(&forces).into_iter().zip(&self.allowed).map(|(room, allowed)| room + *allowed);
+        let mut room = rooms.fold(R::of(1.0), R::min);
+        if room < R::zero() && system.holds(&self.numbers) {
+            // Frictions share a load in more than one way, and another one breaks no law.
+            room = slack();
+        }
+        // A turning that ends does so as exactly as a slip.
+        let scale = slack::<R>() / settled();
+        let turns = self.rest.laws.turns(&self.numbers, &state.balls).map(|speed| speed * scale);
+        turns.fold(room, R::min)
+    }
+
+    /// Derivatives with respect to `tau`.
+    fn rates(&self, state: &State<R>) -> State<R> {
+        let (system, forces) = self.forces(&state.balls);
+        let inverse = self.rest.laws.ending_speeds(&self.numbers, &state.balls);
+        let inverse = inverse.fold(R::zero(), |sum, speed| sum + R::of(1.0) / speed);
+        let pace = if inverse > R::zero() { R::of(1.0) / inverse } else { R::of(1.0) };
+        let mut rates = State { time: pace, work: system.power(&forces) * pace, ..*state };
+        let changes = system.accelerations(&self.numbers, &forces);
+        for (index, ball) in rates.balls.iter_mut().enumerate() {
+            let moves = if self.has(index) { pace } else { R::zero() };
+            ball.position = movement(&state.balls)[index].0 * moves;
+            ball.velocity = changes[index].0 * moves;
+            ball.spin = changes[index].1 * moves;
+        }
+        rates
+    }
+
+    /// Whether a ball takes part.
+    pub fn has(&self, ball: usize) -> bool {
+        self.rest.laws.cloth[ball].is_some()
+    }
+
+    /// Whether a contact presses.
+    pub fn presses(&self, contact: Contact) -> bool {
+        self.rest.presses(contact)
+    }
+
+    /// Whether a slip takes much longer to grow or fade than by itself.
+    pub fn is_slow(&self) -> bool {
+        self.stride > SLOW
+    }
+
+    /// Length of the piece, s.
+    pub fn lasts(&self) -> R {
+        self.end.time
+    }
+
+    /// The state at a `tau` within the piece.
+    pub fn at(&self, tau: R) -> State<R> {
+        if tau == self.tau { self.end } else { extrapolate(&self.start, tau, R::zero(), |state| self.rates(state)).0 }
+    }
+
+    /// The `tau` of a time, s: Newton's steps, since `dt/dtau` is known.
+    pub fn tau_at(&self, time: R) -> R {
+        if time == self.end.time {
+            return self.tau;
+        }
+        let mut tau = self.tau * time / self.end.time;
+        for _ in 0..12 {
+            let state = self.at(tau);
+            let step = (time - state.time) / self.rates(&state).time;
+            tau = tau + step;
+            if step.abs() <= R::of(64.0 * R::ROUNDING) * self.tau {
+                break;
+            }
+        }
+        tau
+    }
+}

@@ -1,0 +1,177 @@
+//! Which closed contacts press at one moment, and which of the balls' slips end or begin there.
+
+use super::{
+    Numbers, Real, Unjudged,
+    contact::{Balls, Contact},
+    laws::Laws,
+    rounds::touching_contacts,
+    rows::{Row, movement},
+    system::{Law, System},
+    tolerance::{self, settled, slack, touching},
+};
+use crate::table::BALLS;
+
+/// Slips that can begin one after the other at one moment, with room to spare.
+const MOST_CHANGES: usize = 32;
+
+/// A slip that begins has this speed, in units of what counts as none.
+const BEGINNING: f64 = 4.0;
+
+/// Balls whose contacts press.
+#[derive(Clone, Debug)]
+pub struct Rest<R> {
+    /// The laws in force.
+    pub laws: Laws<R>,
+    /// The forces of unknown size.
+    pub forces: Vec<R>,
+    /// Whether something creeps: what begins to slip follows its drive, and the forces are to be found anew all along.
+    pub creeps: bool,
+}
+
+impl<R: Real> Rest<R> {
+    /// Whether a contact presses.
+    pub fn presses(&self, contact: Contact) -> bool {
+        self.laws.contacts.iter().any(|(pressing, _)| *pressing == contact)
+    }
+}
+
+/// Finds the contacts that press, `None` if none does, and the energy over mass that friction takes in no time at all.
+///
+/// # Errors
+/// [`Unjudged::Unsolved`], where no forces are found that obey all laws.
+pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Option<Rest<R>>, R), Unjudged> {
+    let mut work = R::zero();
+    for _ in 0..MOST_CHANGES {
+        let closed = closed(numbers, balls);
+        let pressing = match pressing(numbers, balls, &closed, settled()) {
+            Ok(pressing) => pressing,
+            Err(_) if bounce(numbers, balls, &closed) => continue,
+            Err(error) => return Err(error),
+        };
+        if pressing.is_empty() {
+            return Ok((None, work));
+        }
+        if let Some(lost) = stick(numbers, balls, &pressing) {
+            work = work + lost;
+            continue;
+        }
+        let laws = Laws::of(numbers, balls, &pressing);
+        let system = System::new(numbers, balls, &laws);
+        let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
+        let (speeds, begins) = wanted_speeds(numbers, &system, &forces);
+        work = work + system.set_speeds(numbers, balls, &speeds);
+        if !begins {
+            close(numbers, balls, &pressing);
+            let ended = |ball: usize| laws.turning_ended(ball);
+            (0..BALLS).filter(|ball| ended(*ball)).for_each(|ball| balls[ball].spin.z = R::zero());
+            for (ball, motion) in balls.iter_mut().zip(laws.cloth) {
+                ball.motion = motion.unwrap_or(ball.motion);
+            }
+            return Ok((Some(Rest { laws, forces, creeps: false }), work));
+        }
+    }
+    // Slips that hinder each other's beginning begin together.
+    creep(numbers, balls).map(|(rest, _)| (Some(rest), work)).ok_or(Unjudged::Unsolved)
+}
+
+/// The contacts that press while something may creep, if forces are found, and whether something does.
+///
+/// A slip that begins almost without a drive grows so slowly that the equations are stiff: the direction of its friction
+/// settles many thousand times faster. It is then the direction in which the slip would begin from nothing.
+pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<(Rest<R>, bool)> {
+    let none = tolerance::creeping();
+    let pressing = pressing(numbers, balls, &closed(numbers, balls), none).ok()?;
+    let laws = Laws::if_none(numbers, balls, &pressing, none);
+    let system = System::new(numbers, balls, &laws);
+    let forces = system.lawful(numbers)?;
+    let creeps = wanted_speeds(numbers, &system, &forces).1;
+    Some((Rest { laws, forces, creeps: true }, creeps))
+}
+
+/// The contacts that are closed and neither open nor close.
+fn closed<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
+    let mut contacts = touching_contacts(numbers, balls);
+    contacts.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
+    contacts
+}
+
+/// The contacts among `closed` that press, if slips and speeds up to `none`, m/s, are zero.
+fn pressing<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &Balls<R>,
+    closed: &[Contact],
+    none: R,
+) -> Result<Vec<Contact>, Unjudged> {
+    if closed.is_empty() {
+        return Ok(Vec::new());
+    }
+    let system = System::new(numbers, balls, &Laws::if_none(numbers, balls, closed, none));
+    let forces = system.lawful(numbers).ok_or(Unjudged::Unsolved)?;
+    let pushes = system.blocks.iter().filter(|block| matches!(block.law, Law::Push)).map(|block| forces[block.at]);
+    let pressing = closed.iter().zip(pushes).filter(|(_, push)| *push > slack()).map(|(contact, _)| *contact);
+    Ok(pressing.collect())
+}
+
+/// Makes the contacts that never slip open with a first little speed, and tells whether there are any.
+///
+/// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip
+/// makes the contact open, and once it is open, and nothing holds, it closes. It begins to bounce then, each time higher.
+fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact]) -> bool {
+    let mut bounces = false;
+    for contact in closed.iter().filter(|contact| contact.friction(numbers).is_none()) {
+        let row = Row::opening(*contact, contact.normal(balls));
+        let mut moved = movement(balls);
+        let missing = R::of(BEGINNING) * tolerance::closed() - row.speed(&moved);
+        row.push(numbers, missing / row.response(numbers, &row), &mut moved);
+        for (ball, (velocity, _)) in balls.iter_mut().zip(moved) {
+            ball.velocity = velocity;
+        }
+        bounces = true;
+    }
+    bounces
+}
+
+/// Contacts that never slip stop slipping as soon as they press, as in a collision: the cloth has no time to take part.
+fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) -> Option<R> {
+    let slips =
+        |contact: &Contact| contact.friction(numbers).is_none() && contact.slip(numbers, balls).length() > settled();
+    if !pressing.iter().any(slips) {
+        return None;
+    }
+    let laws = Laws::of(numbers, balls, pressing).without_cloth();
+    let system = System::new(numbers, balls, &laws);
+    let work = system.set_speeds(numbers, balls, &vec![R::zero(); system.len()]);
+    for (index, ball) in balls.iter_mut().enumerate() {
+        if pressing.iter().any(|contact| contact.has(index)) {
+            ball.go_on(numbers, settled());
+        }
+    }
+    Some(work)
+}
+
+/// Zero for what is held, and for what begins to slip a first little speed; tells whether there is any.
+fn wanted_speeds<R: Real>(numbers: &Numbers<R>, system: &System<R>, forces: &[R]) -> (Vec<R>, bool) {
+    let rates = system.rates(numbers, forces);
+    let mut wanted = vec![R::zero(); rates.len()];
+    let mut begins = false;
+    for block in system.blocks.iter().filter(|block| !matches!(block.law, Law::Push)) {
+        let rows = block.at..block.at + block.axes;
+        let size = rows.clone().fold(R::zero(), |sum, row| sum + rates[row] * rates[row]).sqrt();
+        if size > slack() {
+            begins = true;
+            for row in rows {
+                wanted[row] = rates[row] / size * (R::of(BEGINNING) * settled());
+            }
+        }
+    }
+    (wanted, begins)
+}
+
+/// Takes the rounding out of the gaps. An overlap with which a shot began is left as it is.
+fn close<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contact]) {
+    for contact in pressing {
+        if contact.gap(numbers, balls).abs() <= R::of(1e3) * touching() {
+            contact.close(numbers, balls);
+        }
+    }
+}

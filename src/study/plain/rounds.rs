@@ -1,0 +1,177 @@
+//! Impacts at one moment, in rounds: contacts that close in the same moment are solved together.
+//!
+//! The pushes of a round are complementary to the speeds after it (Moreau 1988), `0 <= v+ + e v- ⊥ P >= 0`; the
+//! frictions follow from the slips before it. What then closes makes the next round, so that an impact passes through a
+//! row of balls as a chain, and no order of numbering matters.
+
+use super::{
+    Numbers, Real, Unjudged, Vector,
+    complementarity::Problem,
+    contact::{Balls, Contact},
+    impact::coulomb,
+    rows::{Movement, Row, movement},
+    system::{Block, Law},
+    tolerance::{closed, touching},
+};
+
+/// Rounds after which what touches takes one inelastic impact.
+const MOST_ROUNDS: usize = 32;
+
+/// All contacts whose gaps are closed.
+pub fn touching_contacts<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
+    Contact::all().filter(|contact| contact.gap(numbers, balls) <= touching()).collect()
+}
+
+/// Lets everything collide that touches and closes; the contacts in `inelastic` have no restitution. Returns who met
+/// whom, and the energy over mass that it takes.
+///
+/// # Errors
+/// [`Unjudged::Unsolved`], where no pushes are found.
+pub fn collide<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &mut Balls<R>,
+    inelastic: &[Contact],
+) -> Result<(Vec<Contact>, R), Unjudged> {
+    let contacts = touching_contacts(numbers, balls);
+    let (mut met, mut work) = (Vec::new(), R::zero());
+    for round in 0..=MOST_ROUNDS {
+        let is_last = round == MOST_ROUNDS;
+        let fastest = if is_last { closed() } else { -closed::<R>() };
+        let closing = |balls: &Balls<R>| {
+            let closes = |contact: &&Contact| contact.opening(balls) < fastest;
+            contacts.iter().filter(closes).copied().collect::<Vec<_>>()
+        };
+        let closing = closing(balls);
+        if closing.is_empty() {
+            break;
+        }
+        let restitution = |contact: &Contact| {
+            if is_last || inelastic.contains(contact) { R::zero() } else { contact.restitution(numbers) }
+        };
+        work = work + one_round(numbers, balls, &closing, restitution, &mut met)?;
+    }
+    Ok((met, work))
+}
+
+fn one_round<R: Real>(
+    numbers: &Numbers<R>,
+    balls: &mut Balls<R>,
+    contacts: &[Contact],
+    restitution: impl Fn(&Contact) -> R,
+    met: &mut Vec<Contact>,
+) -> Result<R, Unjudged> {
+    let half = R::of(0.5);
+    let before = movement(balls);
+    let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
+    let speeds =
+        contacts.iter().zip(&normals).map(|(contact, row)| (R::of(1.0) + restitution(contact)) * row.speed(&before));
+    let matrix: Vec<Vec<R>> =
+        normals.iter().map(|of| normals.iter().map(|by| of.response(numbers, by)).collect()).collect();
+    let blocks: Vec<Block<R>> = (0..contacts.len()).map(|at| Block { at, axes: 1, law: Law::Push }).collect();
+    let rates: Vec<R> = speeds.collect();
+    let pushes = Problem { matrix: &matrix, rates: &rates, blocks: &blocks }.solve().ok_or(Unjudged::Unsolved)?;
+    let mut pushed = before;
+    for (row, push) in normals.iter().zip(&pushes) {
+        row.push(numbers, *push, &mut pushed);
+    }
+    let mut work = normals
+        .iter()
+        .zip(&pushes)
+        .fold(R::zero(), |work, (row, push)| work - half * *push * (row.speed(&before) + row.speed(&pushed)));
+    let mut frictions: Vec<(Row<R>, R)> = Vec::with_capacity(contacts.len());
+    for (contact, push) in contacts.iter().zip(&pushes).filter(|(_, push)| **push > R::zero()) {
+        met.push(*contact);
+        let slip = contact.slip(numbers, balls);
+        let stops = if contact.balls().1.is_some() { R::ratio(1.0, 7.0) } else { R::ratio(2.0, 7.0) };
+        let share = coulomb(contact.friction(numbers), *push, slip.length(), stops);
+        frictions.push((Row::slip(numbers, *contact, contact.normal(balls), slip), -share));
+    }
+    let mut change = before.map(|_| (Vector::zero(), Vector::zero()));
+    for (row, size) in &frictions {
+        row.push(numbers, *size, &mut change);
+    }
+    let share = lossy_share(numbers, &pushed, &change);
+    let mut after = pushed;
+    for (row, size) in &frictions {
+        row.push(numbers, *size * share, &mut after);
+    }
+    for (row, size) in &frictions {
+        work = work - half * *size * share * (row.speed(&pushed) + row.speed(&after));
+    }
+    for (ball, (velocity, spin)) in balls.iter_mut().zip(after) {
+        (ball.velocity, ball.spin) = (velocity, spin);
+    }
+    Ok(work)
+}
+
+/// The largest share, up to one, of a change that adds no energy.
+fn lossy_share<R: Real>(numbers: &Numbers<R>, movement: &Movement<R>, change: &Movement<R>) -> R {
+    let inertia = R::ratio(2.0, 5.0) * numbers.radius * numbers.radius;
+    let product = |one: &Movement<R>, other: &Movement<R>| {
+        one.iter().zip(other).fold(R::zero(), |sum, ((v, w), (v2, w2))| sum + v.dot(*v2) + inertia * w.dot(*w2))
+    };
+    let (gain, own) = (product(movement, change), product(change, change));
+    // The energy grows by `share gain + share² own/2`.
+    if gain + R::of(0.5) * own <= R::zero() { R::of(1.0) } else { (R::of(-2.0) * gain / own).max(R::zero()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        simulation::Rail,
+        study::plain::{Ball, DoubleDouble, Motion, balls_collide, rail_collides, rail_normal},
+        table::Table,
+    };
+
+    type D = DoubleDouble;
+
+    fn of(x: f64, y: f64, z: f64) -> Vector<D> {
+        Vector::new(D::of(x), D::of(y), D::of(z))
+    }
+
+    fn agrees(one: &Ball<D>, other: &Ball<D>) {
+        assert!((one.velocity - other.velocity).length().to_f64() < 1e-30);
+        assert!((one.spin - other.spin).length().to_f64() < 1e-28);
+    }
+
+    #[test]
+    fn one_contact_alone_collides_by_the_formulas_of_a_single_impact() {
+        for table in ["thesis", "match"].map(|name| Table::preset(name).unwrap()) {
+            let numbers = Numbers::<D>::of(&table);
+            let ball = |position, velocity, spin| Ball { position, velocity, spin, motion: Motion::Sliding };
+            let balls = [
+                ball(of(0.0, 0.0, 0.0), of(0.3, 0.4, 0.0), of(9.0, -20.0, 30.0)),
+                ball(of(2.0 * table.radius, 0.0, 0.0), of(-0.2, 0.1, 0.0), of(-5.0, 12.0, 7.0)),
+                ball(of(-0.5, 0.0, 0.0), Vector::zero(), Vector::zero()),
+            ];
+            let mut both = balls;
+            let (met, work) = collide(&numbers, &mut both, &[]).unwrap();
+            let (mut first, mut second) = (balls[0], balls[1]);
+            let known = balls_collide(&numbers, numbers.ball_restitution, &mut first, &mut second);
+            assert_eq!(met, [Contact::Balls(0, 1)]);
+            assert!((work - known).to_f64().abs() < 1e-30);
+            agrees(&both[0], &first);
+            agrees(&both[1], &second);
+
+            let mut alone = balls;
+            alone[0].position = Vector::new(numbers.half_length, D::zero(), D::zero());
+            let mut single = alone[0];
+            let (met, work) = collide(&numbers, &mut alone, &[]).unwrap();
+            let known = rail_collides(&numbers, numbers.rail_restitution, rail_normal(Rail::Right), &mut single);
+            assert_eq!(met, [Contact::Rail(0, Rail::Right)]);
+            assert!((work - known).to_f64().abs() < 1e-30);
+            agrees(&alone[0], &single);
+        }
+    }
+
+    #[test]
+    fn frictions_of_a_round_add_no_energy() {
+        let numbers = Numbers::<D>::of(&Table::preset("thesis").unwrap());
+        let movement = [(of(1.0, 0.0, 0.0), Vector::zero()); 3];
+        let change = |x: f64| [(of(x, 0.0, 0.0), Vector::zero()); 3];
+        assert_eq!(lossy_share(&numbers, &movement, &change(-1.0)).to_f64(), 1.0);
+        assert_eq!(lossy_share(&numbers, &movement, &change(-4.0)).to_f64(), 0.5);
+        assert_eq!(lossy_share(&numbers, &movement, &change(1.0)).to_f64(), 0.0);
+    }
+}

@@ -1,0 +1,162 @@
+//! The engine as a whole, where balls rest against each other or against cushions.
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::*;
+use crate::{
+    physics,
+    simulation::EventKind,
+    study::{
+        shots::{StudyShot, random_shots},
+        stability::adversarial,
+    },
+    table::{BALLS, Table},
+};
+
+type D = DoubleDouble;
+
+fn vector(x: f64, y: f64, z: f64) -> Vector<D> {
+    Vector::new(D::of(x), D::of(y), D::of(z))
+}
+
+fn thesis() -> Table {
+    Table::preset("thesis").unwrap()
+}
+
+/// Plays a shot whose balls are numbered by `order` and whose y axis is turned over if `mirrored`.
+fn played(table: &Table, shot: &StudyShot, order: [usize; BALLS], mirrored: bool) -> Shot<D> {
+    let sign = if mirrored { -1.0 } else { 1.0 };
+    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let places = order.map(|ball| shot.layout.balls[ball]).map(|ball| vector(ball.x, sign * ball.y, 0.0));
+    let spin = vector(sign * w.x, w.y, sign * w.z);
+    play(&Numbers::of(table), places, vector(v.x, sign * v.y, 0.0), spin, by_extrema).unwrap()
+}
+
+/// Shots on `thesis` in which something rests, ball–ball contacts among them.
+fn resting_shots() -> impl Iterator<Item = (StudyShot, Shot<D>)> {
+    let shots = random_shots(&thesis(), 60, 3).into_iter();
+    shots.map(|shot| (shot, played(&thesis(), &shot, [0, 1, 2], false))).filter(|(_, played)| played.pressed)
+}
+
+fn distance(one: Vector<D>, other: Vector<D>) -> f64 {
+    (one - other).length().to_f64()
+}
+
+#[test]
+fn friction_and_impacts_account_for_all_energy_where_balls_rest_against_something() {
+    let mut count = 0;
+    for (shot, played) in resting_shots() {
+        let unaccounted = (played.energy[1] / played.energy[0]).to_f64().abs();
+        assert!(unaccounted < 1e-23, "{unaccounted:e}: {}", shot.command_line(&thesis()));
+        count += 1;
+    }
+    assert!(count >= 5, "{count}");
+}
+
+#[test]
+fn a_mirror_and_other_numbers_change_nothing() {
+    for (shot, played_first) in resting_shots() {
+        let mirrored = played(&thesis(), &shot, [0, 1, 2], true);
+        let renumbered = played(&thesis(), &shot, [0, 2, 1], false);
+        for (ball, other) in [0, 2, 1].into_iter().enumerate() {
+            let end = played_first.end[ball].position;
+            let image = mirrored.end[ball].position;
+            let apart = distance(end, Vector::new(image.x, -image.y, image.z));
+            assert!(apart < 1e-20, "mirrored {apart:e}: {}", shot.command_line(&thesis()));
+            let apart = distance(end, renumbered.end[other].position);
+            assert!(apart < 1e-20, "renumbered {apart:e}: {}", shot.command_line(&thesis()));
+        }
+    }
+}
+
+#[test]
+fn two_smooth_balls_that_push_each_other_go_on_at_their_common_speed() {
+    let table = Table { ball_restitution: 0.0, ball_friction: Some(0.0), ..thesis() };
+    let numbers = Numbers::<D>::of(&table);
+    let diameter = 2.0 * table.radius;
+    let places = [vector(0.0, 0.0, 0.0), vector(diameter, 0.0, 0.0), vector(-1.0, 0.4, 0.0)];
+    // Much topspin: the cloth drives the first ball just as it brakes the second, until that one rolls.
+    let shot = play(&numbers, places, vector(1.0, 0.0, 0.0), vector(0.0, 150.0, 0.0), by_extrema).unwrap();
+    let rolls = shot.events.iter().find(|(_, kind)| *kind == EventKind::SlidingRolling(1)).unwrap().0;
+    // At the constant speed 1/2, the slip ends by the turning alone.
+    let known = D::of(0.5) / (D::of(2.5) * numbers.slide);
+    assert!((rolls - known).to_f64().abs() < 1e-22, "{}", (rolls - known).to_f64());
+    assert!(shot.pressed && shot.energy[1].to_f64().abs() < 1e-23, "{:e}", shot.energy[1].to_f64());
+}
+
+#[test]
+fn a_ball_that_rolls_beside_another_goes_on_as_if_alone() {
+    let table = thesis();
+    let numbers = Numbers::<D>::of(&table);
+    let shot = |x: f64| {
+        let places = [vector(0.0, 0.0, 0.0), vector(x, 0.0, 0.0), vector(-1.0, 0.4, 0.0)];
+        let spin = vector(-0.3 / table.radius, 0.0, 0.0);
+        play(&numbers, places, vector(0.0, 0.3, 0.0), spin, by_extrema).unwrap()
+    };
+    let (beside, alone) = (shot(2.0 * table.radius), shot(0.5));
+    assert!(distance(beside.end[0].position, alone.end[0].position) < 1e-28);
+}
+
+#[test]
+fn an_impact_passes_through_a_row_of_balls() {
+    let table = Table { ball_restitution: 1.0, ball_friction: Some(0.0), ..thesis() };
+    let numbers = Numbers::<D>::of(&table);
+    let diameter = 2.0 * table.radius;
+    let places = [0.0, diameter, 2.0 * diameter].map(|x| vector(x, 0.0, 0.0));
+    let shot = play(&numbers, places, vector(0.5, 0.0, 0.0), Vector::zero(), by_extrema).unwrap();
+    let hits: Vec<EventKind> = shot.events.iter().map(|event| event.1).take(2).collect();
+    assert_eq!(hits, [EventKind::BallBall(0, 1), EventKind::BallBall(1, 2)]);
+    assert_eq!(distance(shot.end[0].position, places[0]), 0.0);
+    assert_eq!(distance(shot.end[1].position, places[1]), 0.0);
+}
+
+#[test]
+fn a_symmetric_break_stays_symmetric() {
+    for table in [thesis(), Table::default()] {
+        let numbers = Numbers::<D>::of(&table);
+        let high = table.radius;
+        let places = [vector(-0.3, 0.0, 0.0), vector(0.3, high, 0.0), vector(0.3, -high, 0.0)];
+        let shot = play(&numbers, places, vector(1.5, 0.0, 0.0), vector(0.0, 20.0, 0.0), by_extrema).unwrap();
+        let (left, right) = (shot.end[1].position, shot.end[2].position);
+        assert!(distance(left, Vector::new(right.x, -right.y, right.z)) < 1e-26);
+        assert!(shot.end[0].position.y.to_f64().abs() < 1e-26);
+    }
+}
+
+#[test]
+fn in_single_precision_it_ends_as_well() {
+    for shot in random_shots(&thesis(), 20, 9) {
+        let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+        let of = |x: f64, y: f64, z: f64| Vector::new(x as f32, y as f32, z as f32);
+        let places = shot.layout.balls.map(|ball| of(ball.x, ball.y, 0.0));
+        let played = play(&Numbers::of(&thesis()), places, of(v.x, v.y, 0.0), of(w.x, w.y, w.z), by_extrema);
+        assert!(played.is_ok(), "{}", shot.command_line(&thesis()));
+    }
+}
+
+fn judges_all(random: usize, adversarial_shots: usize) {
+    for table in [thesis(), Table::default()] {
+        for shot in random_shots(&table, random, 1) {
+            let _ = played(&table, &shot, [0, 1, 2], false);
+        }
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+        for _ in 0..adversarial_shots {
+            let shot = adversarial::shot(&table, &mut rng);
+            let cue = shot.cue.inputs();
+            let shot = StudyShot { layout: shot.layout, cue, impulse: physics::strike(&table, &cue) };
+            let _ = played(&table, &shot, [0, 1, 2], false);
+        }
+    }
+}
+
+#[test]
+fn every_shot_is_judged() {
+    judges_all(50, 50);
+}
+
+#[test]
+#[ignore = "takes some minutes"]
+fn every_shot_of_a_long_run_is_judged() {
+    judges_all(1000, 300);
+}
