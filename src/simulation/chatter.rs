@@ -56,14 +56,12 @@ impl Chatters {
     }
 
     fn place(contact: &Contact) -> usize {
-        match contact.second {
-            Some(second) => contact.first + second - 1,
-            None => {
-                let n = contact.cushion_normal;
-                let rail = if n.x == 0.0 { 2 + usize::from(n.y > 0.0) } else { usize::from(n.x > 0.0) };
-                PAIRS.len() + 4 * contact.first + rail
-            }
+        if let Some(second) = contact.second {
+            return contact.first + second - 1;
         }
+        let n = contact.cushion_normal;
+        let rail = if n.x == 0.0 { 2 + usize::from(n.y > 0.0) } else { usize::from(n.x > 0.0) };
+        PAIRS.len() + 4 * contact.first + rail
     }
 
     /// Takes note of a slow bounce; tells whether it is part of a chatter.

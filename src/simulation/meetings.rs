@@ -32,29 +32,27 @@ pub fn balls_ahead<S: Savings>(
     let d = first.position_after(t1) - second.position_after(t2);
     let dv = first.velocity_after(t1) - second.velocity_after(t2);
     let dk = first.half_acceleration - second.half_acceleration;
-    let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
-    if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, diameter + tolerance.surely_apart) {
+    let apart = constants.diameter + constants.tolerance.surely_apart;
+    if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, apart) {
         return Ahead::Nothing;
     }
     let rolls_straight = matches!(
         (first.motion, second.motion),
         (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
     );
-    approach::<S>(tolerance, d, dv, dk, horizon, diameter, may_rest, rolls_straight)
+    approach::<S>(constants, [d, dv, dk], horizon, may_rest, rolls_straight)
 }
 
 /// The same for balls whose courses no line was found to part: `d + t dv + t² dk` from one to the other.
 #[inline(never)]
 fn approach<S: Savings>(
-    tolerance: &Tolerance,
-    d: DVec2,
-    dv: DVec2,
-    dk: DVec2,
+    constants: &Constants,
+    [d, dv, dk]: [DVec2; 3],
     horizon: f64,
-    diameter: f64,
     may_rest: bool,
     rolls_straight: bool,
 ) -> Ahead {
+    let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
     let gap = d.length_squared() - diameter * diameter;
     if gap <= 2.0 * diameter * tolerance.touching {
         return touching_balls_ahead::<S>(tolerance, d, dv, dk, diameter, horizon, may_rest);

@@ -165,7 +165,7 @@ impl Resting {
             }
             span *= 0.4;
         };
-        if !(trial.step.end.time > 0.0) {
+        if trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.
             (self.step, self.end) = (SHORTEST_STEP, self.begin);
             return;

@@ -364,3 +364,57 @@ impl Forces {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn resolved(ball: BallState, contacts: &[Contact]) -> Option<Resolved> {
+        let table = Table::preset("thesis").unwrap();
+        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
+        let mut list = Contacts::NONE;
+        for contact in contacts {
+            list.push(*contact);
+        }
+        let set = ActiveSet::of(&table, &balls, contacts, 1e-10);
+        resolve(&table, &balls, &list, &set, 1e-11, None)
+    }
+
+    fn right_cushion() -> (Table, Contact, DVec2) {
+        let table = Table::preset("thesis").unwrap();
+        let position = DVec2::new(table.half_length(), 0.0);
+        (table, Contact::with_cushion(0, DVec2::NEG_X), position)
+    }
+
+    #[test]
+    fn a_cushion_pushes_back_just_what_the_cloth_presses() {
+        let (table, contact, position) = right_cushion();
+        // Topspin towards the right cushion, and some speed along it.
+        let ball = BallState { position, velocity: DVec2::new(0.0, 0.7), spin: DVec3::new(3.0, 80.0, -5.0) };
+        let forces = resolved(ball, &[contact]).unwrap().forces;
+        let u = slip(table.radius, ball.velocity, ball.spin).normalize();
+        let pressed = table.sliding_friction * table.gravity * -u.x;
+        assert!((forces.normal[0] - pressed).abs() < 1e-13);
+        assert!(forces.linear[0].x.abs() < 1e-13);
+        // The ball slips along +y on the cushion: the friction opposes it and has at most Coulomb's size.
+        let friction = forces.linear[0].y + table.sliding_friction * table.gravity * u.y;
+        assert!(friction.abs() <= table.rail_friction * pressed + 1e-13 && friction < 0.0);
+    }
+
+    #[test]
+    fn the_closed_form_agrees_with_the_solver() {
+        let (table, contact, position) = right_cushion();
+        let ball = BallState { position, velocity: DVec2::new(0.0, 0.7), spin: DVec3::new(3.0, 80.0, -5.0) };
+        let resolved = resolved(ball, &[contact]).unwrap();
+        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
+        let closed = slipping(&table, &balls, &contact, &resolved.set).unwrap();
+        assert!(resolved.converged && closed.distance(&resolved.forces, table.radius) < 1e-12);
+    }
+
+    #[test]
+    fn a_cushion_never_pulls() {
+        let (_, contact, position) = right_cushion();
+        let ball = BallState { position, velocity: DVec2::ZERO, spin: DVec3::new(0.0, -80.0, 0.0) };
+        assert!(resolved(ball, &[contact]).is_none());
+    }
+}

@@ -204,7 +204,7 @@ impl Problem {
         match set.spin[ball] {
             Friction::Slips(sign) => self.known.add(-boring * sign.x, &about_vertical),
             Friction::Sticks | Friction::Yields => {
-                self.push(Place::Spin(ball), Limit::Fixed(boring), &[about_vertical], [0.0; 2])
+                self.push(Place::Spin(ball), Limit::Fixed(boring), &[about_vertical], [0.0; 2]);
             }
         }
     }

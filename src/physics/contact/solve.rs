@@ -69,7 +69,7 @@ pub fn solve(problem: &Problem, guess: &[f64]) -> Solution {
             }
             let Some(change) = system.newton_step(&sizes, &residual, &sides) else { break };
             // The whole step where it brings the laws nearer to hold, else the share of it that does so most.
-            let mut tried: Option<(f64, Vec<f64>, Vec<f64>, Vec<Side>)> = None;
+            let mut tried: Option<Point> = None;
             for halvings in 0..MOST_HALVINGS {
                 let share = 0.5_f64.powi(halvings);
                 let there: Vec<f64> = sizes.iter().zip(&change).map(|(size, change)| size + share * change).collect();
@@ -96,6 +96,9 @@ pub fn solve(problem: &Problem, guess: &[f64]) -> Solution {
 fn length(residual: &[f64]) -> f64 {
     residual.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
+
+/// Where a step leads: how far the laws are from holding there, the sizes, the residual and the sides.
+type Point = (f64, Vec<f64>, Vec<f64>, Vec<Side>);
 
 /// The problem as numbers: rates are `matrix · sizes + bias`.
 struct System<'a> {

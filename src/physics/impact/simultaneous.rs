@@ -167,3 +167,86 @@ fn normal_impulses(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RADIUS: f64 = 0.03;
+
+    fn law(ball_restitution: f64) -> ImpactLaw {
+        ImpactLaw { ball_restitution, ball_friction: Some(0.0), cushion_restitution: 0.85, cushion_friction: 0.2 }
+    }
+
+    /// Rounds until nothing closes, as the engine plays them.
+    fn collide(law: &ImpactLaw, balls: &mut [BallState; BALLS], contacts: &[Contact]) -> usize {
+        for round in 0.. {
+            let closing: Vec<Contact> =
+                contacts.iter().copied().filter(|contact| contact.opening_speed(balls) < -1e-12).collect();
+            if closing.is_empty() {
+                return round;
+            }
+            collide_together(RADIUS, law, balls, &closing);
+        }
+        unreachable!("rounds end")
+    }
+
+    fn in_line(speed: f64) -> [BallState; BALLS] {
+        let mut balls = [0.0, 2.0, 4.0].map(|x| BallState::at_rest(DVec2::new(x * RADIUS, 0.0)));
+        balls[0].velocity.x = speed;
+        balls
+    }
+
+    const LINE: [Contact; 2] = [Contact::of_balls(0, 1), Contact::of_balls(1, 2)];
+
+    #[test]
+    fn newtons_cradle_passes_a_blow_on_to_its_last_ball() {
+        let mut balls = in_line(1.0);
+        assert_eq!(collide(&law(1.0), &mut balls, &LINE), 2);
+        assert_eq!(balls.map(|ball| ball.velocity.x), [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_frozen_pair_struck_from_behind_sends_its_front_ball_off() {
+        let mut balls = in_line(2.0);
+        collide(&law(0.95), &mut balls, &LINE);
+        let [first, middle, last] = balls.map(|ball| ball.velocity.x);
+        assert!((last - 2.0 * 0.975 * 0.975).abs() < 1e-15, "{last}");
+        assert!((first + middle + last - 2.0).abs() < 1e-15 && first <= middle && middle < last);
+    }
+
+    #[test]
+    fn a_symmetric_break_stays_symmetric_whatever_the_balls_are_called() {
+        let height = 3.0_f64.sqrt() * RADIUS;
+        let mut balls = [
+            BallState::at_rest(DVec2::new(-height, 0.0)),
+            BallState::at_rest(DVec2::new(0.0, RADIUS)),
+            BallState::at_rest(DVec2::new(0.0, -RADIUS)),
+        ];
+        balls[0].velocity.x = 3.0;
+        let mut swapped = [balls[0], balls[2], balls[1]];
+        let contacts = [Contact::of_balls(0, 1), Contact::of_balls(0, 2), Contact::of_balls(1, 2)];
+        collide(&law(0.9), &mut balls, &contacts);
+        collide(&law(0.9), &mut swapped, &contacts);
+        let (one, other) = (balls[1].velocity, balls[2].velocity);
+        assert!((one * DVec2::new(1.0, -1.0)).distance(other) < 1e-15 && balls[0].velocity.y.abs() < 1e-15);
+        assert_eq!([swapped[2].velocity, swapped[1].velocity], [one, other]);
+        // Moreau's law: both part at e times the speed at which they met.
+        let parting = contacts[0].opening_speed(&balls);
+        assert!((parting - 0.9 * 3.0 * 0.75_f64.sqrt()).abs() < 1e-14, "{parting}");
+    }
+
+    #[test]
+    fn a_ball_between_a_ball_and_a_cushion_loses_energy_and_leaves_nothing_closing() {
+        let mut balls = in_line(0.0);
+        balls[0] = BallState { velocity: DVec2::new(2.0, 0.7), spin: glam::DVec3::new(30.0, 50.0, -20.0), ..balls[0] };
+        balls[1].velocity = DVec2::new(0.5, -0.3);
+        let contacts = [Contact::of_balls(0, 1), Contact::with_cushion(1, DVec2::NEG_X)];
+        let law = ImpactLaw { ball_friction: Some(0.3), ..law(0.95) };
+        let energy = |balls: &[BallState; BALLS]| balls.iter().map(|ball| ball.specific_energy(RADIUS)).sum::<f64>();
+        let before = energy(&balls);
+        collide(&law, &mut balls, &contacts);
+        assert!(energy(&balls) <= before);
+        assert!(contacts.iter().all(|contact| contact.opening_speed(&balls) >= -1e-12));
+    }
+}
