@@ -15,7 +15,7 @@ use super::{
 const STEPS: usize = 24;
 
 /// Series of sweeps between them, each twice as long as the last.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 8;
 
 /// A problem: rates of change are `rates + matrix forces`.
 pub struct Problem<'a, R> {

@@ -113,6 +113,11 @@ fn seen_to_close<R: Real>(course: &Course<R>, contact: Contact, horizon: R) -> O
         }
         return (of_contact(end) < zero).then(|| at(falls(of_contact, top, end, zero)).2);
     }
+    if level < zero && first_opening <= closed() {
+        // It rests without pressing: to drift more slowly than what counts as closed is no meeting.
+        let closes = R::of(2.0) * closed();
+        return (last_opening < -closes).then(|| at(falls(|tau| at(tau).1 + closes, zero, end, zero)).2);
+    }
     if last_gap < zero {
         return Some(gap_until(zero, end));
     }
