@@ -71,7 +71,7 @@ impl Chatters {
         bounces.count = if flight <= PAUSE * bounces.flight { bounces.count + 1 } else { 0 };
         bounces.shrinking = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
-        bounces.count >= TOLD
+        bounces.count > TOLD
     }
 
     /// The last flight of a contact over the one before.
@@ -86,7 +86,7 @@ impl Chatters {
             PAIRS.iter().enumerate().filter(|(_, pair)| pair.0 == ball || pair.1 == ball).map(|(index, _)| index);
         pairs.chain(cushions).all(|place| {
             let Bounces { count, last, flight, .. } = self.0[place];
-            count < TOLD || now - last > PAUSE * flight
+            count <= TOLD || now - last > PAUSE * flight
         })
     }
 }
@@ -174,7 +174,7 @@ mod tests {
             flight *= 0.9;
             now += flight;
         }
-        assert_eq!(told, 1 + TOLD);
+        assert_eq!(told, TOLD);
         assert!(!chatters.are_over(1, now) && chatters.are_over(2, now));
         assert!(chatters.are_over(0, now + 1.0));
     }
