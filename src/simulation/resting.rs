@@ -11,16 +11,14 @@ use glam::DVec2;
 
 use super::{
     Constants, Rail,
-    contacts::{close, touching},
+    contacts::touching,
     extrapolation::{Phase, State, Step, extrapolate},
+    regime::{idle_pressing, lawful, settle, without_ending_slips},
     segment::Curve,
     tolerance::Tolerance,
 };
 use crate::{
-    physics::{
-        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, forces, resolve, rolling_spin, slip,
-        stop_by_impulses, yielding,
-    },
+    physics::{ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, forces, resolve, slip, yielding},
     table::{BALLS, Table},
 };
 
@@ -74,11 +72,11 @@ pub struct Resting {
     pub begin: State,
     /// State at its end.
     pub end: State,
-    contacts: Contacts,
-    set: ActiveSet,
+    pub(super) contacts: Contacts,
+    pub(super) set: ActiveSet,
     pace: Pace,
     first: Forces,
-    last: Forces,
+    pub(super) last: Forces,
     shared: bool,
     /// Step that is tried next, s.
     pub next_step: f64,
@@ -368,7 +366,7 @@ impl Resting {
     }
 
     /// Frictions that have yielded go on so while their slips are small.
-    fn goes_on_yielding(
+    pub(super) fn goes_on_yielding(
         &self,
         radius: f64,
         tolerance: &Tolerance,
@@ -426,123 +424,5 @@ impl Resting {
         let mean = (p1.spin - p0.spin) / h;
         let spin = [w0, (3.0 * mean - 2.0 * w0 - w1) / h, (w0 + w1 - 2.0 * mean) / (h * h)];
         (0.5 * a0, Curve { position, spin })
-    }
-}
-
-/// The state without the slips that end here, and the regime that holds then; none where no contact presses.
-fn lawful(
-    table: &Table,
-    constants: &Constants,
-    balls: &State,
-    contacts: &Contacts,
-    pushing: f64,
-    previous: Option<&Resting>,
-) -> Option<(State, Resolved)> {
-    let tolerance = &constants.tolerance;
-    let new = |contact: &Contact| {
-        contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
-    };
-    let begun = table.ball_friction.is_none() && contacts.as_slice().iter().any(new);
-    let stopped = |none: f64, balls: &State, contacts: &Contacts| {
-        let mut begin = *balls;
-        let touching = contacts.as_slice();
-        if begun {
-            // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
-            // where the cloth has no time to take part.
-            let grips = |contact: Option<&Contact>| match contact {
-                Some(contact) if contact.second.is_some() => Friction::Sticks,
-                _ => Friction::Slips(DVec2::ZERO),
-            };
-            let contact = std::array::from_fn(|index| grips(touching.get(index)));
-            stop_by_impulses(table, &mut begin, touching, &ActiveSet { contact, ..ActiveSet::SLIPPING });
-        }
-        let mut set = ActiveSet::of(table, &begin, touching, none);
-        if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
-            previous.goes_on_yielding(table.radius, tolerance, &begin, touching, &mut set);
-        }
-        settle(table, constants, &mut begin, touching, &set);
-        // Where forces are not unique they go on as they were.
-        let same = |previous: &&Resting| previous.contacts.as_slice() == touching;
-        let similar = previous.filter(same).map(|previous| &previous.last);
-        let resolved = resolve(table, &begin, contacts, &set, pushing, similar)?;
-        let departs = resolved.set != set && {
-            let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
-            resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
-        };
-        Some((begin, resolved, departs))
-    };
-    let (mut contacts, mut balls) = (*contacts, *balls);
-    loop {
-        if contacts.as_slice().is_empty() {
-            return None;
-        }
-        let ended = stopped(tolerance.ending_slip, &balls, &contacts)?;
-        // What would begin to slip again at once has not ended.
-        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &balls, &contacts)? } else { ended };
-        // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
-        if resolved.contacts.as_slice().len() == contacts.as_slice().len() {
-            return Some((begin, resolved));
-        }
-        for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && !resolved.contacts.hold(ball)) {
-            // A slip that has ended has done so for a ball that nothing holds, too.
-            if resolved.set.cloth[ball] == Friction::Sticks {
-                balls[ball] = begin[ball];
-            }
-        }
-        contacts = resolved.contacts;
-    }
-}
-
-/// Pressing that cannot matter before the slips end that make it, m/s²: it moves nothing by as much as a speed that counts
-/// for none, or is no more than the rounding of the slips' directions, which are the less known the smaller a slip is beside
-/// the speeds that it is the difference of.
-fn idle_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
-    let idle = |ball: &BallState| {
-        let slip = slip(constants.radius, ball.velocity, ball.spin).length();
-        if slip <= constants.tolerance.ending_slip {
-            return 0.0;
-        }
-        let speeds = ball.velocity.length() + constants.radius * ball.spin.truncate().length();
-        let rounding = 32.0 * f64::EPSILON * speeds / slip * constants.sliding;
-        rounding.max(constants.tolerance.opening / (slip * constants.slide_time))
-    };
-    let members = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball));
-    members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
-}
-
-/// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
-/// as rolling must not slide when it is free.
-fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> Outcome {
-    let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
-    let ends = |(ball, state): (usize, &BallState)| {
-        contacts.hold(ball)
-            && set.cloth[ball] == Friction::Sticks
-            && slip(table.radius, state.velocity, state.spin) != DVec2::ZERO
-    };
-    let mut ended = *balls;
-    if balls.iter().enumerate().any(ends) {
-        settle(table, constants, &mut ended, contacts.as_slice(), &set);
-    }
-    Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]))
-}
-
-/// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
-/// spinning by `set` has stopped exactly.
-fn settle(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
-    close(constants, balls, contacts);
-    stop_by_impulses(table, balls, contacts, set);
-    for (ball, state) in balls.iter_mut().enumerate() {
-        if !contacts.iter().any(|contact| contact.has(ball)) {
-            continue;
-        }
-        if set.spin[ball] == Friction::Sticks {
-            state.spin.z = 0.0;
-        }
-        if set.cloth[ball] == Friction::Sticks {
-            if set.roll[ball] == Friction::Sticks {
-                state.velocity = DVec2::ZERO;
-            }
-            state.spin = rolling_spin(table.radius, state.velocity).extend(state.spin.z);
-        }
     }
 }

@@ -1,0 +1,284 @@
+//! Impacts as events: single ones, several at one moment, and the slow ones of a chatter.
+
+use std::ops::ControlFlow;
+
+use super::{
+    Event, EventKind, Observer, Rail,
+    chatter::{Chatters, settles},
+    contact_mode::ContactMode,
+    contacts::{PAIRS, close, touching},
+    engine::{Ball, Engine, Meeting, either, only},
+    savings::Savings,
+};
+use crate::{
+    physics::{
+        ActiveSet, BallState, Contact, Contacts, ImpactLaw, MAX_CONTACTS, collide_balls, collide_rail,
+        collide_together, stop_by_impulses,
+    },
+    table::BALLS,
+};
+
+/// Impacts that follow each other within this time are at the same moment, s: a ball moves by less than a gap that counts as
+/// none meanwhile, at any speed on a table.
+const MOMENT: f64 = 1e-15;
+
+/// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a
+/// cushion exchange some dozens, an inelastic collapse infinitely many.
+const MOST_ROUNDS: u32 = 64;
+
+impl<S: Savings, O: Observer> Engine<'_, S, O> {
+    #[inline(always)]
+    pub(super) fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        if self.is_crowded(now) && self.collide_at_once(now)? {
+            return ControlFlow::Continue(());
+        }
+        let Ball { rail_after, rail, .. } = self.balls[index];
+        let n = rail.normal();
+        let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
+        let mut state = match &freed {
+            Some(states) => states[index],
+            None => self.balls[index].segment.state_after(&self.constants, rail_after),
+        };
+        // The ball stands exactly at the cushion: the prediction's rounding must not leave a gap to fall through.
+        state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
+        let c = &self.constants;
+        let before = state;
+        collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
+        let mut told = true;
+        if state.velocity.dot(n) <= c.tolerance.slow_bounce {
+            let contact = Contact::with_cushion(index, n);
+            told = self.slow_bounce(now, &contact)?;
+            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(index, state)]) {
+                return self.end_chatter(
+                    now,
+                    freed,
+                    &[(index, before)],
+                    &rests,
+                    EventKind::BallRail(index, rail),
+                    told,
+                );
+            }
+        }
+        self.close(index, now);
+        self.launch(index, now, &state);
+        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
+        if freed.is_some() {
+            self.look_ahead(now, either(true, self.freed_members(), only(index)))
+        } else {
+            self.look_ahead_of(now, index)
+        }
+    }
+
+    pub(super) fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
+        if self.is_crowded(now) && self.collide_at_once(now)? {
+            return ControlFlow::Continue(());
+        }
+        let (first, second) = PAIRS[pair];
+        let Meeting { since, after, .. } = self.pairs[pair];
+        let mut changed = only(first);
+        changed[second] = true;
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
+        let state_of = |index: usize| match &freed {
+            Some(states) if self.freed_members()[index] => states[index],
+            _ => {
+                let segment = &self.balls[index].segment;
+                segment.state_after(&self.constants, (since - segment.start) + after)
+            }
+        };
+        let (mut a, mut b) = (state_of(first), state_of(second));
+        let before = (a, b);
+        let c = self.constants;
+        collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
+        let opening = (a.velocity - b.velocity).dot(a.position - b.position);
+        let mut told = true;
+        if opening <= c.diameter * c.tolerance.slow_bounce {
+            let contact = Contact::of_balls(first, second);
+            told = self.slow_bounce(now, &contact)?;
+            if let Some(rests) = self.settles(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
+                let before = [(first, before.0), (second, before.1)];
+                return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), told);
+            }
+        }
+        self.close(first, now);
+        self.close(second, now);
+        self.launch(first, now, &a);
+        self.launch(second, now, &b);
+        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+    }
+
+    /// Whether other impacts happen at this very moment, or too many have.
+    #[inline(always)]
+    pub(super) fn is_crowded(&mut self, now: f64) -> bool {
+        self.rounds = if now - self.last_impact <= MOMENT { self.rounds + 1 } else { 0 };
+        self.last_impact = now;
+        let mut at_once = 0;
+        for time in self.times {
+            at_once += u32::from(time <= now + MOMENT);
+        }
+        at_once > 1 || self.rounds > MOST_ROUNDS
+    }
+
+    /// All contacts that close now collide together, if there are several.
+    #[cold]
+    pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
+        self.steps += 1;
+        let members = self.freed_members();
+        let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
+        let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
+            Some(states) if members[index] => states[index],
+            _ => self.state(index, now),
+        });
+        let c = self.constants;
+        let collapsed = self.rounds > MOST_ROUNDS;
+        let contacts = touching(&c, &states, |opening| opening < -c.tolerance.opening || (collapsed && opening <= 0.0));
+        if contacts.as_slice().len() < 2 {
+            return ControlFlow::Continue(false);
+        }
+        let mut changed = [false; BALLS];
+        for (ball, changed) in changed.iter_mut().enumerate() {
+            *changed = contacts.hold(ball);
+        }
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
+        for contact in contacts.as_slice() {
+            // Exactly at the cushion, as in a single impact.
+            let n = contact.cushion_normal;
+            let ball = &mut states[contact.first];
+            if contact.second.is_none() {
+                ball.position += (-n.abs().dot(c.reach) - ball.position.dot(n)) * n;
+            }
+        }
+        let law = ImpactLaw::of(self.table);
+        let law = if collapsed { law.inelastic() } else { law };
+        let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
+        let mut told = [false; MAX_CONTACTS];
+        for (index, contact) in contacts.as_slice().iter().enumerate() {
+            if impulses[index] > 0.0 {
+                let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce;
+                told[index] = !slow || self.slow_bounce(now, contact)?;
+            }
+        }
+        for index in (0..BALLS).filter(|&index| changed[index]) {
+            self.close(index, now);
+            self.launch(index, now, &states[index]);
+        }
+        for (index, contact) in contacts.as_slice().iter().enumerate().filter(|(index, _)| impulses[*index] > 0.0) {
+            let rail = Rail::ALL.into_iter().find(|rail| rail.normal() == contact.cushion_normal);
+            let kind = match (contact.second, rail) {
+                (Some(second), _) => EventKind::BallBall(contact.first, second),
+                (None, rail) => EventKind::BallRail(contact.first, rail.unwrap_or(Rail::Left)),
+            };
+            self.tell_impact(now, kind, told[index])?;
+        }
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
+        ControlFlow::Continue(true)
+    }
+
+    pub(super) fn contact_step(&mut self) -> ControlFlow<()> {
+        self.steps += 1;
+        self.observer.contact_step()
+    }
+
+    /// Whether a bouncing ball still chatters; tells the end of its contact if not.
+    #[cold]
+    pub(super) fn still_chatters(&mut self, now: f64, ball: usize) -> ControlFlow<(), bool> {
+        if self.chatters.as_ref().is_some_and(|chatters| !chatters.are_over(ball, now)) {
+            return ControlFlow::Continue(true);
+        }
+        self.balls[ball].mode = ContactMode::Free;
+        self.tell(now, EventKind::ContactEnds(ball))?;
+        ControlFlow::Continue(false)
+    }
+
+    /// Tells an impact, or only who keeps accounts of it where it belongs to a chatter.
+    #[inline(always)]
+    pub(super) fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {
+        if told {
+            return self.tell(now, kind);
+        }
+        self.observer.bounce(Event { time: now, kind });
+        ControlFlow::Continue(())
+    }
+
+    /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
+    #[cold]
+    pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
+        self.steps += 1;
+        let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
+        if !chatters.bounce(contact, now) {
+            return ControlFlow::Continue(true);
+        }
+        self.contact_step()?;
+        for ball in [Some(contact.first), contact.second].into_iter().flatten() {
+            if self.balls[ball].mode == ContactMode::Free {
+                self.balls[ball].mode = ContactMode::Bouncing;
+                self.tell(now, EventKind::ContactBegins(ball))?;
+            }
+        }
+        ControlFlow::Continue(false)
+    }
+
+    /// The contacts that come to rest with one that has just bounced; `bounced` are its balls after the bounce.
+    #[cold]
+    pub(super) fn settles(
+        &self,
+        now: f64,
+        freed: Option<&[BallState; BALLS]>,
+        contact: &Contact,
+        bounced: &[(usize, BallState)],
+    ) -> Option<Contacts> {
+        let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
+        settles(self.table, &self.constants, contact, &self.states_with(now, freed, bounced), shrinking)
+    }
+
+    /// All balls now, some of them as given.
+    pub(super) fn states_with(
+        &self,
+        now: f64,
+        freed: Option<&[BallState; BALLS]>,
+        given: &[(usize, BallState)],
+    ) -> [BallState; BALLS] {
+        let mut balls = std::array::from_fn(|index| match freed {
+            Some(states) if self.freed_members()[index] => states[index],
+            _ => self.state(index, now),
+        });
+        for (index, state) in given {
+            balls[*index] = *state;
+        }
+        balls
+    }
+
+    /// Ends a chatter with one impact without restitution of all contacts that rest from now on; `before` are the balls of the
+    /// contact that has met.
+    #[cold]
+    pub(super) fn end_chatter(
+        &mut self,
+        now: f64,
+        freed: Option<[BallState; BALLS]>,
+        before: &[(usize, BallState)],
+        rests: &Contacts,
+        impact: EventKind,
+        told: bool,
+    ) -> ControlFlow<()> {
+        let mut states = self.states_with(now, freed.as_ref(), before);
+        let c = self.constants;
+        let contacts = rests.as_slice();
+        close(&c, &mut states, contacts);
+        let law = ImpactLaw::of(self.table).inelastic();
+        for _ in 0..MOST_ROUNDS {
+            if !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening) {
+                break;
+            }
+            collide_together(c.radius, &law, &mut states, contacts);
+        }
+        // What one of them has given another is a bounce, too.
+        stop_by_impulses(self.table, &mut states, contacts, &ActiveSet::SLIPPING);
+        let changed = std::array::from_fn(|ball| rests.hold(ball));
+        for index in (0..BALLS).filter(|&index| changed[index]) {
+            self.close(index, now);
+            self.launch(index, now, &states[index]);
+        }
+        self.tell_impact(now, impact, told)?;
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+    }
+}

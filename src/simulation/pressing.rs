@@ -1,0 +1,175 @@
+//! Resting contacts as the engine holds them: how they begin, go on step by step, and end.
+
+use std::ops::ControlFlow;
+
+use super::{
+    EventKind, Observer, Segment,
+    contact_mode::ContactMode,
+    engine::Engine,
+    resting::{Outcome, Resting},
+    savings::Savings,
+    segment::still,
+};
+use crate::{
+    physics::{BallState, Motion},
+    table::BALLS,
+};
+
+impl<S: Savings, O: Observer> Engine<'_, S, O> {
+    /// The next step of the balls in resting contact.
+    #[cold]
+    pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
+        let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
+        let mut members: Vec<&mut BallState> =
+            resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
+        still(self.constants.tolerance.still, self.constants.radius, &mut members);
+        for index in (0..BALLS).filter(|&index| resting.members[index]) {
+            self.close(index, now);
+            self.launch(index, now, &resting.end[index]);
+        }
+        // Whether they go on resting is asked of all contacts together.
+        self.pressed = true;
+        self.look_ahead(now, resting.members)
+    }
+
+    /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it
+    /// is known what presses now. Returns the states of all members.
+    #[cold]
+    pub(super) fn release(&mut self, now: f64, changed: [bool; BALLS]) -> Option<[BallState; BALLS]> {
+        let resting = self.resting.as_ref()?;
+        if !(0..BALLS).any(|index| changed[index] && resting.members[index]) {
+            return None;
+        }
+        let members = resting.members;
+        self.cut(now);
+        let states = self.resting.as_ref()?.end;
+        for index in (0..BALLS).filter(|&index| members[index] && !changed[index]) {
+            self.close(index, now);
+            self.launch(index, now, &states[index]);
+        }
+        self.pressed = true;
+        Some(states)
+    }
+
+    /// Ends the present step of the resting contacts at `now`.
+    #[cold]
+    pub(super) fn cut(&mut self, now: f64) {
+        let Some(resting) = &mut self.resting else { return };
+        let time = now - resting.start;
+        if time >= resting.step {
+            return;
+        }
+        resting.cut(self.table, time);
+        self.next_step = resting.next_step;
+        for index in (0..BALLS).filter(|&index| resting.members[index] && time > 0.0) {
+            let segment = &mut self.balls[index].segment;
+            if segment.start == resting.start {
+                let (half_acceleration, curve) = resting.course(index);
+                (segment.half_acceleration, segment.curve) = (half_acceleration, Some(Box::new(curve)));
+            }
+        }
+    }
+
+    /// The balls of the resting contact that is still on record.
+    pub(super) fn freed_members(&self) -> [bool; BALLS] {
+        self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
+    }
+
+    /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.
+    #[cold]
+    pub(super) fn press(&mut self, now: f64, changed: &mut [bool; BALLS]) -> ControlFlow<()> {
+        if let Some(resting) = &self.resting
+            && !self.pressed
+            && !(0..BALLS).any(|index| changed[index] && resting.members[index])
+        {
+            return ControlFlow::Continue(());
+        }
+        self.cut(now);
+        // Other members of a contact that goes on are part of the new one.
+        let mut states: [BallState; BALLS] = match &self.resting {
+            Some(resting) if resting.start < now => std::array::from_fn(|index| {
+                if resting.members[index] && self.balls[index].segment.start < now {
+                    resting.end[index]
+                } else {
+                    self.state(index, now)
+                }
+            }),
+            _ => std::array::from_fn(|index| self.state(index, now)),
+        };
+        self.contact_step()?;
+        let previous = self.resting.take();
+        self.resting =
+            match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
+                Outcome::Rests(resting) => {
+                    self.next_step = resting.next_step;
+                    for index in (0..BALLS).filter(|&index| !resting.members[index]) {
+                        if resting.begin[index] != states[index] {
+                            states[index] = resting.begin[index];
+                            self.close(index, now);
+                            self.launch(index, now, &states[index]);
+                            changed[index] = true;
+                        }
+                    }
+                    Some(resting)
+                }
+                Outcome::Free(ended, balls) => {
+                    // A slip that ends here ends for good.
+                    for index in (0..BALLS).filter(|&index| balls[index]) {
+                        self.close(index, now);
+                        self.launch(index, now, &ended[index]);
+                        changed[index] = true;
+                    }
+                    states = ended;
+                    None
+                }
+            };
+        let members = self.freed_members();
+        for index in 0..BALLS {
+            let was = self.balls[index].mode;
+            if members[index] {
+                self.balls[index].mode = ContactMode::Resting;
+                self.rest(index, now);
+                changed[index] = true;
+                if was == ContactMode::Free {
+                    self.tell(now, EventKind::ContactBegins(index))?;
+                }
+            } else if was == ContactMode::Resting {
+                self.balls[index].mode = ContactMode::Free;
+                // A ball whose contact ended by what another did is still on its common course.
+                if self.balls[index].segment.motion == Motion::Resting {
+                    self.close(index, now);
+                    self.launch(index, now, &states[index]);
+                    changed[index] = true;
+                }
+                self.tell(now, EventKind::ContactEnds(index))?;
+                if self.balls[index].segment.motion == Motion::Rolling {
+                    self.tell(now, EventKind::SlidingRolling(index))?;
+                } else if self.balls[index].segment.motion == Motion::Stationary {
+                    self.tell(now, EventKind::RollingStationary(index))?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    #[cold]
+    pub(super) fn rest(&mut self, index: usize, now: f64) {
+        let Some(resting) = &self.resting else { return };
+        let state = &resting.begin[index];
+        let (half_acceleration, curve) = resting.course(index);
+        let step = resting.step;
+        let segment = Segment {
+            start: now,
+            position: state.position,
+            velocity: state.velocity,
+            half_acceleration,
+            spin: state.spin,
+            motion: Motion::Resting,
+            curve: Some(Box::new(curve)),
+        };
+        if self.balls[index].segment.start < now {
+            self.close(index, now);
+        }
+        self.set(index, segment, step);
+    }
+}
