@@ -188,7 +188,7 @@ fn scene(
 
 /// Every ball more than a metre from the others.
 fn far_apart() -> Scene {
-    scene("far apart", "match", 4000, |table, rng| {
+    scene("far apart", "textbook", 4000, |table, rng| {
         loop {
             let layout = Layout::random(table, rng);
             let [a, b, c] = layout.balls;
@@ -201,7 +201,7 @@ fn far_apart() -> Scene {
 
 /// All balls in a square of four diameters.
 fn gathered() -> Scene {
-    scene("gathered", "match", 4000, |table, rng| {
+    scene("gathered", "textbook", 4000, |table, rng| {
         let middle = Layout::random(table, rng).balls[0];
         let size = 4.0 * table.radius;
         Layout::new(std::array::from_fn(|_| {
@@ -212,7 +212,7 @@ fn gathered() -> Scene {
 
 /// The object balls in two corners, where the cue ball hardly ever goes.
 fn alone() -> Scene {
-    scene("one ball alone", "match", 4000, |table, rng| {
+    scene("one ball alone", "textbook", 4000, |table, rng| {
         let corner = table.reach();
         Layout::new([Layout::random(table, rng).balls[0], corner, -corner])
     })

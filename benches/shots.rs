@@ -30,7 +30,7 @@ fn random_shots(table: &Table, count: usize) -> Vec<(Layout, CueInputs)> {
 
 /// One iteration is all shots, so that every measurement is of the same mixture.
 fn shots(criterion: &mut Criterion) {
-    for (name, count) in [("match", 20_000), ("thesis", 400)] {
+    for (name, count) in [("textbook", 20_000), ("thesis", 400)] {
         let table = Table::preset(name).expect("presets are valid");
         let shots = random_shots(&table, count);
         let mut group = criterion.benchmark_group(name);

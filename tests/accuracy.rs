@@ -29,7 +29,7 @@ fn the_study_finds_what_it_must() {
     let folder = tempfile::tempdir().unwrap();
     let rows = quick(folder.path());
     references_are_met(&rows);
-    for table in ["match", "thesis"] {
+    for table in ["textbook", "thesis"] {
         let of_table: Vec<&Value> = rows.iter().filter(|row| row["table"] == table).collect();
         let row = |method: &str, dt: Option<f64>| {
             let found = of_table.iter().find(|row| row["method"] == method && row["dt"].as_f64() == dt);
@@ -87,7 +87,7 @@ fn references_are_met(rows: &[Value]) {
 #[test]
 fn the_same_seed_gives_the_same_errors() {
     let errors = || -> Vec<String> {
-        let output = carom(&["accuracy", "--quick", "--shots", "3", "--seed", "5", "--table", "match", "--json"]);
+        let output = carom(&["accuracy", "--quick", "--shots", "3", "--seed", "5", "--table", "textbook", "--json"]);
         lines(&output).iter().map(|row| format!("{} {} {}", row["method"], row["rest_m"], row["time_s"])).collect()
     };
     assert_eq!(errors(), errors());
@@ -113,7 +113,7 @@ fn wrong_input_ends_with_two_and_says_what_would_do() {
 fn a_folder_that_cannot_be_made_is_named() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let folder = file.path().join("inside");
-    let output = carom(&["accuracy", "--quick", "--shots", "1", "--table", "match", "--out", folder.to_str().unwrap()]);
+    let output = carom(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8(output.stderr).unwrap().contains("accuracy.csv"));
 }

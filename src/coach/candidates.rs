@@ -8,7 +8,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::errors::normal;
 use crate::{
-    physics::CueInputs,
+    physics::{CueInputs, squirt},
     table::{Layout, Table},
 };
 
@@ -31,7 +31,8 @@ const TIP_SHARE: f64 = 0.98;
 /// elevation.
 pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let (a, b) = random_tip(table, rng);
-    CueInputs { a, b, theta: rng.random_range(0.0..MAX_ELEVATION), ..*cue }
+    let phi = cue.phi + squirt(table, cue.a) - squirt(table, a);
+    CueInputs { a, b, theta: rng.random_range(0.0..MAX_ELEVATION), phi, ..*cue }
 }
 
 /// Any shot: half of them at one of the object balls, thick or thin, the others in any direction.
@@ -43,6 +44,7 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
         rng.random_range(-PI..PI)
     };
     let (a, b) = if rng.random() { random_tip(table, rng) } else { (0.0, 0.0) };
+    let phi = phi - squirt(table, a);
     CueInputs { a, b, theta: rng.random_range(0.0..0.2), phi, speed: rng.random_range(MIN_SPEED..MAX_SPEED) }
 }
 
@@ -73,7 +75,7 @@ pub fn stratified(table: &Table, layout: &Layout, n: u64, rng: &mut Xoshiro256Pl
         a,
         b,
         theta: rng.random_range(0.0..USUAL_ELEVATION),
-        phi,
+        phi: phi - squirt(table, a),
         speed: rng.random_range(MIN_SPEED..MAX_SPEED),
     }
 }
@@ -83,11 +85,12 @@ pub fn neighbour(table: &Table, cue: &CueInputs, scale: f64, rng: &mut Xoshiro25
     let mut step = |size: f64| scale * size * normal(rng);
     let (a, b) = (cue.a + step(0.15), cue.b + step(0.15));
     let share = (TIP_SHARE * table.miscue_limit.sqrt() / a.hypot(b)).min(1.0);
+    let turned = squirt(table, cue.a) - squirt(table, a * share);
     CueInputs {
         a: a * share,
         b: b * share,
         theta: (cue.theta + step(0.03)).clamp(0.0, MAX_ELEVATION),
-        phi: cue.phi + step(0.008),
+        phi: cue.phi + step(0.008) + turned,
         speed: (cue.speed + step(0.6)).clamp(MIN_SPEED, MAX_SPEED),
     }
 }

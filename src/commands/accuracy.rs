@@ -13,7 +13,7 @@ use super::{Failure, input::table_named};
 use crate::{
     storage::write_atomic,
     study::{self, Method, Plan, Study, random_shots, stability},
-    table::{PRESETS, Table},
+    table::{JUDGED, Table},
 };
 
 /// Measure how exact the simulator is and what that costs: the engine, other root finders, single precision and fixed
@@ -30,7 +30,7 @@ pub struct Args {
     /// Seed of the shots.
     #[arg(long, default_value_t = 2026)]
     seed: u64,
-    /// The table: "match", "thesis" or the path of a TOML file. Default: match and thesis
+    /// The table: "match", "textbook", "thesis" or the path of a TOML file. Default: textbook and thesis
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
     /// Play the stability table only: a hundred thousand random, ten thousand adversarial and a thousand shots of each
@@ -78,7 +78,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let tables: Vec<Table> = match &args.table {
         Some(name) => vec![table_named(name)?],
-        None => PRESETS.into_iter().map(table_named).collect::<Result<_, _>>()?,
+        None => JUDGED.into_iter().map(table_named).collect::<Result<_, _>>()?,
     };
     let references = study::check_references();
     let size = Size::of(args);

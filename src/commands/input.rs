@@ -42,7 +42,7 @@ pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
 /// The table and the balls of a single shot; a batch brings its own.
 #[derive(Debug, clap::Args)]
 pub struct Scene {
-    /// The table: "match", "thesis" or the path of a TOML file.
+    /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match", conflicts_with = "batch")]
     table: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner

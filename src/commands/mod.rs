@@ -30,7 +30,7 @@ use crate::terminal::{Settings, TerminalError};
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Table of the terminal program: "match", "thesis" or the path of a TOML file.
+    /// Table of the terminal program: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long)]
     table: Option<String>,
     /// Talk in lines instead of a screen: for screen readers, and terminals that cannot draw.

@@ -32,7 +32,7 @@ pub struct Args {
     /// left corner ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
     #[arg(long, allow_hyphen_values = true)]
     layout: Option<String>,
-    /// The table: "match" or "thesis".
+    /// The table: "match", "textbook" or "thesis".
     #[arg(long, default_value = "match")]
     table: String,
     /// Have the coach play.

@@ -26,7 +26,7 @@ enum Order {
     List,
     /// Show a table as TOML, which is also the way to begin a file of one's own.
     Show {
-        /// "match", "thesis" or the path of a TOML file.
+        /// "match", "textbook", "thesis" or the path of a TOML file.
         #[arg(default_value = "match")]
         table: String,
     },

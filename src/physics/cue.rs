@@ -139,12 +139,25 @@ pub struct Impulse {
     pub spin: DVec3,
 }
 
-/// Velocity and spin of the cue ball just after the stroke (thesis equations 9, 15 and 16).
+/// Angle by which the cue ball leaves the cue's direction when it is struck at side `a`, rad, counter-clockwise: a tip on
+/// the left sends it off to the right. Zero on a table whose cue has no end mass.
+///
+/// The end of the cue has to be pushed aside as the ball turns under it (Alciatore, TP A.31).
+pub fn squirt(table: &Table, a: f64) -> f64 {
+    table.cue_end_mass.map_or(0.0, |end| {
+        let rest = 1.0 - a * a;
+        let along = 1.0 + table.ball_mass / end + 2.5 * rest;
+        -(2.5 * a * rest.max(0.0).sqrt() / along).atan()
+    })
+}
+
+/// Velocity and spin of the cue ball just after the stroke (thesis equations 9, 15 and 16), along the direction in which
+/// the ball squirts.
 pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     let (a, b) = (cue.a, cue.b);
     let c = (1.0 - cue.tip_offset_squared()).max(0.0).sqrt();
     let (sin_theta, cos_theta) = cue.theta.sin_cos();
-    let (sin_phi, cos_phi) = cue.phi.sin_cos();
+    let (sin_phi, cos_phi) = (cue.phi + squirt(table, a)).sin_cos();
     // (9) per ball mass. Its last three terms are the square of b cos - c sin.
     let lever = b * cos_theta - c * sin_theta;
     let force = 2.0 * cue.speed / (1.0 + table.ball_mass / table.cue_mass + 2.5 * (a * a + lever * lever));
@@ -184,6 +197,17 @@ mod tests {
         assert!(cue("0,0,0,inf,1").contains("phi"));
         assert!(cue("0,0,0,0,0").contains("V = 0"));
         assert!(CueInputs::parse("1,2,3").unwrap_err().to_string().contains("1,2,3"));
+    }
+
+    #[test]
+    fn half_a_radius_of_side_squirts_by_the_published_angle_to_the_other_side() {
+        let table = Table { cue_end_mass: Some(0.005), ball_mass: 0.17, ..Table::default() };
+        // TP A.31's formula by hand: atan(1.25 · 0.866 / (1 + 34 + 1.875)).
+        let angle = squirt(&table, 0.5);
+        assert!((angle + (1.25 * 0.75_f64.sqrt() / 36.875).atan()).abs() < 1e-15);
+        let cue = CueInputs { a: 0.5, b: 0.0, theta: 0.0, phi: 1.0, speed: 2.0 };
+        assert!((strike(&table, &cue).velocity.to_angle() - (1.0 + angle)).abs() < 1e-14);
+        assert_eq!(squirt(&Table::preset("thesis").unwrap(), 0.5), 0.0);
     }
 
     #[test]

@@ -4,12 +4,14 @@ mod contact;
 mod cue;
 mod impact;
 mod motion;
+mod rolling;
 
 pub use contact::{
     ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
 };
-pub use cue::{CueError, CueInputs, Impulse, strike};
-pub use impact::{ImpactLaw, collide_balls, collide_rail, collide_together};
+pub use cue::{CueError, CueInputs, Impulse, squirt, strike};
+pub use impact::{BallImpact, Cushion, ImpactLaw, collide_balls, collide_rail, collide_together};
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };
+pub use rolling::Rolling;

@@ -18,7 +18,7 @@ use super::{
     savings::Savings,
 };
 use crate::{
-    physics::{Motion, collide_rail},
+    physics::Motion,
     table::BALLS,
 };
 
@@ -45,7 +45,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// Plays on as long as ball `index` moves alone, from the event at `now` on; `now` becomes the time of the last event.
     pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
         let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
-        let constants = self.constants;
+        let constants = &self.constants.clone();
         let mut course = Course::of(&self.balls[index]);
         loop {
             let Course { segment, lasts, rail_after, rail } = &course;
@@ -53,22 +53,22 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             let (mut after, lasts_after, kind);
             if rail_after < lasts {
                 let n = rail.normal();
-                let mut state = segment.state_after(&constants, *rail_after);
+                let mut state = segment.state_after(constants, *rail_after);
                 state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
-                collide_rail(constants.radius, constants.rail_restitution, constants.rail_friction, n, &mut state);
+                constants.cushion(*rail).resolve(constants.radius, n, &mut state);
                 // What might be part of a chatter.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce {
                     break;
                 }
-                (after, lasts_after) = Segment::free(&constants, next, &state);
-                kind = EventKind::BallRail(index, *rail);
+                (after, lasts_after) = Segment::free(constants, next, &state);
+                kind = Some(EventKind::BallRail(index, *rail));
             } else {
-                if segment.motion == Motion::Rolling {
+                if segment.motion == Motion::Rolling && segment.rolls_to_rest(constants, *lasts) {
                     break;
                 }
-                (after, lasts_after) = segment.successor(&constants, *lasts);
+                (after, lasts_after) = segment.successor(constants, *lasts);
                 after.start = next;
-                kind = EventKind::SlidingRolling(index);
+                kind = (segment.motion == Motion::Sliding).then_some(EventKind::SlidingRolling(index));
             }
             if after.motion == Motion::Stationary {
                 break;
@@ -77,8 +77,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 self.observer.segment(index, segment, next);
             }
             *now = next;
-            let flow = self.tell(next, kind);
-            let (ahead, rail) = cushion_ahead::<S>(&constants, &after, lasts_after);
+            let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.tell(next, kind));
+            let (ahead, rail) = cushion_ahead::<S>(constants, &after, lasts_after);
             let rail_after = if let Ahead::Meeting(after) = ahead { after } else { f64::INFINITY };
             course = Course { segment: after, lasts: lasts_after, rail_after, rail };
             let Segment { position, velocity, half_acceleration, .. } = course.segment;

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, resolve, slip},
-    table::{BALLS, Table},
+    table::{BALLS, Rail, Table},
 };
 
 /// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.
@@ -148,7 +148,11 @@ pub fn settles(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slow_crowd } {
         return None;
     }
-    let restitution = if contact.second.is_some() { constants.ball_restitution } else { constants.rail_restitution };
+    let restitution = if contact.second.is_some() {
+        constants.balls.restitution
+    } else {
+        constants.cushion(Rail::with_normal(contact.cushion_normal)).restitution
+    };
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let chatter = 2.0 * speed / (pull * (1.0 - restitution));
     let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));

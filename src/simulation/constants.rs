@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::tolerance::Tolerance;
 use crate::{
-    physics::{rolling_deceleration, sliding_deceleration, spin_deceleration},
-    table::Table,
+    physics::{BallImpact, Cushion, Rolling, rolling_deceleration, sliding_deceleration, spin_deceleration},
+    table::{Rail, Table},
 };
 
 /// A table's numbers in the form in which the engine uses them; divisions are done here, once a shot.
@@ -23,20 +23,18 @@ pub struct Constants {
     pub sliding: f64,
     /// Time that friction needs for each m/s of slip, `2 / 7 mu_s g` (thesis equation 25), s²/m.
     pub slide_time: f64,
-    /// `5/7 mu_r g`, m/s².
-    pub rolling: f64,
-    /// Time that a rolling ball needs to lose each m/s of its speed (thesis equation 26), s²/m.
+    /// What slows a rolling ball.
+    pub rolling: Rolling,
+    /// Time that a ball needs to lose each m/s of its speed where that is constant (thesis equation 26), s²/m.
     pub roll_time: f64,
+    /// Acceleration of a table that is not level, m/s².
+    pub tilt: DVec2,
     /// `5 mu_sp g / 2R`, rad/s².
     pub spinning: f64,
-    /// Restitution between two balls.
-    pub ball_restitution: f64,
-    /// Friction between two balls; `None` for a contact that never slips.
-    pub ball_friction: Option<f64>,
-    /// Restitution at a cushion.
-    pub rail_restitution: f64,
-    /// Friction at a cushion.
-    pub rail_friction: f64,
+    /// The law of two balls' impacts.
+    pub balls: BallImpact,
+    /// The four cushions, in the order of [`Rail::ALL`].
+    pub cushions: [Cushion; 4],
     /// What counts as nothing.
     pub tolerance: Tolerance,
 }
@@ -52,14 +50,19 @@ impl Constants {
             reach: table.reach(),
             sliding,
             slide_time: 1.0 / (3.5 * sliding),
-            rolling,
+            rolling: Rolling { least: rolling, growth: table.rolling_growth },
             roll_time: 1.0 / rolling,
+            tilt: table.tilt,
             spinning: spin_deceleration(table),
-            ball_restitution: table.ball_restitution,
-            ball_friction: table.ball_friction,
-            rail_restitution: table.rail_restitution,
-            rail_friction: table.rail_friction,
+            balls: BallImpact::of(table),
+            cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)),
             tolerance: Tolerance::of(table),
         }
+    }
+
+    /// The cushion of a rail.
+    #[inline(always)]
+    pub fn cushion(&self, rail: Rail) -> &Cushion {
+        &self.cushions[rail as usize]
     }
 }

@@ -1,5 +1,7 @@
 //! When a free ball will meet a cushion, if nothing else happens first.
 
+use glam::DVec2;
+
 use super::{
     Constants, Rail, Segment,
     predict::{Ahead, lesser},
@@ -13,7 +15,8 @@ use crate::physics::Motion;
 /// Which side a ball goes to cannot be guessed by the processor, so that all four are worked out without branches.
 #[inline(always)]
 pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
-    if segment.motion == Motion::Rolling {
+    // On a slope a roll bends.
+    if segment.motion == Motion::Rolling && constants.tilt == DVec2::ZERO {
         return cushion_ahead_of_rolling::<S>(constants, segment, horizon);
     }
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
@@ -65,9 +68,12 @@ fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment
     }
     let straight = lesser(to_y, to_x);
     let rail = rail_of(v.x > 0.0, v.y > 0.0, to_y < to_x);
-    // `straight = t - t² / 2 horizon`, since the speed is used up at the horizon.
-    let share = 1.0 - 2.0 * straight / horizon;
-    if share > 0.0 { (Ahead::Meeting(2.0 * straight / (1.0 + share.sqrt())), rail) } else { (Ahead::Nothing, rail) }
+    // `straight = t - t² / 2 stop`, since the speed would be used up then: at the horizon, unless the band ends first.
+    let banded = constants.rolling.growth != 0.0;
+    let stop = if banded { -0.5 * v.length_squared() / v.dot(segment.half_acceleration) } else { horizon };
+    let share = 1.0 - 2.0 * straight / stop;
+    let time = 2.0 * straight / (1.0 + share.sqrt());
+    if share > 0.0 && (!banded || time < horizon) { (Ahead::Meeting(time), rail) } else { (Ahead::Nothing, rail) }
 }
 
 /// When a ball of constant speed closes a gap, s; infinity if it touches already without moving against the cushion.

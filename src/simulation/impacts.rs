@@ -12,8 +12,8 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, ImpactLaw, MAX_CONTACTS, collide_balls, collide_rail,
-        collide_together, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, ImpactLaw, MAX_CONTACTS, collide_together,
+        stop_by_impulses,
     },
     table::BALLS,
 };
@@ -43,7 +43,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
         let c = &self.constants;
         let before = state;
-        collide_rail(c.radius, c.rail_restitution, c.rail_friction, n, &mut state);
+        c.cushion(rail).resolve(c.radius, n, &mut state);
         let mut told = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
@@ -88,7 +88,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let (mut a, mut b) = (state_of(first), state_of(second));
         let before = (a, b);
         let c = self.constants;
-        collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
+        c.balls.resolve(c.radius, &mut a, &mut b);
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
         let mut told = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
@@ -148,7 +148,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 ball.position += (-n.abs().dot(c.reach) - ball.position.dot(n)) * n;
             }
         }
-        let law = ImpactLaw::of(self.table);
+        let law = ImpactLaw { balls: c.balls, cushions: c.cushions };
         let law = if collapsed { law.inelastic() } else { law };
         let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
         let mut told = [false; MAX_CONTACTS];
@@ -163,10 +163,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             self.launch(index, now, &states[index]);
         }
         for (index, contact) in contacts.as_slice().iter().enumerate().filter(|(index, _)| impulses[*index] > 0.0) {
-            let rail = Rail::ALL.into_iter().find(|rail| rail.normal() == contact.cushion_normal);
-            let kind = match (contact.second, rail) {
-                (Some(second), _) => EventKind::BallBall(contact.first, second),
-                (None, rail) => EventKind::BallRail(contact.first, rail.unwrap_or(Rail::Left)),
+            let kind = match contact.second {
+                Some(second) => EventKind::BallBall(contact.first, second),
+                None => EventKind::BallRail(contact.first, Rail::with_normal(contact.cushion_normal)),
             };
             self.tell_impact(now, kind, told[index])?;
         }
@@ -264,7 +263,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let c = self.constants;
         let contacts = rests.as_slice();
         close(&c, &mut states, contacts);
-        let law = ImpactLaw::of(self.table).inelastic();
+        let law = ImpactLaw { balls: c.balls, cushions: c.cushions }.inelastic();
         for _ in 0..MOST_ROUNDS {
             if !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening) {
                 break;

@@ -86,7 +86,7 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
+            segment.half_acceleration = u * (-0.5 * constants.sliding / speed) + 0.5 * constants.tilt;
             (segment, speed * constants.slide_time)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
@@ -101,8 +101,29 @@ impl Segment {
         let speed = self.velocity.length();
         self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
         self.motion = Motion::Rolling;
-        self.half_acceleration = self.velocity * (-0.5 * constants.rolling / speed);
-        (self, speed * constants.roll_time)
+        let (deceleration, end) = constants.rolling.band(speed);
+        self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
+        if constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0 {
+            return (self, speed * constants.roll_time);
+        }
+        // A slope pulls a rolling ball with five sevenths of its acceleration, and helps or hinders the band's end.
+        let pull = 5.0 / 7.0 * constants.tilt;
+        self.half_acceleration += 0.5 * pull;
+        let lasts = (speed - end) * speed / (deceleration * speed - pull.dot(self.velocity));
+        (self, lasts)
+    }
+
+    /// Whether a rolling ball comes to rest at the end of this course, and does not go on in the next band of its
+    /// deceleration.
+    #[inline(always)]
+    pub fn rolls_to_rest(&self, constants: &Constants, lasts: f64) -> bool {
+        (constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0) || self.velocity_at_end(constants, lasts) == DVec2::ZERO
+    }
+
+    /// Velocity at the end of a roll's band, m/s: zero where it is less than what counts as rest.
+    fn velocity_at_end(&self, constants: &Constants, lasts: f64) -> DVec2 {
+        let velocity = self.velocity_after(lasts);
+        if velocity.length_squared() < constants.tolerance.still * constants.tolerance.still { DVec2::ZERO } else { velocity }
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
@@ -113,9 +134,13 @@ impl Segment {
         let start = self.start + duration;
         if self.motion == Motion::Sliding {
             // What the slip leaves is known without its duration, which keeps the rounding small.
-            let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
+            let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0)
+                + (5.0 / 7.0 * duration) * constants.tilt;
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
             if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
+        } else if !self.rolls_to_rest(constants, duration) {
+            let velocity = self.velocity_at_end(constants, duration);
+            Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
             let position = self.position + 0.5 * duration * self.velocity;
             (Self { start, spin, ..Self::at_rest(position) }, f64::INFINITY)
@@ -161,7 +186,12 @@ impl Segment {
             Motion::Rolling => 2.0,
             Motion::Stationary | Motion::Resting => 0.0,
         } * constants.per_radius;
-        let horizontal = self.spin.truncate() + (rate * t) * self.half_acceleration.perp();
+        // A slope does not turn a sliding ball.
+        let turning = match self.motion {
+            Motion::Sliding => self.half_acceleration - 0.5 * constants.tilt,
+            _ => self.half_acceleration,
+        };
+        let horizontal = self.spin.truncate() + (rate * t) * turning.perp();
         horizontal.extend(decayed_spin(self.spin.z, constants.spinning, t))
     }
 
@@ -203,7 +233,7 @@ mod tests {
         let (roll, duration) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
         let (rest, forever) = roll.successor(&constants, duration);
         assert_eq!((rest.motion, forever), (Motion::Stationary, f64::INFINITY));
-        assert!((rest.position.length() - 0.25 / (2.0 * constants.rolling)).abs() < 1e-14);
+        assert!((rest.position.length() - 0.25 / (2.0 * constants.rolling.least)).abs() < 1e-14);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod chart;
 mod clock;
 mod errors;
+pub mod filmed;
 mod methods;
 pub mod plain;
 mod plots;

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use crate::{
-    physics::{BallState, CueInputs, Impulse, Motion, collide_balls, collide_rail, rolling_deceleration, rolling_spin},
+    physics::{BallState, CueInputs, Impulse, Motion, rolling_deceleration, rolling_spin},
     simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
     table::{BALLS, Layout, Table},
 };
@@ -257,13 +257,13 @@ impl<'a, O: Observer> Stepper<'a, O> {
         match kind {
             EventKind::BallBall(first, second) => {
                 let (mut a, mut b) = (self.balls[first].state, self.balls[second].state);
-                collide_balls(c.radius, c.ball_restitution, c.ball_friction, &mut a, &mut b);
+                c.balls.resolve(c.radius, &mut a, &mut b);
                 self.launch(first, a);
                 self.launch(second, b);
             }
             EventKind::BallRail(index, rail) => {
                 let mut state = self.balls[index].state;
-                collide_rail(c.radius, c.rail_restitution, c.rail_friction, rail.normal(), &mut state);
+                c.cushion(rail).resolve(c.radius, rail.normal(), &mut state);
                 self.launch(index, state);
             }
             EventKind::SlidingRolling(index) => {

@@ -1,7 +1,11 @@
 //! What is played on: the table's parameters and the layout of its three balls.
 
 mod layout;
+mod models;
 mod parameters;
+mod rail;
 
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
-pub use parameters::{PRESETS, Table, TableError};
+pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
+pub use parameters::{JUDGED, PRESETS, Table, TableError};
+pub use rail::Rail;

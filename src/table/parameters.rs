@@ -3,10 +3,16 @@
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
+use super::models::{Fade, Rails, SlipFriction, is_zero};
+
 /// Names of the bundled tables, the default first.
-pub const PRESETS: [&str; 2] = ["match", "thesis"];
+pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
+
+/// The bundled tables whose equations are those of the thesis alone: numerics are judged on them.
+pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
 
 const MATCH: &str = include_str!("match.toml");
+const TEXTBOOK: &str = include_str!("textbook.toml");
 const THESIS: &str = include_str!("thesis.toml");
 
 /// A table with its balls, cloth, cushions and cue, in SI units.
@@ -62,13 +68,41 @@ pub struct Table {
     /// Distance `d` of the yellow ball beside the white one in the opening position, m.
     #[serde(rename = "d")]
     pub opening_offset: f64,
+    /// Growth of a rolling ball's deceleration with its speed, 1/s: `a = 5/7 mu_r g + c1 v`.
+    #[serde(rename = "c1", default, skip_serializing_if = "is_zero")]
+    pub rolling_growth: f64,
+    /// How the restitution between balls falls with the speed of the impact.
+    #[serde(rename = "e_ball_fade", default, skip_serializing_if = "Option::is_none")]
+    pub ball_fade: Option<Fade>,
+    /// Friction between balls that falls with the slip; it takes the place of `mu_b` in impacts.
+    #[serde(rename = "mu_b_slip", default, skip_serializing_if = "Option::is_none")]
+    pub ball_slip_friction: Option<SlipFriction>,
+    /// Effective mass of the cue's end, kg, whose sideways inertia makes a ball squirt; without it balls go where the cue
+    /// points.
+    #[serde(rename = "m_end", default, skip_serializing_if = "Option::is_none")]
+    pub cue_end_mass: Option<f64>,
+    /// Acceleration of a ball on a table that is not level, m/s² along x and y.
+    #[serde(default, skip_serializing_if = "is_level")]
+    pub tilt: DVec2,
+    /// The rails' model; without this section balls meet them at the height of their centre.
+    #[serde(default, skip_serializing_if = "is_thesis_rail")]
+    pub rail: Rails,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_level(tilt: &DVec2) -> bool {
+    *tilt == DVec2::ZERO
+}
+
+fn is_thesis_rail(rail: &Rails) -> bool {
+    *rail == Rails::default()
 }
 
 /// Why a table cannot be used.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum TableError {
     /// Neither a preset nor a file.
-    #[error("there is no table \"{0}\"; use \"match\", \"thesis\" or the path of a TOML file")]
+    #[error("there is no table \"{0}\"; use \"match\", \"textbook\", \"thesis\" or the path of a TOML file")]
     Unknown(String),
     /// The TOML text does not describe a table.
     #[error("the table file is not valid: {0}")]
@@ -95,6 +129,7 @@ impl Table {
     pub fn preset(name: &str) -> Result<Self, TableError> {
         match name {
             "match" => Self::from_toml(MATCH),
+            "textbook" => Self::from_toml(TEXTBOOK),
             "thesis" => Self::from_toml(THESIS),
             other => Err(TableError::Unknown(other.to_owned())),
         }
@@ -216,27 +251,27 @@ mod tests {
 
     #[test]
     fn a_restitution_above_one_is_refused_by_name_and_value() {
-        let text = MATCH.replace("e_rail = 0.85", "e_rail = 1.5");
+        let text = TEXTBOOK.replace("e_rail = 0.85", "e_rail = 1.5");
         let message = Table::from_toml(&text).unwrap_err().to_string();
         assert!(message.contains("e_rail = 1.5") && message.contains("0 to 1"), "{message}");
     }
 
     #[test]
     fn what_is_no_table_is_refused_with_its_line() {
-        let message = Table::from_toml(&MATCH.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
+        let message = Table::from_toml(&TEXTBOOK.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
         assert!(message.contains("line 9") && message.contains("f64"), "{message}");
         assert!(Table::from_toml("").unwrap_err().to_string().contains("missing field"));
     }
 
     #[test]
     fn not_a_number_is_refused() {
-        let text = MATCH.replace("mu_s = 0.2", "mu_s = nan");
+        let text = TEXTBOOK.replace("mu_s = 0.2", "mu_s = nan");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_s", .. })));
     }
 
     #[test]
     fn a_cloth_without_friction_on_which_no_shot_would_end_is_refused() {
-        let text = MATCH.replace("mu_r = 0.010", "mu_r = 0");
+        let text = TEXTBOOK.replace("mu_r = 0.010", "mu_r = 0");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_r", .. })));
     }
 

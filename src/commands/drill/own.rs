@@ -32,7 +32,7 @@ pub struct SaveArgs {
     /// A shot that makes it: "a,b,theta,phi,V".
     #[arg(long, allow_hyphen_values = true)]
     shot: Option<String>,
-    /// The table: "match" or "thesis".
+    /// The table: "match", "textbook" or "thesis".
     #[arg(long, default_value = "match")]
     table: String,
     /// Save it over a position of this name.

@@ -42,7 +42,7 @@ pub struct Args {
     /// Seed of the layouts.
     #[arg(long, default_value_t = HELD_OUT_SEED)]
     seed: u64,
-    /// The table: "match", "thesis" or the path of a TOML file.
+    /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
     /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.

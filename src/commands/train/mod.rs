@@ -44,7 +44,7 @@ pub struct Args {
     agent: Option<String>,
     #[arg(long, help = rewards())]
     reward: Option<Reward>,
-    /// The table: "match", "thesis" or the path of a TOML file. By default as --from, or "match".
+    /// The table: "match", "textbook", "thesis" or the path of a TOML file. By default as --from, or "match".
     #[arg(long)]
     table: Option<String>,
     /// Seed of everything random: the same seed gives the same weights.

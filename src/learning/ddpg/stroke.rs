@@ -6,7 +6,10 @@ use super::{
     dual::Dual,
     view::View,
 };
-use crate::{physics::CueInputs, table::Table};
+use crate::{
+    physics::{CueInputs, squirt},
+    table::Table,
+};
 
 /// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
 #[derive(Clone, Copy, Debug)]
@@ -81,12 +84,13 @@ pub fn cue_inputs(table: &Table, view: &View, action: Action) -> CueInputs {
     let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
     let direction = glam::DVec2::from_angle(turn).rotate(line.direction);
     let [left, up] = meaning.tip;
+    let a = view.side_on_table(left.value);
     CueInputs {
         // Adding nought makes a negative nought positive, which people read better.
-        a: view.side_on_table(left.value) + 0.0,
+        a: a + 0.0,
         b: up.value,
         theta: meaning.theta.value,
-        phi: view.angle_on_table(direction),
+        phi: view.angle_on_table(direction) - squirt(table, a),
         speed: meaning.speed.value,
     }
 }

@@ -185,7 +185,8 @@ impl Problem {
     /// The cloth's forces on a ball: known where it slips, rolls or spins, unknown where they hold.
     fn lay_on_cloth(&mut self, table: &Table, ball: usize, state: &BallState, set: &ActiveSet) {
         let gravity = table.gravity;
-        let (sliding, resistance) = (table.sliding_friction * gravity, table.rolling_friction * gravity);
+        let sliding = table.sliding_friction * gravity;
+        let resistance = table.rolling_friction * gravity + 1.4 * table.rolling_growth * state.velocity.length();
         let slips = [DVec2::X, DVec2::Y].map(|axis| Row::cloth(ball, axis));
         if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
             self.known.add(-sliding * against.x, &slips[0]);

@@ -15,43 +15,38 @@
 
 use glam::DVec2;
 
-use super::{BallState, collide_balls, collide_rail, contact_twist};
+use super::{BallImpact, BallState, Cushion, contact_twist};
 use crate::{
     physics::{Contact, MAX_CONTACTS},
-    table::{BALLS, Table},
+    table::{BALLS, Rail},
 };
 
 /// Sweeps over the normal impulses: they converge like a power of at most 3/4 for three balls, in some hundred.
 const MAX_SWEEPS: usize = 2000;
 
-/// Coefficients of restitution and friction of impacts.
+/// The laws of the impacts on a table. Where several contacts close at once, cushions are met at the height of the balls'
+/// centres, with the friction and restitution of slow impacts.
 #[derive(Clone, Copy, Debug)]
 pub struct ImpactLaw {
-    /// Restitution between two balls.
-    pub ball_restitution: f64,
-    /// Friction between two balls; none for a contact that never slips.
-    pub ball_friction: Option<f64>,
-    /// Restitution at a cushion.
-    pub cushion_restitution: f64,
-    /// Friction at a cushion.
-    pub cushion_friction: f64,
+    /// That of two balls.
+    pub balls: BallImpact,
+    /// Those of the four cushions, in the order of [`Rail::ALL`].
+    pub cushions: [Cushion; 4],
 }
 
 impl ImpactLaw {
-    /// That of a table.
-    pub fn of(table: &Table) -> Self {
-        Self {
-            ball_restitution: table.ball_restitution,
-            ball_friction: table.ball_friction,
-            cushion_restitution: table.rail_restitution,
-            cushion_friction: table.rail_friction,
-        }
-    }
-
     /// The same without restitution: the end of endless bounces.
     #[must_use]
     pub fn inelastic(self) -> Self {
-        Self { ball_restitution: 0.0, cushion_restitution: 0.0, ..self }
+        Self { balls: self.balls.inelastic(), cushions: self.cushions.map(Cushion::inelastic) }
+    }
+
+    fn cushion(&self, contact: &Contact) -> &Cushion {
+        &self.cushions[Rail::with_normal(contact.cushion_normal) as usize]
+    }
+
+    fn restitution(&self, contact: &Contact) -> f64 {
+        if contact.second.is_some() { self.balls.restitution } else { self.cushion(contact).restitution }
     }
 }
 
@@ -81,9 +76,9 @@ pub fn collide_together(
         let mut balls = *balls;
         for (index, contact) in contacts.iter().enumerate() {
             let (friction, holds) = if contact.second.is_some() {
-                (law.ball_friction, 1.0 / 7.0)
+                (law.balls.friction, 1.0 / 7.0)
             } else {
-                (Some(law.cushion_friction), 2.0 / 7.0)
+                (Some(law.cushion(contact).friction), 2.0 / 7.0)
             };
             let size = slips[index].length();
             let factor = match friction {
@@ -114,16 +109,10 @@ pub fn collide_together(
 /// A single impact.
 fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> f64 {
     match contact.second {
-        None => collide_rail(
-            radius,
-            law.cushion_restitution,
-            law.cushion_friction,
-            contact.cushion_normal,
-            &mut balls[contact.first],
-        ),
+        None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
         Some(second) => {
             let (mut one, mut other) = (balls[contact.first], balls[second]);
-            let impulse = collide_balls(radius, law.ball_restitution, law.ball_friction, &mut one, &mut other);
+            let impulse = law.balls.resolve(radius, &mut one, &mut other);
             (balls[contact.first], balls[second]) = (one, other);
             impulse
         }
@@ -149,8 +138,7 @@ fn normal_impulses(
     let wanted: Vec<f64> = contacts
         .iter()
         .map(|contact| {
-            let restitution = if contact.second.is_some() { law.ball_restitution } else { law.cushion_restitution };
-            -(1.0 + restitution) * contact.opening_speed(balls)
+            -(1.0 + law.restitution(contact)) * contact.opening_speed(balls)
         })
         .collect();
     let scale = wanted.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
@@ -171,11 +159,23 @@ fn normal_impulses(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::Table;
 
     const RADIUS: f64 = 0.03;
 
     fn law(ball_restitution: f64) -> ImpactLaw {
-        ImpactLaw { ball_restitution, ball_friction: Some(0.0), cushion_restitution: 0.85, cushion_friction: 0.2 }
+        with_friction(ball_restitution, 0.0)
+    }
+
+    fn with_friction(ball_restitution: f64, friction: f64) -> ImpactLaw {
+        let table = Table {
+            ball_restitution,
+            ball_friction: Some(friction),
+            rail_restitution: 0.85,
+            rail_friction: 0.2,
+            ..Table::preset("textbook").unwrap()
+        };
+        ImpactLaw { balls: BallImpact::of(&table), cushions: Rail::ALL.map(|rail| Cushion::of(&table, rail)) }
     }
 
     /// Rounds until nothing closes, as the engine plays them.
@@ -242,7 +242,7 @@ mod tests {
         balls[0] = BallState { velocity: DVec2::new(2.0, 0.7), spin: glam::DVec3::new(30.0, 50.0, -20.0), ..balls[0] };
         balls[1].velocity = DVec2::new(0.5, -0.3);
         let contacts = [Contact::of_balls(0, 1), Contact::with_cushion(1, DVec2::NEG_X)];
-        let law = ImpactLaw { ball_friction: Some(0.3), ..law(0.95) };
+        let law = with_friction(0.95, 0.3);
         let energy = |balls: &[BallState; BALLS]| balls.iter().map(|ball| ball.specific_energy(RADIUS)).sum::<f64>();
         let before = energy(&balls);
         collide(&law, &mut balls, &contacts);

@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn one_contact_alone_collides_by_the_formulas_of_a_single_impact() {
-        for table in ["thesis", "match"].map(|name| Table::preset(name).unwrap()) {
+        for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
             let numbers = Numbers::<D>::of(&table);
             let ball = |position, velocity, spin| Ball { position, velocity, spin, motion: Motion::Sliding };
             let balls = [

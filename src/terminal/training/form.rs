@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Tables that a run can be started on.
-pub const TABLES: [&str; 2] = ["match", "thesis"];
+pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
 /// Numbers of shots to choose from; others can be typed.
 const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];

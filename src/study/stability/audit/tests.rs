@@ -8,7 +8,7 @@ use super::*;
 use crate::{
     simulation::Rail,
     study::stability::{Shot, Stroke, cases, random},
-    table::{Layout, PRESETS},
+    table::{Layout, JUDGED},
 };
 
 /// The largest that is unexplained in a shot, in multiples of what is explained, after somebody has tampered with it.
@@ -62,7 +62,7 @@ fn stop_from(speed: f64, table: &Table, trace: &mut Trace) {
 
 #[test]
 fn ordinary_shots_leave_nothing_unexplained() {
-    for name in PRESETS {
+    for name in JUDGED {
         let table = Table::preset(name).unwrap();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         let left = (0..150).map(|_| unexplained(&table, &random::shot(&table, &mut rng), |_| {}));

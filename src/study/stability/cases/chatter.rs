@@ -9,7 +9,7 @@ use super::{Case, Size, variant};
 use crate::{
     simulation::Rail,
     study::stability::{Limits, Shot, Stroke, Trace, draw},
-    table::{Layout, PRESETS, Table},
+    table::{Layout, JUDGED, Table},
 };
 
 const fn case(
@@ -34,7 +34,7 @@ const HOLDS: &str = "at most 60 events: a chatter is a few of them, however many
 
 fn lively(e: f64) -> Vec<Table> {
     let change = move |table: &mut Table| (table.ball_restitution, table.rail_restitution) = (e, e);
-    PRESETS.iter().filter_map(|name| variant(name, &format!("e = {e}"), change)).collect()
+    JUDGED.iter().filter_map(|name| variant(name, &format!("e = {e}"), change)).collect()
 }
 
 /// So steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long time.

@@ -16,7 +16,7 @@ mod touching;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Check, Figures, Finding, Limits, Progress, Shot, Sweep};
-use crate::table::{PRESETS, Table};
+use crate::table::{JUDGED, Table};
 
 /// One row of the stability table.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +86,7 @@ impl Case {
 
 /// The bundled tables.
 fn presets() -> Vec<Table> {
-    PRESETS.iter().filter_map(|name| Table::preset(name).ok()).collect()
+    JUDGED.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
 /// A case on the bundled tables with something to check.

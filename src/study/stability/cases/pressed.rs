@@ -10,7 +10,7 @@ use super::{Case, Size, presets, rail_course, variant};
 use crate::{
     simulation::Rail,
     study::stability::{Limits, Shot, Stroke, draw},
-    table::{Layout, PRESETS, Table},
+    table::{Layout, JUDGED, Table},
 };
 
 const fn case(name: &'static str, shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot) -> Case {
@@ -43,7 +43,7 @@ fn lively_and_dead() -> Vec<Table> {
 /// Cushions without friction and bounce, on which a pressed ball's course is known but for two integrals.
 fn smooth() -> Vec<Table> {
     let smooth = |table: &mut Table| (table.rail_restitution, table.rail_friction) = (0.0, 0.0);
-    PRESETS.iter().filter_map(|name| variant(name, "smooth and dead cushions", smooth)).collect()
+    JUDGED.iter().filter_map(|name| variant(name, "smooth and dead cushions", smooth)).collect()
 }
 
 /// Follow and some side: the slip at the cloth presses the ball on to what it has met.

@@ -7,7 +7,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{Case, Size, variant};
 use crate::{
     study::stability::{Limits, Shot, Stroke, Trace, draw},
-    table::{Layout, PRESETS, Table},
+    table::{Layout, JUDGED, Table},
 };
 
 pub const CASES: &[Case] = &[
@@ -43,7 +43,7 @@ fn smooth() -> Vec<Table> {
         (table.ball_restitution, table.rail_restitution) = (0.0, 0.0);
         (table.ball_friction, table.rail_friction) = (Some(0.0), 0.0);
     };
-    PRESETS.iter().filter_map(|name| variant(name, "smooth and dead", smooth)).collect()
+    JUDGED.iter().filter_map(|name| variant(name, "smooth and dead", smooth)).collect()
 }
 
 /// Level, with follow: the slip at the cloth drives the ball on.

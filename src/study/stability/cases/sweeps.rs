@@ -25,7 +25,7 @@ pub const CASES: &[Case] = &[
 ];
 
 fn match_table() -> Vec<Table> {
-    Table::preset("match").into_iter().collect()
+    Table::preset("textbook").into_iter().collect()
 }
 
 fn thesis_table() -> Vec<Table> {

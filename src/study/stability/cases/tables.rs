@@ -7,7 +7,7 @@ use super::{Case, Size, variant};
 use crate::{
     physics::Motion,
     study::stability::{Limits, Shot, Stroke, Trace, adversarial, draw, random},
-    table::{BALLS, PRESETS, Table},
+    table::{BALLS, JUDGED, Table},
 };
 
 const fn case(name: &'static str, holds: &'static str, tables: fn() -> Vec<Table>, limits: Limits) -> Case {
@@ -37,7 +37,7 @@ pub const CASES: &[Case] = &[
 ];
 
 fn of_presets(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
-    PRESETS.iter().filter_map(|name| variant(name, what, &change)).collect()
+    JUDGED.iter().filter_map(|name| variant(name, what, &change)).collect()
 }
 
 fn next_to_no_friction() -> Vec<Table> {

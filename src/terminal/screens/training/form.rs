@@ -91,7 +91,11 @@ fn words(form: &Form, field: Field) -> (String, String) {
         }
         Field::Reward => (form.reward.to_string(), reward_words(form.reward).to_owned()),
         Field::Table => {
-            let note = if form.table == "match" { "2.84 x 1.42 m, as clubs have it" } else { "as in the thesis" };
+            let note = match form.table {
+                "match" => "2.84 x 1.42 m, as filmed balls run",
+                "textbook" => "2.84 x 1.42 m, the thesis' equations",
+                _ => "as in the thesis",
+            };
             (form.table.to_owned(), note.to_owned())
         }
         Field::Shots => match form.shots.parse() {

@@ -1,8 +1,8 @@
-//! Collision of a ball with a cushion (thesis 2.2.3).
+//! Impact at the height of the ball's centre (thesis 2.2.3).
 
 use glam::DVec2;
 
-use super::{BallState, contact_twist};
+use super::{super::contact_twist, BallState};
 
 /// Velocity and spin after a collision with the cushion whose normal into the table is `n`. Returns the normal impulse
 /// per mass `P/m`, m/s, which is zero or less for a ball that does not approach.

@@ -1,0 +1,89 @@
+//! Collision of a ball with a cushion: one law a model, chosen by the table.
+
+mod equator;
+mod mathavan;
+mod nose;
+
+use glam::DVec2;
+
+use super::BallState;
+use crate::table::{Fade, Rail, RailModel, Table};
+pub use equator::collide_rail;
+use nose::Grip;
+
+/// One cushion, as an impact needs it.
+#[derive(Clone, Copy, Debug)]
+pub struct Cushion {
+    /// Restitution at a slow impact.
+    pub restitution: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// The law of its impacts.
+    law: Law,
+    fade: Option<Fade>,
+}
+
+/// What decides how an impact goes, worked out once a shot.
+#[derive(Clone, Copy, Debug)]
+enum Law {
+    Equator,
+    /// Sine and cosine of the height at which the nose meets the ball, as seen from its centre, and how it grips.
+    Nose { sine: f64, cosine: f64, grip: Grip },
+    /// The same height; friction of the cloth meanwhile.
+    Mathavan { sine: f64, cosine: f64, cloth: f64 },
+}
+
+impl Cushion {
+    /// A table's cushion.
+    pub fn of(table: &Table, rail: Rail) -> Self {
+        let own = table.rail.own(rail);
+        let restitution = own.e.unwrap_or(table.rail_restitution);
+        let friction = own.mu.unwrap_or(table.rail_friction);
+        let sine = own.height.or(table.rail.height).map_or(0.0, |height| height / table.radius - 1.0);
+        let cosine = (1.0 - sine * sine).sqrt();
+        let law = match table.rail.model {
+            RailModel::Equator => Law::Equator,
+            RailModel::Nose => Law::Nose { sine, cosine, grip: Grip::Sharp },
+            RailModel::Smooth => {
+                let most = 2.0 / 7.0 * table.rail.kappa.unwrap_or(1.0);
+                Law::Nose { sine, cosine, grip: Grip::Smooth { most } }
+            }
+            RailModel::Mathavan => Law::Mathavan { sine, cosine, cloth: table.sliding_friction },
+        };
+        Self { restitution, friction, law, fade: table.rail.fade }
+    }
+
+    /// The end of endless bounces: no restitution, at the height of the ball's centre.
+    #[must_use]
+    pub fn inelastic(self) -> Self {
+        Self { restitution: 0.0, law: Law::Equator, fade: None, ..self }
+    }
+
+    /// Velocity and spin after a collision with this cushion, whose normal into the table is `n`. Returns the impulse per
+    /// mass along the line of the impact, m/s, which is zero or less for a ball that does not approach.
+    #[inline(always)]
+    pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> f64 {
+        match self.law {
+            Law::Equator if self.fade.is_none() => collide_rail(radius, self.restitution, self.friction, n, ball),
+            _ => self.resolve_at_height(radius, n, ball),
+        }
+    }
+
+    #[inline(never)]
+    fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> f64 {
+        let approach = -ball.velocity.dot(n);
+        let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
+        match self.law {
+            Law::Equator => collide_rail(radius, restitution, self.friction, n, ball),
+            Law::Nose { sine, cosine, grip } => {
+                nose::collide(radius, restitution, self.friction, [sine, cosine], grip, n, ball)
+            }
+            Law::Mathavan { sine, cosine, cloth } => {
+                mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! Impact at the height of the nose, above the ball's centre: the geometry of Han, "Dynamics in carom and three cushion
+//! billiards" (2005), with the impulse in closed form.
+//!
+//! With `d` the unit vector from the ball's centre to the nose, `d = -n cos α + z sin α`, `sin α = (h - R)/R`, the impulse
+//! along `d` is `P/m = (1 + e) v·d`. The contact's slip `S` is `v + R ω×d` without its part along `d`, and the friction
+//! `J/m = -f S`. A ball on the cloth keeps its height: what presses it down the cloth takes up.
+
+use glam::{DVec2, DVec3};
+
+use super::BallState;
+
+/// How friction passes from slipping to sticking.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Grip {
+    /// Coulomb's law up to no slip: `f = min(2/7, μ P / (m |S|))`.
+    Sharp,
+    /// `f = L tanh(μ P / (m L |S|))`, with the most `L` that the slip loses.
+    Smooth {
+        /// `L`, two sevenths where the contact just sticks.
+        most: f64,
+    },
+}
+
+/// Velocity and spin after the collision; `[sine, cosine]` of the nose's height, `n` the normal into the table. Returns
+/// `P/m`, m/s.
+pub(super) fn collide(
+    radius: f64,
+    restitution: f64,
+    friction: f64,
+    [sine, cosine]: [f64; 2],
+    grip: Grip,
+    n: DVec2,
+    ball: &mut BallState,
+) -> f64 {
+    let approach = -ball.velocity.dot(n);
+    let normal = (1.0 + restitution) * cosine * approach;
+    if normal <= 0.0 {
+        return normal;
+    }
+    let t = n.perp();
+    let [spin_n, spin_t] = [n, t].map(|axis| ball.spin.truncate().dot(axis));
+    // The slip along t, and along n sin α + z cos α, which both stand across d.
+    let slip_t = ball.velocity.dot(t) - radius * (cosine * ball.spin.z + sine * spin_n);
+    let slip_up = radius * spin_t - sine * approach;
+    let slip = (slip_t * slip_t + slip_up * slip_up).sqrt();
+    let factor = match grip {
+        Grip::Sharp => {
+            let slips = friction * normal / slip;
+            if slips < 2.0 / 7.0 { slips } else { 2.0 / 7.0 }
+        }
+        Grip::Smooth { most } => most * (friction * normal / (most * slip)).tanh(),
+    };
+    // Without slip there is no friction.
+    let factor = if slip > 0.0 { factor } else { 0.0 };
+    let (along, up) = (-factor * slip_t, -factor * slip_up);
+    ball.velocity += (normal * cosine + up * sine) * n + along * t;
+    let lever = 2.5 / radius;
+    ball.spin += DVec3::new(
+        lever * (up * t.x - along * sine * n.x),
+        lever * (up * t.y - along * sine * n.y),
+        -lever * along * cosine,
+    );
+    normal
+}

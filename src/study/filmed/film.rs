@@ -1,0 +1,156 @@
+//! The film: shots of a real match as the places of their balls over time.
+
+use glam::DVec2;
+use serde::Deserialize;
+
+use crate::table::BALLS;
+
+/// The bundled half of the film.
+const FILM: &str = include_str!("../../../tests/data/filmed/shots.jsonl");
+
+/// A ball moves once it is farther than this from where it lay, m: ten times the noise.
+const MOVED: f64 = 0.003;
+
+/// Where a ball was at some moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Time since the film of the shot begins, s.
+    pub time: f64,
+    /// The ball's centre, m from the table's.
+    pub place: DVec2,
+}
+
+/// One filmed shot, the cue ball first.
+#[derive(Clone, Debug)]
+pub struct FilmedShot {
+    /// Its number in the match.
+    pub number: u32,
+    /// Which of the film's three balls comes first here, second and third.
+    pub order: [usize; BALLS],
+    /// The balls' places over time; a ball that lies still has few samples.
+    pub balls: [Vec<Sample>; BALLS],
+    /// When the cue ball was struck, s.
+    pub start: f64,
+}
+
+/// Why a film cannot be read.
+#[derive(Debug, thiserror::Error, PartialEq, Eq)]
+pub enum FilmError {
+    /// The line is not a filmed shot.
+    #[error("line {line} of the film is not a shot ({reason}); accepted is {{\"shot\": 1, \"balls\": [[[t, x, y], …], …, …]}}")]
+    Line {
+        /// Line number from 1.
+        line: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+#[derive(Deserialize)]
+struct Line {
+    shot: u32,
+    balls: [Vec<[f64; 3]>; BALLS],
+}
+
+/// The bundled film.
+pub fn bundled() -> Vec<FilmedShot> {
+    read(FILM).expect("the bundled film is valid: a test reads it")
+}
+
+/// Reads a film: JSON Lines, one shot a line.
+///
+/// # Errors
+/// [`FilmError`] for the first line that is no shot.
+pub fn read(text: &str) -> Result<Vec<FilmedShot>, FilmError> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    lines
+        .map(|(index, line)| {
+            let refuse = |reason: String| FilmError::Line { line: index + 1, reason };
+            let Line { shot, balls } = serde_json::from_str(line).map_err(|error| refuse(error.to_string()))?;
+            FilmedShot::of(shot, balls).map_err(|reason| refuse(reason.to_owned()))
+        })
+        .collect()
+}
+
+impl FilmedShot {
+    fn of(number: u32, balls: [Vec<[f64; 3]>; BALLS]) -> Result<Self, &'static str> {
+        if balls.iter().any(Vec::is_empty) {
+            return Err("a ball without a place");
+        }
+        if balls.iter().flatten().flatten().any(|value| !value.is_finite()) {
+            return Err("a value is not a number");
+        }
+        if balls.iter().any(|ball| ball.windows(2).any(|pair| pair[1][0] <= pair[0][0])) {
+            return Err("the times of a ball do not rise");
+        }
+        let tracks = balls.map(|ball| {
+            let sample = |[time, x, y]: [f64; 3]| Sample { time, place: DVec2::new(x, y) };
+            ball.into_iter().map(sample).collect::<Vec<_>>()
+        });
+        let starts = [0, 1, 2].map(|ball: usize| start_of(&tracks[ball]));
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| starts[a].total_cmp(&starts[b]));
+        let start = starts[order[0]];
+        if !start.is_finite() {
+            return Err("no ball moves");
+        }
+        Ok(Self { number, order, balls: order.map(|ball| tracks[ball].clone()), start })
+    }
+
+    /// A ball's place at `time`, m: between two samples on the straight line.
+    pub fn place(&self, ball: usize, time: f64) -> DVec2 {
+        let track = &self.balls[ball];
+        let after = track.partition_point(|sample| sample.time <= time);
+        match (after.checked_sub(1).map(|index| track[index]), track.get(after)) {
+            (Some(from), Some(to)) => from.place.lerp(to.place, (time - from.time) / (to.time - from.time)),
+            (Some(only), None) => only.place,
+            (None, _) => track[0].place,
+        }
+    }
+}
+
+/// When a ball begins to move: where the way from its last sample at rest leads back to.
+fn start_of(track: &[Sample]) -> f64 {
+    let rest = track[0].place;
+    track.iter().position(|sample| sample.place.distance(rest) > MOVED).map_or(f64::INFINITY, |moved| {
+        let (last, now) = (track[moved - 1], track[moved]);
+        // At the speed of the next stretch, if there is one.
+        match track.get(moved + 1) {
+            Some(next) => {
+                let speed = next.place.distance(now.place) / (next.time - now.time);
+                (now.time - now.place.distance(rest) / speed.max(1e-3)).max(last.time)
+            }
+            None => last.time,
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bundled_film_has_91_shots_that_begin_with_the_cue_ball() {
+        let film = bundled();
+        assert_eq!(film.len(), 91);
+        for shot in &film {
+            assert!((0.0..0.2).contains(&shot.start), "shot {} starts at {}", shot.number, shot.start);
+            let moved = shot.place(0, shot.start + 0.1).distance(shot.balls[0][0].place);
+            assert!(moved > 0.02, "shot {}: {moved}", shot.number);
+        }
+    }
+
+    #[test]
+    fn a_broken_line_is_refused_with_its_number() {
+        let good = FILM.lines().next().unwrap();
+        for (bad, reason) in [
+            ("{", "EOF"),
+            (r#"{"shot":1,"balls":[[[0,0,0]],[[0,1,1]],[]]}"#, "without a place"),
+            (r#"{"shot":1,"balls":[[[0,0,0],[0,1,0]],[[0,1,1]],[[0,1,0]]]}"#, "do not rise"),
+            (r#"{"shot":1,"balls":[[[0,0,0]],[[0,1,1]],[[0,1,0]]]}"#, "no ball moves"),
+        ] {
+            let message = read(&format!("{good}\n{bad}\n")).unwrap_err().to_string();
+            assert!(message.contains("line 2") && message.contains(reason), "{message}");
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Where and when a filmed ball met the rails, and the chains of rails that it met without another ball between.
+
+use glam::DVec2;
+
+use super::film::{FilmedShot, Sample};
+use crate::table::{BALLS, Rail, Table};
+
+/// A filmed meeting of a ball with a rail.
+#[derive(Clone, Copy, Debug)]
+pub struct RailHit {
+    /// Time, s.
+    pub time: f64,
+    /// The rail.
+    pub rail: Rail,
+    /// The ball's centre, m.
+    pub place: DVec2,
+}
+
+/// Samples on each side of a hit whose line leads to it.
+const SIDE: usize = 2;
+
+/// The lines before and after a hit meet the rail within this time of each other, s: dwell and noise.
+const AGREE: f64 = 0.03;
+
+/// Balls nearer than their diameter and this may have touched, m.
+const CLEARANCE: f64 = 0.006;
+
+/// All rail hits of one ball that the film shows clearly, in order of time.
+pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
+    let mut hits = Vec::new();
+    for rail in Rail::ALL {
+        let n = rail.normal();
+        let reach = n.abs().dot(table.reach());
+        let gap = |sample: &Sample| sample.place.dot(n) + reach;
+        for i in 1..track.len().saturating_sub(1) {
+            let nearest = gap(&track[i]) <= gap(&track[i - 1]) && gap(&track[i]) < gap(&track[i + 1]);
+            if !nearest || gap(&track[i]) > 0.15 {
+                continue;
+            }
+            hits.extend(hit_at(table, track, i, rail));
+        }
+    }
+    hits.sort_by(|a, b| a.time.total_cmp(&b.time));
+    hits
+}
+
+/// The hit near sample `i`: where the straight lines through the samples before and after it meet the rail.
+fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailHit> {
+    let n = rail.normal();
+    let reach = n.abs().dot(table.reach());
+    let gap = |sample: &Sample| sample.place.dot(n) + reach;
+    // A sample on the rail itself belongs to neither side.
+    let on_rail = gap(&track[i]) < 0.002;
+    let meets = |samples: &[Sample]| -> Option<(f64, DVec2)> {
+        let (first, last) = (samples.first()?, samples.last()?);
+        let lasts = last.time - first.time;
+        let velocity = (last.place - first.place) / lasts;
+        let closing = velocity.dot(n);
+        let time = first.time - gap(first) / closing;
+        (lasts > 0.0 && lasts < 0.13 && closing.abs() > 0.03).then(|| (time, first.place + (time - first.time) * velocity))
+    };
+    // A sample off the rail lies before the hit or after it: on the side whose lines agree better.
+    let sides: &[[usize; 2]] = if on_rail { &[[i, i + 1]] } else { &[[i + 1, i + 1], [i, i]] };
+    let found = sides.iter().filter_map(|&[end, begin]| {
+        let before = &track[end.saturating_sub(SIDE)..end];
+        let after = track.get(begin..(begin + SIDE).min(track.len()))?;
+        if before.len() < 2 || after.len() < 2 {
+            return None;
+        }
+        let ((t1, p1), (t2, p2)) = (meets(before)?, meets(after)?);
+        let mut place = 0.5 * (p1 + p2);
+        place += (-reach - place.dot(n)) * n;
+        Some(((t1 - t2).abs(), p1.distance(p2), RailHit { time: 0.5 * (t1 + t2), rail, place }))
+    });
+    let (apart, beside, hit) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (apart < AGREE && beside < 0.05).then_some(hit)
+}
+
+/// Whether a ball came near another between two times.
+pub fn is_undisturbed(table: &Table, shot: &FilmedShot, ball: usize, from: f64, to: f64) -> bool {
+    let steps = ((to - from) / 0.005).ceil().max(1.0);
+    let near = 2.0 * table.radius + CLEARANCE;
+    (0..=steps as usize).all(|step| {
+        let time = from + (to - from) * step as f64 / steps;
+        let place = shot.place(ball, time);
+        (0..BALLS).filter(|&other| other != ball).all(|other| shot.place(other, time).distance(place) > near)
+    })
+}
+
+/// All stretches of `count` rail hits in a row with no other ball near; each as the ball and its hits.
+pub fn chains(table: &Table, shot: &FilmedShot, count: usize) -> Vec<(usize, Vec<RailHit>)> {
+    let mut chains = Vec::new();
+    for ball in 0..BALLS {
+        let hits = rail_hits(table, &shot.balls[ball]);
+        chains.extend(hits.windows(count).filter(|hits| is_chain(table, shot, ball, hits)).map(|hits| (ball, hits.to_vec())));
+    }
+    chains
+}
+
+/// The film's rail hits in stretches that do not overlap, each as long as no other ball comes near, of `least` to `most`.
+pub fn stretches(table: &Table, shot: &FilmedShot, least: usize, most: usize) -> Vec<(usize, Vec<RailHit>)> {
+    let mut found = Vec::new();
+    for ball in 0..BALLS {
+        let hits = rail_hits(table, &shot.balls[ball]);
+        let mut from = 0;
+        while from + least <= hits.len() {
+            let longest =
+                (least..=most).rev().find(|&n| from + n <= hits.len() && is_chain(table, shot, ball, &hits[from..from + n]));
+            if let Some(count) = longest {
+                found.push((ball, hits[from..from + count].to_vec()));
+                from += count - 1;
+            } else {
+                from += 1;
+            }
+        }
+    }
+    found
+}
+
+fn is_chain(table: &Table, shot: &FilmedShot, ball: usize, hits: &[RailHit]) -> bool {
+    let different = hits.windows(2).all(|pair| pair[0].rail != pair[1].rail && pair[1].time > pair[0].time);
+    different && is_undisturbed(table, shot, ball, hits[0].time, hits[hits.len() - 1].time)
+}
