@@ -113,7 +113,8 @@ fn wrong_input_ends_with_two_and_says_what_would_do() {
 fn a_folder_that_cannot_be_made_is_named() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let folder = file.path().join("inside");
-    let output = carom(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder.to_str().unwrap()]);
+    let output =
+        carom(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8(output.stderr).unwrap().contains("accuracy.csv"));
 }

@@ -72,7 +72,10 @@ mod tests {
                 let speed = 0.04 * f64::from(step);
                 let (exact, bands, count) = roll(&Rolling { least, growth }, speed);
                 for (exact, bands) in exact.into_iter().zip(bands) {
-                    assert!((bands / exact - 1.0).abs() < 1.05e-3, "{least} + {growth} v from {speed}: {bands}, {exact}");
+                    assert!(
+                        (bands / exact - 1.0).abs() < 1.05e-3,
+                        "{least} + {growth} v from {speed}: {bands}, {exact}"
+                    );
                 }
                 assert!(count <= 14, "{count} bands from {speed} m/s");
             }

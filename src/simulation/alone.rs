@@ -17,10 +17,7 @@ use super::{
     predict::Ahead,
     savings::Savings,
 };
-use crate::{
-    physics::Motion,
-    table::BALLS,
-};
+use crate::{physics::Motion, table::BALLS};
 
 /// A free ball's course and its next event.
 struct Course {

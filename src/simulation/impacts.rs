@@ -11,10 +11,7 @@ use super::{
     savings::Savings,
 };
 use crate::{
-    physics::{
-        ActiveSet, BallState, Contact, Contacts, ImpactLaw, MAX_CONTACTS, collide_together,
-        stop_by_impulses,
-    },
+    physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, MAX_CONTACTS, collide_together, stop_by_impulses},
     table::BALLS,
 };
 

@@ -117,13 +117,18 @@ impl Segment {
     /// deceleration.
     #[inline(always)]
     pub fn rolls_to_rest(&self, constants: &Constants, lasts: f64) -> bool {
-        (constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0) || self.velocity_at_end(constants, lasts) == DVec2::ZERO
+        (constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0)
+            || self.velocity_at_end(constants, lasts) == DVec2::ZERO
     }
 
     /// Velocity at the end of a roll's band, m/s: zero where it is less than what counts as rest.
     fn velocity_at_end(&self, constants: &Constants, lasts: f64) -> DVec2 {
         let velocity = self.velocity_after(lasts);
-        if velocity.length_squared() < constants.tolerance.still * constants.tolerance.still { DVec2::ZERO } else { velocity }
+        if velocity.length_squared() < constants.tolerance.still * constants.tolerance.still {
+            DVec2::ZERO
+        } else {
+            velocity
+        }
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.

@@ -135,12 +135,8 @@ fn normal_impulses(
         let shared: f64 = (0..BALLS).map(|ball| sense(&contacts[i], ball) * sense(&contacts[j], ball)).sum();
         shared * normals[i].dot(normals[j])
     };
-    let wanted: Vec<f64> = contacts
-        .iter()
-        .map(|contact| {
-            -(1.0 + law.restitution(contact)) * contact.opening_speed(balls)
-        })
-        .collect();
+    let wanted: Vec<f64> =
+        contacts.iter().map(|contact| -(1.0 + law.restitution(contact)) * contact.opening_speed(balls)).collect();
     let scale = wanted.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     for _ in 0..MAX_SWEEPS {
         let mut change = 0.0_f64;

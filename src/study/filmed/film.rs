@@ -37,7 +37,9 @@ pub struct FilmedShot {
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
 pub enum FilmError {
     /// The line is not a filmed shot.
-    #[error("line {line} of the film is not a shot ({reason}); accepted is {{\"shot\": 1, \"balls\": [[[t, x, y], …], …, …]}}")]
+    #[error(
+        "line {line} of the film is not a shot ({reason}); accepted is {{\"shot\": 1, \"balls\": [[[t, x, y], …], …, …]}}"
+    )]
     Line {
         /// Line number from 1.
         line: usize,

@@ -107,7 +107,8 @@ mod tests {
 
     #[test]
     fn a_decay_is_found_from_its_points() {
-        let points: Vec<(f64, f64)> = (0..20).map(|i| 0.1 * f64::from(i)).map(|t| (t, 3.0 * (-1.7 * t).exp())).collect();
+        let points: Vec<(f64, f64)> =
+            (0..20).map(|i| 0.1 * f64::from(i)).map(|t| (t, 3.0 * (-1.7 * t).exp())).collect();
         let found = fit([1.0, 1.0], [1e-6, 1e-6], 50, &mut |[size, rate], out| {
             out.clear();
             out.extend(points.iter().map(|(t, y)| size * (-rate * t).exp() - y));

@@ -57,7 +57,8 @@ fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailH
         let velocity = (last.place - first.place) / lasts;
         let closing = velocity.dot(n);
         let time = first.time - gap(first) / closing;
-        (lasts > 0.0 && lasts < 0.13 && closing.abs() > 0.03).then(|| (time, first.place + (time - first.time) * velocity))
+        (lasts > 0.0 && lasts < 0.13 && closing.abs() > 0.03)
+            .then(|| (time, first.place + (time - first.time) * velocity))
     };
     // A sample off the rail lies before the hit or after it: on the side whose lines agree better.
     let sides: &[[usize; 2]] = if on_rail { &[[i, i + 1]] } else { &[[i + 1, i + 1], [i, i]] };
@@ -92,7 +93,9 @@ pub fn chains(table: &Table, shot: &FilmedShot, count: usize) -> Vec<(usize, Vec
     let mut chains = Vec::new();
     for ball in 0..BALLS {
         let hits = rail_hits(table, &shot.balls[ball]);
-        chains.extend(hits.windows(count).filter(|hits| is_chain(table, shot, ball, hits)).map(|hits| (ball, hits.to_vec())));
+        chains.extend(
+            hits.windows(count).filter(|hits| is_chain(table, shot, ball, hits)).map(|hits| (ball, hits.to_vec())),
+        );
     }
     chains
 }
@@ -104,8 +107,9 @@ pub fn stretches(table: &Table, shot: &FilmedShot, least: usize, most: usize) ->
         let hits = rail_hits(table, &shot.balls[ball]);
         let mut from = 0;
         while from + least <= hits.len() {
-            let longest =
-                (least..=most).rev().find(|&n| from + n <= hits.len() && is_chain(table, shot, ball, &hits[from..from + n]));
+            let longest = (least..=most)
+                .rev()
+                .find(|&n| from + n <= hits.len() && is_chain(table, shot, ball, &hits[from..from + n]));
             if let Some(count) = longest {
                 found.push((ball, hits[from..from + count].to_vec()));
                 from += count - 1;

@@ -82,7 +82,8 @@ pub(super) fn collide(
     let step = approach / STEPS;
     let (mut impulse, mut work) = (0.0, 0.0);
     // Work along the line of the impact for a step: the mean speed times the impulse, the speed being -v_n cos α.
-    let worked = |before: &Motion, after: &Motion, step: f64| -0.5 * (before.velocity.x + after.velocity.x) * cosine * step;
+    let worked =
+        |before: &Motion, after: &Motion, step: f64| -0.5 * (before.velocity.x + after.velocity.x) * cosine * step;
     // A nose and a cloth that could hold the ball for ever do not exist: the guard is ten times any real impulse.
     while motion.velocity.x < 0.0 && impulse < 20.0 * approach {
         let next = law.step(&motion, step);

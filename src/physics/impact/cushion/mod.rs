@@ -28,9 +28,17 @@ pub struct Cushion {
 enum Law {
     Equator,
     /// Sine and cosine of the height at which the nose meets the ball, as seen from its centre, and how it grips.
-    Nose { sine: f64, cosine: f64, grip: Grip },
+    Nose {
+        sine: f64,
+        cosine: f64,
+        grip: Grip,
+    },
     /// The same height; friction of the cloth meanwhile.
-    Mathavan { sine: f64, cosine: f64, cloth: f64 },
+    Mathavan {
+        sine: f64,
+        cosine: f64,
+        cloth: f64,
+    },
 }
 
 impl Cushion {

@@ -10,7 +10,10 @@ const RADIUS: f64 = 0.030_75;
 
 fn cushion(model: RailModel, height: f64) -> Cushion {
     let rail = Rails { model, height: Some(height), kappa: Some(1.146), ..Rails::default() };
-    Cushion::of(&Table { rail, radius: RADIUS, rail_restitution: 0.87, rail_friction: 0.25, ..Table::default() }, Rail::Right)
+    Cushion::of(
+        &Table { rail, radius: RADIUS, rail_restitution: 0.87, rail_friction: 0.25, ..Table::default() },
+        Rail::Right,
+    )
 }
 
 const MODELS: [RailModel; 4] = [RailModel::Equator, RailModel::Nose, RailModel::Smooth, RailModel::Mathavan];

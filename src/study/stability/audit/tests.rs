@@ -8,7 +8,7 @@ use super::*;
 use crate::{
     simulation::Rail,
     study::stability::{Shot, Stroke, cases, random},
-    table::{Layout, JUDGED},
+    table::{JUDGED, Layout},
 };
 
 /// The largest that is unexplained in a shot, in multiples of what is explained, after somebody has tampered with it.

@@ -9,7 +9,7 @@ use super::{Case, Size, variant};
 use crate::{
     simulation::Rail,
     study::stability::{Limits, Shot, Stroke, Trace, draw},
-    table::{Layout, JUDGED, Table},
+    table::{JUDGED, Layout, Table},
 };
 
 const fn case(

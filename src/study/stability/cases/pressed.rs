@@ -10,7 +10,7 @@ use super::{Case, Size, presets, rail_course, variant};
 use crate::{
     simulation::Rail,
     study::stability::{Limits, Shot, Stroke, draw},
-    table::{Layout, JUDGED, Table},
+    table::{JUDGED, Layout, Table},
 };
 
 const fn case(name: &'static str, shot: fn(&Table, &mut Xoshiro256PlusPlus) -> Shot) -> Case {

@@ -7,7 +7,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{Case, Size, variant};
 use crate::{
     study::stability::{Limits, Shot, Stroke, Trace, draw},
-    table::{Layout, JUDGED, Table},
+    table::{JUDGED, Layout, Table},
 };
 
 pub const CASES: &[Case] = &[
