@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::{Failure, input::table_named};
 use crate::{
     storage::write_atomic,
-    study::{self, Method, Plan, Study, random_shots, stability},
+    study::{self, Method, Plan, Study, filmed, random_shots, stability},
     table::{JUDGED, Table},
 };
 
@@ -37,6 +37,12 @@ pub struct Args {
     /// stiff or extreme case on each table, or a tenth of them with --quick. --shots sets the random ones.
     #[arg(long, conflicts_with = "table")]
     stability: bool,
+    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film.
+    #[arg(long, conflicts_with_all = ["stability", "shots", "quick"])]
+    filmed: bool,
+    /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
+    #[arg(long, requires = "filmed")]
+    fit: bool,
     /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -66,6 +72,9 @@ impl Size {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if args.filmed {
+        return if args.fit { fit_film(args) } else { replay_film(args) };
+    }
     if args.stability {
         let plan = if args.quick { stability::Plan::QUICK } else { stability::Plan::REPORT };
         let random = args.shots.map_or(plan.random, u64::from);
@@ -108,6 +117,55 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
+}
+
+/// What models of the table reach on the film.
+fn replay_film(args: &Args) -> Result<(), Failure> {
+    let film = filmed::bundled();
+    let models = match &args.table {
+        Some(name) => table_named(name).map(|table| vec![(table.name.clone(), table)])?,
+        None => filmed::models(),
+    };
+    let rows = filmed::rows(&models, &film, |name| eprintln!("playing the film on {name} ..."));
+    if let Some(folder) = &args.out {
+        write_file(folder, "filmed.csv", &filmed::csv(&rows))?;
+        if let Some((_, table)) = models.last() {
+            write_file(folder, "filmed.svg", &filmed::paths(table, &film))?;
+        }
+    }
+    let mut out = std::io::stdout().lock();
+    if args.json {
+        rows.iter().try_for_each(|row| write_json(&mut out, row))?;
+    } else {
+        out.write_all(filmed::text(&rows).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Constants that come nearest to the film: all of it, and each half judged on the other.
+fn fit_film(args: &Args) -> Result<(), Failure> {
+    let film = filmed::bundled();
+    let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), table_named)?;
+    let model = table.rail.model;
+    let half =
+        |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());
+    let (even, odd): (Vec<_>, Vec<_>) = (half(0).collect(), half(1).collect());
+    let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
+    let mut out = std::io::stdout().lock();
+    for (used, fit_on, judge_on) in parts {
+        eprintln!("fitting {used} ...");
+        let fitted = filmed::fit_constants(&table, model, fit_on);
+        let name = format!("fitted to {used}");
+        let row = filmed::judge(&name, &fitted.table, judge_on);
+        if args.json {
+            write_json(&mut out, &fitted)?;
+            write_json(&mut out, &row)?;
+        } else {
+            let judged = if std::ptr::eq(fit_on, judge_on) { "the same shots" } else { "the shots that were not used" };
+            writeln!(out, "{}Judged on {judged}:\n{}", filmed::fit_text(&fitted, used), filmed::text(&[row]))?;
+        }
+    }
+    Ok(())
 }
 
 /// The stability table, which tells of each stiff or extreme case how many shots fail and why.
