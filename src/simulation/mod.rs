@@ -22,9 +22,10 @@ mod savings;
 mod segment;
 mod tolerance;
 
+pub use crate::table::Rail;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
-pub use events::{Event, EventKind, Observer, Patience, Rail};
+pub use events::{Event, EventKind, Observer, Patience};
 pub use playback::{Recorder, Recording, ShotError};
 pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};

@@ -2,6 +2,10 @@
 
 mod layout;
 mod parameters;
+mod rail;
+mod room;
 
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
 pub use parameters::{PRESETS, Table, TableError};
+pub use rail::Rail;
+pub use room::Room;

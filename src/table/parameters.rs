@@ -3,6 +3,8 @@
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
+use super::Room;
+
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 2] = ["match", "thesis"];
 
@@ -62,6 +64,9 @@ pub struct Table {
     /// Distance `d` of the yellow ball beside the white one in the opening position, m.
     #[serde(rename = "d")]
     pub opening_offset: f64,
+    /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<Room>,
 }
 
 /// Why a table cannot be used.
@@ -150,6 +155,9 @@ impl Table {
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
+        }
+        if let Some((key, value, accepted)) = self.room.and_then(|room| room.flaw(self.radius)) {
+            return refuse(key, value, accepted);
         }
         Ok(self)
     }
