@@ -272,4 +272,4 @@ impl Stick {
 }
 
 #[cfg(test)]
-mod tests;
+pub mod tests;

@@ -10,6 +10,8 @@ pub use contact::{
     ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
 };
 pub use cue::{CueError, CueInputs, Impulse, strike};
+#[cfg(test)]
+pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
 pub use impact::{ImpactLaw, collide_balls, collide_rail, collide_together};
 pub use motion::{

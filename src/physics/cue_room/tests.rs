@@ -1,3 +1,5 @@
+//! The cue's room against a cue of many points.
+
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
@@ -51,7 +53,7 @@ fn towards_trouble(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueInp
 }
 
 /// Whether a point of the cue is in a rail or a ball, by looking at many of them: the definition, written down again.
-fn collides(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+pub fn collides(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let room = table.room.unwrap();
     let (sin, cos) = cue.theta.sin_cos();
     let forward = DVec2::from_angle(cue.phi);
