@@ -10,7 +10,7 @@ use super::{
     output::impulse_words,
 };
 use crate::{
-    physics::CueInputs,
+    physics::{CueInputs, LeastElevation, NoRoom, has_room, least_elevation},
     simulation::{Event, Recording},
     study::{Stepped, Steps},
     table::{Layout, Table},
@@ -68,8 +68,46 @@ struct Answer {
     #[serde(rename = "final")]
     end: Layout,
     duration: f64,
+    /// On a table that says how much room the cue needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cue_room: Option<CueRoom>,
     #[serde(flatten)]
     steps: Option<StepsAnswer>,
+}
+
+/// How low the cue can be held.
+#[derive(Debug, Serialize)]
+struct CueRoom {
+    /// Whether it can be held as the stroke has it.
+    has_room: bool,
+    /// The least elevation, degrees; null where there is none that would do.
+    least_theta_deg: Option<f64>,
+    /// What it passes over, or what is in the way.
+    over: Option<String>,
+}
+
+impl CueRoom {
+    fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Self> {
+        table.room?;
+        let (least, over) = match least_elevation(table, layout, cue) {
+            Ok(LeastElevation { theta, over }) => (Some(theta), over),
+            Err(NoRoom { obstacle }) => (None, Some(obstacle)),
+        };
+        Some(Self {
+            has_room: has_room(table, layout, cue),
+            least_theta_deg: least.map(f64::to_degrees),
+            over: over.map(|obstacle| obstacle.to_string()),
+        })
+    }
+
+    /// What a player who wants to play the stroke has to know; nothing where the cue has room.
+    fn note(&self) -> Option<String> {
+        let over = self.over.as_deref().filter(|_| !self.has_room)?;
+        Some(match self.least_theta_deg {
+            Some(least) => format!("the cue cannot be held so low: below {least:.2} degrees {over} is in the way"),
+            None => format!("the cue has no room at any elevation: {over} is in the way"),
+        })
+    }
 }
 
 /// What the fixed-step method has to own up to.
@@ -82,8 +120,9 @@ struct StepsAnswer {
 }
 
 impl Answer {
-    fn of((recording, stepped): &Played) -> Self {
+    fn of((recording, stepped): &Played, cue_room: Option<CueRoom>) -> Self {
         Self {
+            cue_room,
             events: recording.events().to_vec(),
             end: recording.final_layout(),
             duration: recording.duration(),
@@ -104,7 +143,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
         return answer_lines(file, |question: Question| {
-            Ok(Answer::of(&play(tables.get(&question.preset)?, &question.layout, &question.cue, steps)?))
+            let Question { preset, layout, cue } = question;
+            let table = tables.get(&preset)?;
+            Ok(Answer::of(&play(table, &layout, &cue, steps)?, CueRoom::of(table, &layout, &cue)))
         });
     }
     let (table, layout) = args.scene.read()?;
@@ -119,9 +160,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             table.miscue_limit
         );
     }
+    let cue_room = CueRoom::of(&table, &layout, &cue);
+    if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
+        eprintln!("note: {note}");
+    }
     let mut out = io::stdout().lock();
     if args.json {
-        serde_json::to_writer(&mut out, &Answer::of(&played)).map_err(io::Error::from)?;
+        serde_json::to_writer(&mut out, &Answer::of(&played, cue_room)).map_err(io::Error::from)?;
         writeln!(out)?;
     } else {
         describe(&mut out, &played)?;

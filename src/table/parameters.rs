@@ -3,7 +3,10 @@
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-use super::models::{Fade, Rails, SlipFriction, is_zero};
+use super::{
+    Room, flaws,
+    models::{Fade, Rails, SlipFriction, is_zero},
+};
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
@@ -84,6 +87,9 @@ pub struct Table {
     /// Acceleration of a ball on a table that is not level, m/s² along x and y.
     #[serde(default, skip_serializing_if = "is_level")]
     pub tilt: DVec2,
+    /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<Room>,
     /// The rails' model; without this section balls meet them at the height of their centre.
     #[serde(default, skip_serializing_if = "is_thesis_rail")]
     pub rail: Rails,
@@ -177,6 +183,9 @@ impl Table {
                 return refuse(key, value, accepted);
             }
         }
+        if let Some((key, value, accepted)) = flaws::first(&self) {
+            return refuse(key, value, accepted);
+        }
         // Three balls must find room side by side, or no layout exists.
         for (key, side) in [("L", self.length), ("l", self.width)] {
             if side < 6.0 * self.radius {
@@ -185,6 +194,9 @@ impl Table {
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
+        }
+        if let Some((key, value, accepted)) = self.room.and_then(|room| room.flaw(self.radius)) {
+            return refuse(key, value, accepted);
         }
         Ok(self)
     }

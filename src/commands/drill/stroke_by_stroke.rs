@@ -21,7 +21,7 @@ use crate::{
         exam::{Mark, mark},
     },
     learning::evaluation::SuccessRate,
-    physics::CueInputs,
+    physics::{CueInputs, least_elevation},
     table::{Layout, Table},
 };
 
@@ -172,6 +172,9 @@ impl<'a> StrokeByStroke<'a> {
             (Stroke::Coach, None) => return Ok(false),
         };
         let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
+        let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
+        let is_raised = raised != meant;
+        let meant = raised;
         let share = chance(self.session.skill, rule, table, layout, &meant);
         if let Some(attempt) = self.session.attempts.last_mut() {
             attempt.by_coach = helped;
@@ -215,6 +218,11 @@ impl<'a> StrokeByStroke<'a> {
             json_line(&turn)?;
             return Ok(true);
         }
+        if is_raised {
+            let over = least_elevation(table, layout, &meant).ok().and_then(|least| least.over);
+            let over = over.map_or(String::new(), |over| format!(": {over} is in the way of a lower one"));
+            line(format_args!("   the cue is raised to {:.2} degrees{over}", meant.theta.to_degrees()))?;
+        }
         line(format_args!("{number}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
         if helped {
             line(format_args!("   the coach played {}", shot_text(&meant)))?;
@@ -235,7 +243,7 @@ impl<'a> StrokeByStroke<'a> {
     /// The shot that the exercise teaches, where the balls lie for it.
     fn own(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
-        exercise.shot.filter(|_| !self.session.is_game())
+        exercise.taught().filter(|_| !self.session.is_game())
     }
 
     fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {

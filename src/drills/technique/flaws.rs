@@ -6,7 +6,7 @@ use super::{PATTERNS, Technique};
 use crate::{
     drills::{Category, Exercise, ExerciseError},
     game::scores,
-    physics::CueInputs,
+    physics::{CueInputs, has_room},
 };
 
 /// Balls are gathered where no two are further apart, m: a little less than two diamonds of a `match` table.
@@ -29,6 +29,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let misses = |changed: CueInputs| !scores(exercise.rule, &table, layout, &changed);
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let mut checks = vec![
+        ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", technique.tally.is_point(exercise.rule)),
         ("it meets ball 1 first", technique.first == Some(1)),
         ("it meets ball 1 only once before ball 2", technique.is_clean),

@@ -22,9 +22,9 @@ use crate::{
 
 /// The bundled policies: the table's name, what was rewarded, and the file.
 const BUNDLED: [(&str, Reward, &[u8]); 9] = [
-    ("match", Reward::R3, include_bytes!("../../../models/textbook-r3.safetensors")),
-    ("match", Reward::OneCushion, include_bytes!("../../../models/textbook-one-cushion.safetensors")),
-    ("match", Reward::ThreeCushion, include_bytes!("../../../models/textbook-three-cushion.safetensors")),
+    ("match", Reward::R3, include_bytes!("../../../models/match-r3.safetensors")),
+    ("match", Reward::OneCushion, include_bytes!("../../../models/match-one-cushion.safetensors")),
+    ("match", Reward::ThreeCushion, include_bytes!("../../../models/match-three-cushion.safetensors")),
     ("textbook", Reward::R3, include_bytes!("../../../models/textbook-r3.safetensors")),
     ("textbook", Reward::OneCushion, include_bytes!("../../../models/textbook-one-cushion.safetensors")),
     ("textbook", Reward::ThreeCushion, include_bytes!("../../../models/textbook-three-cushion.safetensors")),

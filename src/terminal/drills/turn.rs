@@ -18,7 +18,7 @@ use super::{
 use crate::{
     coach::Skill,
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
-    physics::CueInputs,
+    physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
     table::{Layout, Table},
     terminal::{history::History, keymap::DrillAction, playback::Playback, shot::Shot, status::Message},
 };
@@ -121,6 +121,19 @@ impl Turn {
     /// The stroke that is set.
     pub const fn stroke(&self) -> &CueInputs {
         self.strokes.present()
+    }
+
+    /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
+    pub fn raised_stroke(&self) -> CueInputs {
+        with_room(&self.table, &self.layout, self.stroke()).unwrap_or(*self.stroke())
+    }
+
+    /// How low the cue can be held for the stroke that is set.
+    ///
+    /// # Errors
+    /// Where it has no room at all.
+    pub fn least_elevation(&self) -> Result<LeastElevation, NoRoom> {
+        least_elevation(&self.table, &self.layout, self.stroke())
     }
 
     /// Sets another stroke, as `action` wants it.
@@ -230,7 +243,7 @@ impl Turn {
             rule: self.exercise.rule,
             skill: self.session.skill,
             plan: self.session.is_game(),
-            own: self.exercise.shot.filter(|_| is_exact && !self.session.is_game()),
+            own: self.exercise.taught().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
     }
@@ -271,7 +284,9 @@ impl Turn {
         let mut playback = Playback::default();
         let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
         playback.toggle(duration);
-        let mut watched = Watched { outcome, meant: *self.stroke(), chance: None, playback, is_settled: false };
+        let noted = outcome.session.attempts.last().and_then(|attempt| attempt.meant);
+        let meant = noted.unwrap_or(*self.stroke());
+        let mut watched = Watched { outcome, meant, chance: None, playback, is_settled: false };
         watched.settle();
         self.stage = Stage::Watching(Box::new(watched));
     }

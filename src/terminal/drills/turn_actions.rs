@@ -78,7 +78,7 @@ impl DrillScreen {
                 None => self.message = Some(Message::warning("further out the tip would slip off the ball")),
             },
             Action::Centre => turn.set_stroke(CueInputs { a: 0.0, b: 0.0, ..cue }, action),
-            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&cue, degrees), action),
+            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&turn.raised_stroke(), degrees), action),
             Action::Faster(by) => turn.set_stroke(aiming::faster(&cue, by), action),
             Action::StrokeBack => turn.travel(History::undo),
             Action::StrokeAgain => turn.travel(History::redo),

@@ -9,7 +9,7 @@ use ratatui::{
 use super::{percent, write_paragraphs};
 use crate::{
     drills::changes,
-    physics::CueInputs,
+    physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     terminal::{
         app::App,
         drills::{Lesson, Meets, Sight, Taught, Turn, Watched},
@@ -25,7 +25,7 @@ const FULL: f64 = 0.995;
 /// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
-    let cue = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
+    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
     let inner = draw_title(&Line::from(Span::styled("Your stroke", theme.text())), area, theme, look, buffer);
     let degree = look.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
@@ -68,6 +68,13 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     } else {
         if let Some(sight) = turn.sight() {
             paragraphs.push((sight_words(&sight), theme.accent()));
+            match turn.least_elevation() {
+                Ok(LeastElevation { theta, over: Some(over) }) => {
+                    paragraphs.push((least_words(theta, over, look), theme.faint()));
+                }
+                Ok(LeastElevation { over: None, .. }) => {}
+                Err(NoRoom { obstacle }) => paragraphs.push((no_room_words(obstacle), theme.warning())),
+            }
         }
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
@@ -96,6 +103,24 @@ fn sight_words(sight: &Sight) -> String {
     }
 }
 
+/// How low the cue can be held, and what it passes over.
+fn least_words(theta: f64, over: Obstacle, look: Look) -> String {
+    let degree = look.pick("°", " deg");
+    format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over))
+}
+
+/// What keeps the cue from being held at all.
+fn no_room_words(obstacle: Obstacle) -> String {
+    format!("no room for the cue: the {} is in the way", obstacle_word(obstacle))
+}
+
+fn obstacle_word(obstacle: Obstacle) -> String {
+    match obstacle {
+        Obstacle::Rail(rail) => rail_name(rail).to_owned(),
+        Obstacle::Ball(ball) => format!("{} ball", BALL_NAMES[ball]),
+    }
+}
+
 /// Whose shot it is that is taught.
 const fn teacher(taught: &Taught) -> &'static str {
     if taught.is_own { "taught" } else { "coach" }
@@ -114,7 +139,7 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, look: Look) -> Str
 /// How often the stroke is made that is taught, and how to set it.
 fn hint(turn: &Turn, taught: &Taught, look: Look) -> String {
     let advice = &taught.advice;
-    let changes = told(turn, [turn.stroke(), &advice.cue], "as it is set", look);
+    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", look);
     format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
 }
 
@@ -141,4 +166,24 @@ fn differences(turn: &Turn, watched: &Watched, look: Look) -> [String; 2] {
     };
     let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", look);
     [lesson, format!("your hand: {added}")]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        simulation::Rail,
+        terminal::look::{Depth, Glyphs},
+    };
+
+    #[test]
+    fn the_least_elevation_is_told_with_what_the_cue_passes_over() {
+        let look = |unicode| Look { depth: Depth::True, glyphs: Glyphs::Letters, unicode };
+        let theta = 7.26_f64.to_radians();
+        let over_rail = least_words(theta, Obstacle::Rail(Rail::Top), look(true));
+        assert_eq!(over_rail, "cue at least 7.3° up, over the top rail");
+        let over_ball = least_words(theta, Obstacle::Ball(1), look(false));
+        assert_eq!(over_ball, "cue at least 7.3 deg up, over the yellow ball");
+        assert_eq!(no_room_words(Obstacle::Ball(2)), "no room for the cue: the red ball is in the way");
+    }
 }
