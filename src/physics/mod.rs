@@ -14,7 +14,7 @@ pub use cue::{CueError, CueInputs, Impulse, squirt, strike};
 #[cfg(test)]
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
-pub use impact::{BallImpact, Cushion, ImpactLaw, collide_balls, collide_rail, collide_together};
+pub use impact::{BallImpact, Cushion, Cushions, ImpactLaw, collide_balls, collide_rail, collide_together};
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };

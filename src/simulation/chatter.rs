@@ -13,8 +13,8 @@ use super::{
     contacts::{PAIRS, nearly_touching},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, resolve, slip},
-    table::{BALLS, Rail, Table},
+    physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
+    table::{BALLS, Table},
 };
 
 /// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.
@@ -109,6 +109,7 @@ fn shaken(constants: &Constants, balls: &[BallState; BALLS], contact: &Contact, 
 pub fn settles(
     table: &Table,
     constants: &Constants,
+    law: &ImpactLaw,
     contact: &Contact,
     balls: &[BallState; BALLS],
     shrinking: f64,
@@ -148,11 +149,7 @@ pub fn settles(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slow_crowd } {
         return None;
     }
-    let restitution = if contact.second.is_some() {
-        constants.balls.restitution
-    } else {
-        constants.cushion(Rail::with_normal(contact.cushion_normal)).restitution
-    };
+    let restitution = law.restitution(contact);
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let chatter = 2.0 * speed / (pull * (1.0 - restitution));
     let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use crate::{
-    physics::{BallState, CueInputs, Impulse, Motion, rolling_deceleration, rolling_spin},
+    physics::{BallState, CueInputs, ImpactLaw, Impulse, Motion, rolling_deceleration, rolling_spin},
     simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
     table::{BALLS, Layout, Table},
 };
@@ -123,6 +123,7 @@ impl Ball {
 
 struct Stepper<'a, O> {
     constants: Constants,
+    law: ImpactLaw,
     observer: &'a mut O,
     balls: [Ball; BALLS],
     now: f64,
@@ -138,7 +139,7 @@ impl<'a, O: Observer> Stepper<'a, O> {
             ends: f64::INFINITY,
         });
         let constants = Constants::of(table);
-        Self { constants, observer, balls, now: 0.0, last_event: 0.0, deepest_overlap: 0.0 }
+        Self { constants, law: ImpactLaw::of(table), observer, balls, now: 0.0, last_event: 0.0, deepest_overlap: 0.0 }
     }
 
     fn at_rest(&self) -> bool {
@@ -257,13 +258,13 @@ impl<'a, O: Observer> Stepper<'a, O> {
         match kind {
             EventKind::BallBall(first, second) => {
                 let (mut a, mut b) = (self.balls[first].state, self.balls[second].state);
-                c.balls.resolve(c.radius, &mut a, &mut b);
+                self.law.balls.resolve(c.radius, &mut a, &mut b);
                 self.launch(first, a);
                 self.launch(second, b);
             }
             EventKind::BallRail(index, rail) => {
                 let mut state = self.balls[index].state;
-                c.cushion(rail).resolve(c.radius, rail.normal(), &mut state);
+                self.law.cushions.at(rail).resolve(c.radius, rail.normal(), &mut state);
                 self.launch(index, state);
             }
             EventKind::SlidingRolling(index) => {
