@@ -6,10 +6,10 @@
 
 /// One over a band's share of its first speed `v` is this and this times `c1 v / a`: the relative error of a whole roll's
 /// length and of its time is then a thousandth at most.
-const SHARE: [f64; 2] = [1.3, 8.0];
+const SHARE: [f64; 2] = [1.4, 9.5];
 
 /// The last band begins where `c1 v` is this share of the least deceleration.
-const LAST: f64 = 0.012;
+const LAST: f64 = 0.0118;
 
 /// The law of a rolling ball's deceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]

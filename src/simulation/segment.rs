@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_sliding_ball_rolls_exactly_when_its_slip_is_used_up() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let state =
             BallState { position: DVec2::ZERO, velocity: DVec2::new(2.0, -1.0), spin: DVec3::new(30.0, -70.0, 20.0) };
         let (slide, duration) = Segment::free(&constants, 0.0, &state);
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_rolling_ball_stops_after_v_squared_over_two_a() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let velocity = DVec2::new(0.3, 0.4);
         let spin = rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, duration) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
@@ -244,7 +244,7 @@ mod tests {
 
     #[test]
     fn spin_about_the_vertical_decays_to_zero_and_stays_there() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let spin = DVec3::new(0.0, 0.0, -1.0);
         let state = BallState { position: DVec2::ZERO, velocity: DVec2::ZERO, spin };
         let (rest, _) = Segment::free(&constants, 0.0, &state);

@@ -324,14 +324,14 @@ mod tests {
     use super::*;
 
     fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let cue = CueInputs::parse(shot).unwrap();
         Steps::new(dt, locate).unwrap().record(&table, &Layout::opening(&table), &cue).unwrap()
     }
 
     fn error(dt: f64, locate: bool) -> f64 {
         let shot = "0,0.2,5,12.5,3";
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let exact = Recording::new(&table, &Layout::opening(&table), &CueInputs::parse(shot).unwrap()).unwrap();
         let stepped = play(dt, locate, shot).0;
         let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);

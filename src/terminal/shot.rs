@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     fn shot(layout: &str, cue: &str) -> Shot {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let layout = Layout::parse(layout, &table).unwrap();
         Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "policy").unwrap()
     }

@@ -24,7 +24,7 @@ fn unexplained(table: &Table, shot: &Shot, tamper: impl FnOnce(&mut Trace)) -> f
 /// Over two cushions and a ball.
 fn lively() -> (Table, Shot) {
     let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
-    (Table::default(), Shot { layout, cue: Stroke { a: 0.2, b: 0.3, ..Stroke::centre(0.0, 4.0) } })
+    (Table::preset("textbook").unwrap(), Shot { layout, cue: Stroke { a: 0.2, b: 0.3, ..Stroke::centre(0.0, 4.0) } })
 }
 
 /// A shot on the thesis' table whose cue ball is pressed against a cushion for a while.
@@ -140,7 +140,7 @@ fn dead_impact(table: &Table, rests: bool) -> Taken {
 
 #[test]
 fn an_impact_takes_everything_only_where_the_bounces_that_are_left_out_have_their_time() {
-    let table = Table::default();
+    let table = Table::preset("textbook").unwrap();
     let e = table.rail_restitution;
     let Taken { unexplained, bounces } = dead_impact(&table, false);
     assert!((unexplained - 0.5e-6 * e * e).abs() < 1e-15 && bounces.is_none());
