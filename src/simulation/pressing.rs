@@ -20,6 +20,16 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
+        if resting.go_on(self.table) {
+            self.contact_step()?;
+            let members = resting.members;
+            self.resting = Some(resting);
+            for index in (0..BALLS).filter(|&index| members[index]) {
+                self.rest(index, now);
+            }
+            self.look_ahead_of_pressed(now, members);
+            return ControlFlow::Continue(());
+        }
         let mut members: Vec<&mut BallState> =
             resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
         still(self.constants.tolerance.still, self.constants.radius, &mut members);
@@ -101,7 +111,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         self.resting =
             match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
                 Outcome::Rests(resting) => {
-                    self.next_step = resting.next_step;
+                    self.next_step = f64::INFINITY;
                     for index in (0..BALLS).filter(|&index| !resting.members[index]) {
                         if resting.begin[index] != states[index] {
                             states[index] = resting.begin[index];

@@ -7,6 +7,7 @@
 
 mod active_set;
 mod forces;
+mod held;
 mod linear;
 mod problem;
 mod solve;
@@ -16,7 +17,8 @@ use glam::{DVec2, DVec3};
 use super::BallState;
 use crate::table::BALLS;
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
-pub use forces::{Forces, Resolved, forces, resolve, stop_by_impulses, yielding};
+pub use forces::{Forces, Resolved, resolve, yielding};
+pub use held::{forces, stop_by_impulses};
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
