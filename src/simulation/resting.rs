@@ -236,11 +236,15 @@ impl Resting {
     /// What is reached after `span`, by a step that begins at `from`.
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
-        let slope = |phase: &Phase| self.slope(table.radius, &phase.balls, &self.forces(table, &phase.balls));
+        let mut last = from.forces;
+        let slope = |phase: &Phase| {
+            last = self.forces(table, &phase.balls, &last);
+            self.slope(table.radius, &phase.balls, &last)
+        };
         let first = self.slope(table.radius, &begin.balls, &from.forces);
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let step = extrapolate(begin, &first, slope, self.members, length, table.radius, tolerance);
-        Trial { span, step, forces: self.forces(table, &step.end.balls) }
+        Trial { span, step, forces: self.forces(table, &step.end.balls, &from.forces) }
     }
 
     /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
@@ -254,24 +258,33 @@ impl Resting {
         self.while_it_holds(table, begin, whole)
     }
 
-    /// Finds the zero of the slack, by false position with the Illinois rule. Each guess begins at the last place before.
+    /// Finds the zero of the slack, by false position with the Illinois rule, and by halves where one end stays. Each guess
+    /// begins at the last place before.
     fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let allowed = self.constants.tolerance.slack;
         let (mut before, mut after) = (*begin, *whole);
         let (mut low_value, mut high_value) = ((self.first.slack + allowed).max(0.0), after.forces.slack + allowed);
+        let mut same_side = 0_i32;
         for _ in 0..MAX_GUESSES {
             if high_value >= -allowed || after.span - before.span <= SHORTEST_STEP {
                 break;
             }
-            let share = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
+            let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
+            let share = if same_side.abs() > 2 { 0.5 } else { secant };
             let middle = self.attempt(table, &before, before.span + share * (after.span - before.span));
             let value = middle.forces.slack + allowed;
             if value < 0.0 {
                 (after, high_value) = (middle, value);
-                low_value *= 0.5;
+                same_side = same_side.max(0) + 1;
+                if same_side > 1 {
+                    low_value *= 0.5;
+                }
             } else {
                 (before, low_value) = (middle, value);
-                high_value *= 0.5;
+                same_side = same_side.min(0) - 1;
+                if same_side < -1 {
+                    high_value *= 0.5;
+                }
             }
         }
         after
@@ -389,11 +402,11 @@ impl Resting {
         balls
     }
 
-    /// The forces in this step's regime.
-    fn forces(&self, table: &Table, state: &State) -> Forces {
+    /// The forces in this step's regime; they have to be sought from `near` ones on where a friction yields.
+    fn forces(&self, table: &Table, state: &State, near: &Forces) -> Forces {
         let contacts = self.contacts.as_slice();
         if self.set.yields() {
-            return yielding(table, state, contacts, &self.set, &self.first);
+            return yielding(table, state, contacts, &self.set, near);
         }
         forces(table, state, contacts, &self.set, Some(&self.first)).unwrap_or(self.first)
     }

@@ -173,9 +173,7 @@ fn slack_of_one(unknown: &Unknown, sizes: &[f64]) -> f64 {
 /// A spin that has turned round has ended before.
 fn spin_slack(radius: f64, balls: &[BallState; BALLS], set: &ActiveSet) -> f64 {
     set.spin.iter().zip(balls).fold(f64::INFINITY, |slack, (spin, ball)| match spin {
-        Friction::Slips(sign) if sign.x != 0.0 && ball.spin.z * sign.x < 0.0 => {
-            slack.min(radius * ball.spin.z * sign.x)
-        }
+        Friction::Slips(sign) if sign.x != 0.0 => slack.min(radius * ball.spin.z * sign.x),
         _ => slack,
     })
 }

@@ -10,8 +10,8 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Most unknowns: a normal force and two frictions a contact.
-const MOST: usize = 3 * MAX_CONTACTS;
+/// Unknowns for which there is room on the stack: three contacts that stick. More are rare.
+const ROOM: usize = 9;
 
 /// Added to a diagonal whose entries are 1 to 10, where forces are not unique: a ball that is held by several things at once.
 /// It picks the forces nearest to what they were; further steps take its effect out again.
@@ -28,13 +28,13 @@ const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
 /// Accelerations, speeds or their changes: of the centre, and R times those of the spin.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Movement {
-    pub linear: [DVec2; BALLS],
-    pub angular: [DVec3; BALLS],
+struct Movement {
+    linear: [DVec2; BALLS],
+    angular: [DVec3; BALLS],
 }
 
 impl Movement {
-    pub const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
+    const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
 }
 
 /// How the cloth holds a ball.
@@ -96,58 +96,88 @@ impl Grip {
     }
 }
 
-/// An unknown force in a contact: its direction, and the direction whose rate it keeps at zero.
+/// Along a contact's normal, its tangent `t = z×n` and z: forces, or rates.
+type Triple = [f64; 3];
+
+/// A contact and what is known of it.
 #[derive(Clone, Copy)]
-struct Unknown {
-    contact: usize,
-    /// What a unit of it does to the first ball; the second gets the opposite push and the same twist.
-    push: DVec2,
-    twist: DVec3,
-    /// The row of the rate.
-    along: DVec2,
-    around: DVec3,
-    /// What the rate has besides, m/s²: two balls' courses around each other bend.
-    bias: f64,
+struct Joint {
+    first: usize,
+    second: Option<usize>,
+    n: DVec2,
+    t: DVec2,
+    /// Its first unknown.
+    at: usize,
+    /// The normal force alone, or two frictions that hold as well.
+    unknowns: usize,
+    /// Friction along t and z for each unit of the normal force, where the contact slips.
+    rub: DVec2,
+    /// What the rates have besides the accelerations' part, m/s²: two balls' courses around each other bend.
+    bias: Triple,
+}
+
+impl Joint {
+    const NONE: Self = Self {
+        first: 0,
+        second: None,
+        n: DVec2::ZERO,
+        t: DVec2::ZERO,
+        at: 0,
+        unknowns: 0,
+        rub: DVec2::ZERO,
+        bias: [0.0; 3],
+    };
+
+    /// The force of one unknown alone.
+    fn unit(&self, unknown: usize) -> Triple {
+        match unknown {
+            0 => [1.0, self.rub.x, self.rub.y],
+            1 => [0.0, 1.0, 0.0],
+            _ => [0.0, 0.0, 1.0],
+        }
+    }
+
+    /// What a force does to each of its balls: the push, which the second gets the other way, and the twist.
+    fn act(&self, [normal, along, up]: Triple) -> (DVec2, DVec3) {
+        (normal * self.n + along * self.t, (2.5 * up * self.t).extend(-2.5 * along))
+    }
+
+    fn members(&self) -> impl Iterator<Item = (usize, f64)> {
+        [(self.first, 1.0)].into_iter().chain(self.second.map(|second| (second, -1.0)))
+    }
+
+    fn rates(&self, movement: &Movement) -> Triple {
+        let (mut apart, mut around) = (movement.linear[self.first], movement.angular[self.first]);
+        if let Some(second) = self.second {
+            apart -= movement.linear[second];
+            around += movement.angular[second];
+        }
+        [apart.dot(self.n), apart.dot(self.t) - around.z, around.truncate().dot(self.t)]
+    }
 }
 
 /// The linear system of one regime in one state.
-pub(super) struct Held<'a> {
-    contacts: &'a [Contact],
+struct Held {
+    joints: [Joint; MAX_CONTACTS],
+    contacts: usize,
+    unknowns: usize,
     grips: [Grip; BALLS],
-    unknowns: [Unknown; MOST],
-    count: usize,
-    /// Friction against each contact's normal force, per unit of it, along t and z; none where it holds.
-    rubbing: [Option<DVec2>; MAX_CONTACTS],
-    /// Sizes of the unknowns.
-    pub sizes: [f64; MOST],
+    members: [bool; BALLS],
+    /// Each contact's unknowns.
+    sizes: [Triple; MAX_CONTACTS],
 }
 
-impl<'a> Held<'a> {
-    /// The system of the `contacts`; `rubs` says whether normal forces bring the friction of contacts that slip with them.
-    pub fn new(
+impl Held {
+    /// The system of the `contacts`; `rubs` says whether the normal force of one that slips brings its friction with it.
+    fn new(
         table: &Table,
         balls: &[BallState; BALLS],
-        contacts: &'a [Contact],
+        contacts: &[Contact],
         set: &ActiveSet,
         rubs: impl Fn(&Contact) -> bool,
     ) -> Self {
-        let none = Unknown {
-            contact: 0,
-            push: DVec2::ZERO,
-            twist: DVec3::ZERO,
-            along: DVec2::ZERO,
-            around: DVec3::ZERO,
-            bias: 0.0,
-        };
-        let mut system = Self {
-            contacts,
-            grips: std::array::from_fn(|ball| Grip::of(set, ball)),
-            unknowns: [none; MOST],
-            count: 0,
-            rubbing: [None; MAX_CONTACTS],
-            sizes: [0.0; MOST],
-        };
-        for (index, contact) in contacts.iter().enumerate() {
+        let joint = |index: usize| {
+            let contact = &contacts[index];
             let (n, slip) = contact.normal_and_slip(table.radius, balls);
             let t = n.perp();
             let (mut centripetal, mut turning) = (0.0, 0.0);
@@ -159,64 +189,77 @@ impl<'a> Held<'a> {
                 let spin = balls[contact.first].spin + balls[second].spin;
                 turning = -table.radius * (across / diameter) * spin.truncate().dot(n);
             }
-            let twist = |along: f64, up: f64| 2.5 * (up * t).extend(-along);
-            let row = |push, twist, along, around, bias| Unknown { contact: index, push, twist, along, around, bias };
-            if let Some(against) = set.contact[index].direction(slip) {
-                let mu = if rubs(contact) { coefficient(table, contact) } else { 0.0 };
-                let rub = -mu * against;
-                system.rubbing[index] = Some(rub);
-                system.push(row(n + rub.x * t, twist(rub.x, rub.y), n, DVec3::ZERO, centripetal));
-            } else {
-                system.push(row(n, DVec3::ZERO, n, DVec3::ZERO, centripetal));
-                system.push(row(t, twist(1.0, 0.0), t, DVec3::NEG_Z, 0.0));
-                system.push(row(DVec2::ZERO, twist(0.0, 1.0), DVec2::ZERO, t.extend(0.0), turning));
+            let against = set.contact[index].direction(slip);
+            let mu = if rubs(contact) { coefficient(table, contact) } else { 0.0 };
+            Joint {
+                first: contact.first,
+                second: contact.second,
+                n,
+                t,
+                at: 0,
+                unknowns: if against.is_some() { 1 } else { 3 },
+                rub: -mu * against.unwrap_or(DVec2::ZERO),
+                bias: [centripetal, 0.0, turning],
             }
+        };
+        let mut system = Self {
+            joints: [Joint::NONE; MAX_CONTACTS],
+            contacts: contacts.len(),
+            unknowns: 0,
+            grips: std::array::from_fn(|ball| Grip::of(set, ball)),
+            members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
+            sizes: [[0.0; 3]; MAX_CONTACTS],
+        };
+        for (index, place) in system.joints[..contacts.len()].iter_mut().enumerate() {
+            *place = Joint { at: system.unknowns, ..joint(index) };
+            system.unknowns += place.unknowns;
         }
         system
     }
 
-    fn push(&mut self, unknown: Unknown) {
-        self.unknowns[self.count] = unknown;
-        self.count += 1;
+    fn joints(&self) -> &[Joint] {
+        &self.joints[..self.contacts]
     }
 
-    fn members(&self, unknown: &Unknown) -> [Option<(usize, f64)>; 2] {
-        let contact = &self.contacts[unknown.contact];
-        [Some((contact.first, 1.0)), contact.second.map(|second| (second, -1.0))]
-    }
-
-    /// The rate of an unknown's direction in a movement.
-    fn rate(&self, unknown: &Unknown, movement: &Movement) -> f64 {
-        self.members(unknown).into_iter().flatten().fold(0.0, |rate, (ball, sense)| {
-            rate + sense * unknown.along.dot(movement.linear[ball]) + unknown.around.dot(movement.angular[ball])
-        })
+    /// The rates of all unknowns by all unknowns, row by row.
+    fn fill(&self, matrix: &mut [f64]) {
+        for joint in self.joints() {
+            for unknown in 0..joint.unknowns {
+                let (push, twist) = joint.act(joint.unit(unknown));
+                let mut response = Movement::NONE;
+                for (ball, sense) in joint.members() {
+                    (response.linear[ball], response.angular[ball]) = self.grips[ball].held(sense * push, twist);
+                }
+                for other in self.joints() {
+                    for (row, rate) in other.rates(&response)[..other.unknowns].iter().enumerate() {
+                        matrix[(other.at + row) * self.unknowns + joint.at + unknown] = *rate;
+                    }
+                }
+            }
+        }
     }
 
     /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
-    /// whether the courses' bends count. Returns the movement; none where they cannot vanish together.
-    pub fn solve(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
-        let count = self.count;
-        let mut matrix = [0.0; MOST * MOST];
-        for (column, unknown) in self.unknowns[..count].iter().enumerate() {
-            let mut response = Movement::NONE;
-            for (ball, sense) in self.members(unknown).into_iter().flatten() {
-                (response.linear[ball], response.angular[ball]) =
-                    self.grips[ball].held(sense * unknown.push, unknown.twist);
-            }
-            for (row, other) in self.unknowns[..count].iter().enumerate() {
-                matrix[row * count + column] = self.rate(other, &response);
-            }
-        }
-        let mut pivots = [0; MOST];
-        let (pivots, entries) = (&mut pivots[..count], count * count);
-        let mut factors = [0.0; MOST * MOST];
-        let factors = &mut factors[..entries];
-        factors.copy_from_slice(&matrix[..entries]);
+    /// whether the courses' bends count. Returns the movement before the cloth holds it and after; none where the rates
+    /// cannot vanish together.
+    fn solve(&mut self, free: &Movement, bends: bool) -> Option<[Movement; 2]> {
+        let count = self.unknowns;
+        let entries = count * count;
+        let (mut near, mut far) = ([0.0; ROOM * ROOM], Vec::new());
+        let factors = if count <= ROOM {
+            &mut near[..entries]
+        } else {
+            far.resize(entries, 0.0);
+            &mut far[..]
+        };
+        let mut pivots = [0; 3 * MAX_CONTACTS];
+        let pivots = &mut pivots[..count];
+        self.fill(factors);
         let unique = factorize(factors, pivots) > SINGULAR;
         if unique {
-            self.sizes = [0.0; MOST];
+            self.sizes = [[0.0; 3]; MAX_CONTACTS];
         } else {
-            factors.copy_from_slice(&matrix[..entries]);
+            self.fill(factors);
             for index in 0..count {
                 factors[index * (count + 1)] += PROXIMITY;
             }
@@ -227,52 +270,58 @@ impl<'a> Held<'a> {
         });
         let mut smallest = f64::INFINITY;
         for _ in 0..MAX_REFINEMENTS {
-            let moved = self.moved(&self.under_forces(free));
-            let mut side = [0.0; MOST];
+            let (forced, moved) = self.moved(free);
+            let mut side = [0.0; 3 * MAX_CONTACTS];
             let (mut residual, mut scale) = (0.0_f64, scale);
-            for (side, (unknown, size)) in side.iter_mut().zip(self.unknowns[..count].iter().zip(&self.sizes)) {
-                let bias = if bends { unknown.bias } else { 0.0 };
-                *side = -(self.rate(unknown, &moved) + bias);
-                residual = residual.max(side.abs());
-                scale = scale.max(size.abs()).max(bias.abs());
+            for (joint, sizes) in self.joints().iter().zip(&self.sizes) {
+                let rates = joint.rates(&moved);
+                for unknown in 0..joint.unknowns {
+                    let bias = if bends { joint.bias[unknown] } else { 0.0 };
+                    let rate = rates[unknown] + bias;
+                    side[joint.at + unknown] = -rate;
+                    residual = residual.max(rate.abs());
+                    scale = scale.max(sizes[unknown].abs()).max(bias.abs());
+                }
             }
             // Once rounding is reached, more rounds would only stir it.
             if residual <= 16.0 * f64::EPSILON * scale
                 || (residual <= ROUNDING * scale && (unique || residual >= 0.5 * smallest))
             {
-                return Some(moved);
+                return Some([forced, moved]);
             }
             smallest = smallest.min(residual);
             substitute(factors, pivots, &mut side[..count]);
-            for (size, change) in self.sizes.iter_mut().zip(&side[..count]) {
-                *size += change;
+            for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
+                for (size, change) in sizes[..joint.unknowns].iter_mut().zip(&side[joint.at..]) {
+                    *size += change;
+                }
             }
         }
         None
     }
 
-    /// The movement under the contacts' forces, before the cloth holds it.
-    fn under_forces(&self, free: &Movement) -> Movement {
-        let mut sum = *free;
-        for (unknown, size) in self.unknowns[..self.count].iter().zip(self.sizes) {
-            for (ball, sense) in self.members(unknown).into_iter().flatten() {
-                sum.linear[ball] += sense * size * unknown.push;
-                sum.angular[ball] += size * unknown.twist;
-            }
-        }
-        sum
+    /// The force in a contact.
+    fn force(&self, index: usize) -> Triple {
+        let [normal, along, up] = self.sizes[index];
+        let rub = self.joints[index].rub;
+        [normal, along + rub.x * normal, up + rub.y * normal]
     }
 
-    /// What the cloth leaves of a movement.
-    fn moved(&self, free: &Movement) -> Movement {
-        let mut moved = *free;
-        for ball in 0..BALLS {
-            if self.contacts.iter().any(|contact| contact.has(ball)) {
-                (moved.linear[ball], moved.angular[ball]) =
-                    self.grips[ball].held(free.linear[ball], free.angular[ball]);
+    /// The movement under the contacts' forces, before the cloth holds it and after.
+    fn moved(&self, free: &Movement) -> (Movement, Movement) {
+        let mut forced = *free;
+        for (index, joint) in self.joints().iter().enumerate() {
+            let (push, twist) = joint.act(self.force(index));
+            for (ball, sense) in joint.members() {
+                forced.linear[ball] += sense * push;
+                forced.angular[ball] += twist;
             }
         }
-        moved
+        let mut moved = forced;
+        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
+            (moved.linear[ball], moved.angular[ball]) = self.grips[ball].held(forced.linear[ball], forced.angular[ball]);
+        }
+        (forced, moved)
     }
 }
 
@@ -287,20 +336,15 @@ pub fn forces(
 ) -> Option<Forces> {
     let mut system = Held::new(table, balls, contacts, set, |_| true);
     if let Some(similar) = similar {
-        let mut at = 0;
-        for index in 0..contacts.len() {
-            system.sizes[at] = similar.normal[index];
-            at += 1;
-            if system.rubbing[index].is_none() {
-                (system.sizes[at], system.sizes[at + 1]) = (similar.friction[index].x, similar.friction[index].y);
-                at += 2;
-            }
+        for (index, joint) in system.joints[..contacts.len()].iter().enumerate() {
+            let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
+            system.sizes[index] = [similar.normal[index], friction.x, friction.y];
         }
     }
     let [sliding, rolling, boring] =
         [table.sliding_friction, table.rolling_friction, table.spinning_friction].map(|mu| mu * table.gravity);
     let mut free = Movement::NONE;
-    let members: [bool; BALLS] = std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball)));
+    let members = system.members;
     let mut forces = Forces::NONE;
     for ball in (0..BALLS).filter(|&ball| members[ball]) {
         let state = &balls[ball];
@@ -313,14 +357,13 @@ pub fn forces(
         }
         if let Friction::Slips(sign) = set.spin[ball] {
             angular.z = -2.5 * boring * sign.x;
-            if sign.x != 0.0 && state.spin.z * sign.x < 0.0 {
-                // It has ended before.
+            if sign.x != 0.0 {
+                // A spin that has turned round has ended before.
                 forces.slack = forces.slack.min(table.radius * state.spin.z * sign.x);
             }
         }
     }
-    let moved = system.solve(&free, true)?;
-    let unheld = system.under_forces(&free);
+    let [unheld, moved] = system.solve(&free, true)?;
     let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
     for ball in (0..BALLS).filter(|&ball| members[ball]) {
         let grip = system.grips[ball];
@@ -338,20 +381,13 @@ pub fn forces(
         forces.linear[ball] = moved.linear[ball];
         forces.angular[ball] = moved.angular[ball] / table.radius;
     }
-    let mut at = 0;
     for (index, contact) in contacts.iter().enumerate() {
-        let normal = system.sizes[at];
-        forces.normal[index] = normal;
+        let [normal, along, up] = system.force(index);
+        (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
         limit(normal, 0.0);
-        at += 1;
-        forces.friction[index] = if let Some(rub) = system.rubbing[index] {
-            normal * rub
-        } else {
-            let friction = DVec2::new(system.sizes[at], system.sizes[at + 1]);
-            limit(coefficient(table, contact) * normal, friction.length());
-            at += 2;
-            friction
-        };
+        if system.joints[index].unknowns == 3 {
+            limit(coefficient(table, contact) * normal, along.hypot(up));
+        }
     }
     Some(forces)
 }
@@ -367,8 +403,8 @@ pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts:
         linear: balls.map(|ball| ball.velocity),
         angular: balls.map(|ball| table.radius * ball.spin),
     };
-    if let Some(stopped) = system.solve(&speeds, false) {
-        for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| contacts.iter().any(|c| c.has(*ball))) {
+    if let Some([_, stopped]) = system.solve(&speeds, false) {
+        for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
             (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
         }
     }
