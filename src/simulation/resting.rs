@@ -24,7 +24,7 @@ use crate::{
 const SHORTEST_STEP: f64 = 1e-13;
 
 /// A slip may fall to this power of `e` in a step: to a tenth.
-const FALL: f64 = 2.3;
+const FALL: f64 = 1.3;
 
 /// How far a course may stray from the polynomial of degree five as which it is handed on, m. In a step of `h` seconds along
 /// which a slip turns in `turn` seconds under accelerations `a` it strays by about `a h⁶/(2000 turn⁴)`.
