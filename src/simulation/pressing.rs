@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     contact_mode::ContactMode,
-    engine::Engine,
+    engine::{Engine, MOST_STEPS},
     resting::{Outcome, Resting},
     savings::Savings,
     segment::still,
@@ -20,7 +20,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
-        if resting.go_on(self.table) {
+        if self.steps <= MOST_STEPS && resting.go_on(self.table) {
             self.contact_step()?;
             let members = resting.members;
             self.resting = Some(resting);
