@@ -337,6 +337,12 @@ impl Resting {
                 (soonest, pace) = (falls, paced(index, length));
             }
         });
+        // Two balls turn about each other, and the forces between them with them.
+        for contact in self.contacts.as_slice().iter().filter(|contact| contact.second.is_some()) {
+            let across = contact.relative_speed(&self.begin);
+            let (turn, force) = (2.0 * radius / across, sliding + across * across / radius);
+            longest = longest.min((2000.0 * STRAY / force * turn.powi(4)).powf(1.0 / 6.0));
+        }
         // A slip that is far from its end needs no other time.
         if longest < 0.1 * soonest {
             return longest;

@@ -85,6 +85,11 @@ impl Contact {
         self.normal_and_slip(radius, balls).1
     }
 
+    /// Speed of the first ball's centre relative to the other, m/s.
+    pub fn relative_speed(&self, balls: &[BallState; BALLS]) -> f64 {
+        self.relative_velocity(balls).length()
+    }
+
     fn relative_velocity(&self, balls: &[BallState; BALLS]) -> DVec2 {
         balls[self.first].velocity - self.second.map_or(DVec2::ZERO, |second| balls[second].velocity)
     }
