@@ -80,7 +80,8 @@ pub fn extrapolate(
             let work = WORK[round] / growth;
             if work < least_work {
                 // Where another round would have paid, too, it is tried next time.
-                let more = if work < 0.9 * least_work && round + 1 < ROUNDS { WORK[round + 1] / WORK[round] } else { 1.0 };
+                let more =
+                    if work < 0.9 * least_work && round + 1 < ROUNDS { WORK[round + 1] / WORK[round] } else { 1.0 };
                 (least_work, best.best_length) = (work, (growth * more).min(MOST_GROWTH) * length);
             }
         }

@@ -111,7 +111,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         self.resting =
             match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
                 Outcome::Rests(resting) => {
-                    self.next_step = f64::INFINITY;
+                    self.next_step = resting.next_step;
                     for index in (0..BALLS).filter(|&index| !resting.members[index]) {
                         if resting.begin[index] != states[index] {
                             states[index] = resting.begin[index];

@@ -11,7 +11,7 @@ use super::{
     Constants, Rail,
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    regime::{idle_pressing, lawful, settle, without_ending_slips},
+    regime::{lawful, settle, transient_pressing, without_ending_slips},
     segment::Curve,
     tolerance::Tolerance,
 };
@@ -109,8 +109,8 @@ impl Resting {
     ) -> Outcome {
         let tolerance = constants.tolerance;
         let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * tolerance.slowest_bounce);
-        let pushing = tolerance.slack + idle_pressing(constants, balls, &contacts);
-        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, pushing, previous) else {
+        let least_push = tolerance.slack + transient_pressing(constants, balls, &contacts);
+        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
             return without_ending_slips(table, constants, balls, &contacts);
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
@@ -180,8 +180,10 @@ impl Resting {
             end.time += time;
         }
         (self.step, self.last, self.goes_on) = (end.time, trial.forces, goes_on && ends.is_none());
+        let changes = broken || ends.is_some();
+        let rate = self.time_rate(table.radius, &end.balls);
+        self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
         self.end = if self.goes_on {
-            self.next_step = trial.step.best_length * self.time_rate(table.radius, &end.balls);
             close(&self.constants, &mut end.balls, self.contacts.as_slice());
             end.balls
         } else {
@@ -210,7 +212,13 @@ impl Resting {
     }
 
     /// Hands over every slip of this regime and its rate.
-    fn slips(&self, radius: f64, balls: &State, forces: &Forces, mut each: impl FnMut(fn(usize, f64) -> Pace, usize, DVec2, DVec2)) {
+    fn slips(
+        &self,
+        radius: f64,
+        balls: &State,
+        forces: &Forces,
+        mut each: impl FnMut(fn(usize, f64) -> Pace, usize, DVec2, DVec2),
+    ) {
         let rates: State = std::array::from_fn(|ball| BallState {
             position: balls[ball].position,
             velocity: forces.linear[ball],

@@ -67,7 +67,7 @@ pub fn resolve(
     similar: Option<&Forces>,
 ) -> Option<Resolved> {
     let problem = Problem::new(table, balls, contacts.as_slice(), set);
-    let solution = solve(&problem, similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
+    let solution = solve(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut resolved = Resolved {
         contacts: *contacts,
@@ -130,7 +130,7 @@ pub fn yielding(
     similar: &Forces,
 ) -> Forces {
     let problem = Problem::new(table, balls, contacts, set);
-    let solution = solve(&problem, similar.sizes(&problem));
+    let solution = solve(&problem, &similar.sizes(&problem));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut forces = Forces::of(table.radius, &problem, &solution.sizes, &accelerations);
     forces.slack = spin_slack(table.radius, balls, set);
@@ -289,5 +289,26 @@ mod tests {
         let (_, contact, position) = right_cushion();
         let ball = BallState { position, velocity: DVec2::ZERO, spin: DVec3::new(0.0, -80.0, 0.0) };
         assert!(resolved(ball, &[contact]).is_none());
+    }
+
+    /// What keeps a rolling ball from opening the contact also keeps it from slipping upwards there: the matrix is singular.
+    #[test]
+    fn forces_that_are_not_unique_are_found() {
+        let (table, contact, position) = right_cushion();
+        let spin = DVec3::new(-0.5, 0.0, -0.5) / table.radius;
+        let ball = BallState { position, velocity: DVec2::new(0.0, 0.5), spin };
+        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
+        let set = ActiveSet::of(&table, &balls, &[contact], 1e-10);
+        assert_eq!((set.cloth[0], set.contact[0]), (Friction::Sticks, Friction::Sticks));
+        let held = forces(&table, &balls, &[contact], &set, None).unwrap();
+        let slips = contact.slip(
+            table.radius,
+            &[0, 1, 2].map(|index: usize| BallState {
+                velocity: held.linear[index],
+                spin: held.angular[index],
+                ..balls[index]
+            }),
+        );
+        assert!(held.linear[0].x.abs() < 1e-13 && slips.length() < 1e-13 && held.linear[0].y < 0.0, "{held:?}");
     }
 }

@@ -4,7 +4,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{ActiveSet, Contact, Forces, Friction, MAX_CONTACTS, linear::{factorize, substitute}, problem::coefficient};
+use super::{
+    ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
+    linear::{factorize, substitute},
+    problem::coefficient,
+};
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
@@ -319,7 +323,8 @@ impl Held {
         }
         let mut moved = forced;
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            (moved.linear[ball], moved.angular[ball]) = self.grips[ball].held(forced.linear[ball], forced.angular[ball]);
+            (moved.linear[ball], moved.angular[ball]) =
+                self.grips[ball].held(forced.linear[ball], forced.angular[ball]);
         }
         (forced, moved)
     }
@@ -399,10 +404,8 @@ pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts:
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
     let rubs = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
     let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), rubs);
-    let speeds = Movement {
-        linear: balls.map(|ball| ball.velocity),
-        angular: balls.map(|ball| table.radius * ball.spin),
-    };
+    let speeds =
+        Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     if let Some([_, stopped]) = system.solve(&speeds, false) {
         for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
             (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);

@@ -224,5 +224,4 @@ impl Problem {
         }
         sum
     }
-
 }

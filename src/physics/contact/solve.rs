@@ -59,10 +59,10 @@ pub struct Solution {
 pub type Sides = [Side; MOST_UNKNOWNS];
 
 /// Forces and frictions that obey all laws, sought from `guess` on.
-pub fn solve(problem: &Problem, guess: Sizes) -> Solution {
+pub fn solve(problem: &Problem, guess: &Sizes) -> Solution {
     let system = System::new(problem);
-    let mut best = (f64::INFINITY, guess);
-    let mut sizes = guess;
+    let mut best = (f64::INFINITY, *guess);
+    let mut sizes = *guess;
     for attempt in 0..ATTEMPTS {
         let (mut residual, mut sides) = system.residual(&sizes);
         for _ in 0..NEWTON_STEPS {
