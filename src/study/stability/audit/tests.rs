@@ -46,19 +46,10 @@ fn pressed() -> (Table, Shot) {
 #[test]
 fn a_spin_that_ends_against_a_cushion_is_explained() {
     let table = Table::preset("thesis").unwrap();
-    let layout = Layout::new([
-        DVec2::new(0.6605517353993215, -0.3942754478236047),
-        DVec2::new(0.4614715737467585, -0.423863774229514),
-        DVec2::new(0.16292131207569605, -0.1396717743680046),
-    ]);
-    let cue = Stroke {
-        a: -0.31536479533037,
-        b: 0.8130529572876475,
-        theta_deg: 10.061314137005898,
-        phi_deg: -7.48977395544091,
-        speed: 33.16013417052466,
-    };
-    let left = unexplained(&table, &Shot { layout, cue }, |_| {});
+    let shot = r#"{"layout": [[0.6605517353993215, -0.3942754478236047], [0.4614715737467585, -0.423863774229514],
+        [0.16292131207569605, -0.1396717743680046]], "cue": {"a": -0.31536479533037, "b": 0.8130529572876475,
+        "phi_deg": -7.48977395544091, "speed": 33.16013417052466, "theta_deg": 10.061314137005898}}"#;
+    let left = unexplained(&table, &serde_json::from_str(shot).unwrap(), |_| {});
     assert!(left < 1.0, "{left}");
 }
 
