@@ -20,7 +20,7 @@ use crate::{
 
 /// Steps of contacts and bounces of chatters after which a shot is brought to its end. This is a guard, not physics: what
 /// takes part in another contact stands still from then on. The stability table counts the shots that come to it.
-const MOST_STEPS: u32 = 1500;
+pub(super) const MOST_STEPS: u32 = 1500;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -42,6 +42,17 @@ fn pressed() -> (Table, Shot) {
     }
 }
 
+/// The ball's spin about the vertical ends on the way along a cushion.
+#[test]
+fn a_spin_that_ends_against_a_cushion_is_explained() {
+    let table = Table::preset("thesis").unwrap();
+    let shot = r#"{"layout": [[0.6605517353993215, -0.3942754478236047], [0.4614715737467585, -0.423863774229514],
+        [0.16292131207569605, -0.1396717743680046]], "cue": {"a": -0.31536479533037, "b": 0.8130529572876475,
+        "phi_deg": -7.48977395544091, "speed": 33.16013417052466, "theta_deg": 10.061314137005898}}"#;
+    let left = unexplained(&table, &serde_json::from_str(shot).unwrap(), |_| {});
+    assert!(left < 1.0, "{left}");
+}
+
 fn piece_of(trace: &mut Trace, motion: Motion, last: bool) -> &mut Piece {
     let mut all = trace.pieces[0].iter_mut().filter(|piece| piece.segment.motion == motion);
     if last { all.next_back() } else { all.next() }.expect("the cue ball moves like that")
