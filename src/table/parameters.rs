@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-use super::Room;
+use super::{Opening, Room};
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 2] = ["match", "thesis"];
@@ -61,9 +61,12 @@ pub struct Table {
     pub gravity: f64,
     /// Largest `a² + b²` (in units of R²) at which the tip does not slip off the ball.
     pub miscue_limit: f64,
-    /// Distance `d` of the yellow ball beside the white one in the opening position, m.
+    /// Distance `d` of the cue ball and the opponent's in the opening position, m.
     #[serde(rename = "d")]
     pub opening_offset: f64,
+    /// How a game opens: `thesis` or `umb`.
+    #[serde(default, skip_serializing_if = "Opening::is_default")]
+    pub opening: Opening,
     /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,
