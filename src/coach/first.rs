@@ -105,7 +105,7 @@ impl<'a> Attempt<'a> {
         // A shot that took too long has at least been thought of.
         let course = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
-        if course.tally.is_point(self.task.rule) {
+        if self.task.point().is_made(&course.tally) {
             self.solutions.push((suggestion, course));
         } else {
             let merit = merit(&course.tally, self.task.rule);

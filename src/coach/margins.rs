@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    game::{Referee, Rule, Tally},
+    game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
     simulation::{Event, Observer, Patience, watch},
     table::{Layout, Table},
@@ -103,7 +103,7 @@ pub enum Outcome {
     NoBall,
     /// One is.
     OneBall,
-    /// Both are, with too few cushions before the second.
+    /// Both are, with too few cushions before the second, or as a game opens with the wrong ball first.
     TooFewCushions,
     /// A point.
     Point,
@@ -209,7 +209,7 @@ pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
     let Tally { met: [one, other], .. } = patient.referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,
-        (true, true) if patient.referee.tally.is_point(rule) => Outcome::Point,
+        (true, true) if Point::of(rule, table, layout).is_made(&patient.referee.tally) => Outcome::Point,
         (true, true) => Outcome::TooFewCushions,
         _ => Outcome::OneBall,
     }

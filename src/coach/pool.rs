@@ -82,7 +82,7 @@ impl Candidate {
         let cue = task.playable(&cue)?;
         let course = task.play(&cue)?;
         task.clock.count(1);
-        course.tally.is_point(task.rule).then(|| Self::of(Suggestion { cue, source }, &course, weight))
+        task.point().is_made(&course.tally).then(|| Self::of(Suggestion { cue, source }, &course, weight))
     }
 
     /// A shot that makes the point in this course.

@@ -15,7 +15,7 @@ use crate::{
     game::{Rule, scores},
     learning::evaluation::held_out_layouts,
     physics::{CueInputs, collides, has_room},
-    table::{Layout, LayoutError, Room, Table},
+    table::{Layout, LayoutError, Opening, Room, Side, Table},
 };
 
 fn coach() -> Coach {
@@ -193,6 +193,23 @@ fn a_player_without_errors_never_misses() {
     let layout = Layout::opening(coach.table());
     let played = inning(&coach, &layout, &request, 20, until, &mut rng, &mut |_, _| {}).unwrap();
     assert_eq!((played.points, played.missed), (20, false));
+}
+
+#[test]
+fn advice_for_the_opening_of_a_umb_game_meets_the_red_ball_first_in_three_cushion_alone() {
+    let table = Table { opening: Opening::Umb, ..Table::default() };
+    let coach = Coach::new(table.clone()).unwrap();
+    for side in [Side::Left, Side::Right] {
+        let layout = Layout::opening_on(&table, side);
+        for skill in [Skill::EXPERT, Skill::PERFECT] {
+            let advice = coach.recommend(&layout, &Request { skill, ..request(Rule::ThreeCushion, 10_000) }).unwrap();
+            assert!(advice.solved && scores(Rule::ThreeCushion, &table, &layout, &advice.cue));
+            let kinds = advice.alternatives.iter().map(|shot| shot.kind).chain(advice.kind);
+            assert!(kinds.into_iter().all(|kind| kind.first_ball == 2), "{advice:?}");
+        }
+        let free = coach.recommend(&layout, &request(Rule::StraightRail, 10_000)).unwrap();
+        assert!(free.alternatives.iter().map(|shot| shot.kind).chain(free.kind).any(|kind| kind.first_ball == 1));
+    }
 }
 
 /// Layouts of which every third has its balls at rails.

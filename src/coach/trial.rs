@@ -4,7 +4,7 @@ use std::{ops::ControlFlow, time::Instant};
 
 use super::{Skill, candidates::MAX_ELEVATION, clock::Clock, errors::Errors};
 use crate::{
-    game::{Referee, Rule, Tally},
+    game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike, with_room},
     simulation::{Event, EventKind, Observer, Patience, watch},
     table::{Layout, Table},
@@ -56,6 +56,11 @@ impl Task<'_> {
         with_room(self.table, self.layout, cue).ok().filter(|raised| raised.theta <= MAX_ELEVATION)
     }
 
+    /// What makes a shot from here a point.
+    pub fn point(&self) -> Point {
+        Point::of(self.rule, self.table, self.layout)
+    }
+
     /// Plays one stroke; `None` where time ran out before it was decided.
     pub fn play(&self, cue: &CueInputs) -> Option<Course> {
         let mut hurried = Hurried {
@@ -75,7 +80,7 @@ impl Task<'_> {
         if stroke.is_miscue(self.table) {
             return Some(false);
         }
-        self.play(stroke).map(|course| course.tally.is_point(self.rule))
+        self.play(stroke).map(|course| self.point().is_made(&course.tally))
     }
 
     /// The attempts at `cue` with these errors, one after the other until time runs out: how many make the point, and how

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
     coach::errors,
-    game::{Rule, Tally},
+    game::{Point, Rule, Tally},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
     simulation::{Event, Observer, simulate},
     table::{Layout, Table},
@@ -39,6 +39,8 @@ pub struct Played {
     pub stroke: CueInputs,
     /// Whether the tip slipped off the ball: then no ball moves, and there is no point.
     pub miscue: bool,
+    /// What was asked of it.
+    pub point: Point,
     /// What the cue ball did.
     pub tally: Tally,
     /// Whether it made the point.
@@ -54,7 +56,8 @@ impl Played {
         let miscue = stroke.is_miscue(table);
         let end =
             if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
-        Self { stroke, miscue, tally: watcher.0, made: watcher.0.is_point(rule), end }
+        let point = Point::of(rule, table, layout);
+        Self { stroke, miscue, point, tally: watcher.0, made: point.is_made(&watcher.0), end }
     }
 }
 
@@ -96,7 +99,8 @@ impl Session {
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);
                 // The simulator repeats itself to the last bit.
-                last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end)
+                let end = last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end);
+                if self.is_match() && !last.made { end.for_the_opponent() } else { end }
             }
             _ if self.shifted => shifted(&exercise.layout, &table, self.seed, self.attempts.len() as u32),
             _ => exercise.layout,

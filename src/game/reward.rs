@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_cushion_before_the_ball_halves_the_reward_for_difficulty() {
-        let tally = Tally { met: [true, false], cushions: 3, cushions_before_first: 2, cushions_before_second: 0 };
+        let tally = Tally { met: [true, false], cushions: 3, cushions_before_first: 2, ..Tally::default() };
         let layout = Layout::opening(&Table::default());
         assert_eq!(Reward::R1Difficulty.value(&Table::default(), &tally, &layout), 0.25);
         assert_eq!(Reward::R3.value(&Table::default(), &tally, &layout), 0.0);

@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use super::{
-    Room, flaws,
+    Opening, Room, flaws,
     models::{Fade, Rails, SlipFriction, is_zero},
 };
 
@@ -68,7 +68,7 @@ pub struct Table {
     pub gravity: f64,
     /// Largest `a² + b²` (in units of R²) at which the tip does not slip off the ball.
     pub miscue_limit: f64,
-    /// Distance `d` of the yellow ball beside the white one in the opening position, m.
+    /// Distance `d` of the cue ball and the opponent's in the opening position, m.
     #[serde(rename = "d")]
     pub opening_offset: f64,
     /// Growth of a rolling ball's deceleration with its speed, 1/s: `a = 5/7 mu_r g + c1 v`.
@@ -87,6 +87,9 @@ pub struct Table {
     /// Acceleration of a ball on a table that is not level, m/s² along x and y.
     #[serde(default, skip_serializing_if = "is_level")]
     pub tilt: DVec2,
+    /// How a game opens: `thesis` or `umb`.
+    #[serde(default, skip_serializing_if = "Opening::is_default")]
+    pub opening: Opening,
     /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,

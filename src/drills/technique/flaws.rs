@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_3;
 use super::{PATTERNS, Technique};
 use crate::{
     drills::{Category, Exercise, ExerciseError},
-    game::scores,
+    game::{Point, scores},
     physics::{CueInputs, has_room},
 };
 
@@ -30,7 +30,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let mut checks = vec![
         ("the cue has room for it", has_room(&table, layout, &cue)),
-        ("it makes the point by its rule", technique.tally.is_point(exercise.rule)),
+        ("it makes the point by its rule", Point::of(exercise.rule, &table, layout).is_made(&technique.tally)),
         ("it meets ball 1 first", technique.first == Some(1)),
         ("it meets ball 1 only once before ball 2", technique.is_clean),
         ("it covers at least a twentieth of ball 1", technique.fullness >= 0.05),

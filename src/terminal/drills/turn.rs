@@ -19,7 +19,7 @@ use crate::{
     coach::Skill,
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
-    table::{Layout, Table},
+    table::{CueBall, Layout, Table},
     terminal::{history::History, keymap::DrillAction, playback::Playback, shot::Shot, status::Message},
 };
 
@@ -74,6 +74,8 @@ pub struct Turn {
     pub table: Table,
     /// Where the balls lie.
     pub layout: Layout,
+    /// Which of them is the cue ball.
+    pub cue_ball: CueBall,
     /// What is going on.
     pub stage: Stage,
     /// The stroke that is taught.
@@ -104,6 +106,7 @@ impl Turn {
         Ok(Some(Self {
             strokes: History::new(aiming::first_stroke(&layout)),
             changed_by: None,
+            cue_ball: session.cue_ball_now(),
             session,
             exercise,
             table,
@@ -226,7 +229,7 @@ impl Turn {
     pub fn verdict(&self) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
-        let text = played.verdict(self.exercise.rule);
+        let text = played.verdict(self.cue_ball);
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 
@@ -358,6 +361,7 @@ impl Turn {
             self.changed_by = None;
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
+        self.cue_ball = self.session.cue_ball_now();
         self.stage = Stage::Aiming;
         self.shows_hint &= !is_moved;
         self.is_helped = self.shows_hint;

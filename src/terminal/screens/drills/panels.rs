@@ -10,12 +10,13 @@ use super::{percent, write_paragraphs};
 use crate::{
     drills::changes,
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
+    table::CueBall,
     terminal::{
         app::App,
         drills::{Lesson, Meets, Sight, Taught, Turn, Watched},
         look::Look,
         widgets::draw_title,
-        words::{BALL_NAMES, fixed, rail_name},
+        words::{fixed, rail_name},
     },
 };
 
@@ -26,7 +27,10 @@ const FULL: f64 = 0.995;
 pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
-    let inner = draw_title(&Line::from(Span::styled("Your stroke", theme.text())), area, theme, look, buffer);
+    // In a match one plays both sides.
+    let title =
+        if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
+    let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
     let degree = look.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
         let offset = 1000.0 * turn.table.radius * radii;
@@ -67,13 +71,13 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
         paragraphs.extend(differences(turn, watched, look).into_iter().map(|words| (words, theme.text())));
     } else {
         if let Some(sight) = turn.sight() {
-            paragraphs.push((sight_words(&sight), theme.accent()));
+            paragraphs.push((sight_words(&sight, turn.cue_ball), theme.accent()));
             match turn.least_elevation() {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
-                    paragraphs.push((least_words(theta, over, look), theme.faint()));
+                    paragraphs.push((least_words(theta, over, turn.cue_ball, look), theme.faint()));
                 }
                 Ok(LeastElevation { over: None, .. }) => {}
-                Err(NoRoom { obstacle }) => paragraphs.push((no_room_words(obstacle), theme.warning())),
+                Err(NoRoom { obstacle }) => paragraphs.push((no_room_words(obstacle, turn.cue_ball), theme.warning())),
             }
         }
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
@@ -88,14 +92,14 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
 }
 
 /// What the line of aim meets.
-fn sight_words(sight: &Sight) -> String {
+fn sight_words(sight: &Sight, cue_ball: CueBall) -> String {
     let way = fixed(100.0 * sight.way, 0);
     match sight.meets {
         Meets::Ball(hit) => {
             // Head-on has no side.
             let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
             let side = sides[usize::from(hit.left)];
-            format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
+            format!("{} {:.0} % full{side}, {way} cm", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(mark) => {
             format!("{} at {} diamonds, {way} cm", rail_name(mark.rail), fixed(mark.diamond, 1))
@@ -104,20 +108,20 @@ fn sight_words(sight: &Sight) -> String {
 }
 
 /// How low the cue can be held, and what it passes over.
-fn least_words(theta: f64, over: Obstacle, look: Look) -> String {
+fn least_words(theta: f64, over: Obstacle, cue_ball: CueBall, look: Look) -> String {
     let degree = look.pick("°", " deg");
-    format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over))
+    format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over, cue_ball))
 }
 
 /// What keeps the cue from being held at all.
-fn no_room_words(obstacle: Obstacle) -> String {
-    format!("no room for the cue: the {} is in the way", obstacle_word(obstacle))
+fn no_room_words(obstacle: Obstacle, cue_ball: CueBall) -> String {
+    format!("no room for the cue: the {} is in the way", obstacle_word(obstacle, cue_ball))
 }
 
-fn obstacle_word(obstacle: Obstacle) -> String {
+fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
     match obstacle {
         Obstacle::Rail(rail) => rail_name(rail).to_owned(),
-        Obstacle::Ball(ball) => format!("{} ball", BALL_NAMES[ball]),
+        Obstacle::Ball(ball) => format!("{} ball", cue_ball.names()[ball]),
     }
 }
 
@@ -180,10 +184,13 @@ mod tests {
     fn the_least_elevation_is_told_with_what_the_cue_passes_over() {
         let look = |unicode| Look { depth: Depth::True, glyphs: Glyphs::Letters, unicode };
         let theta = 7.26_f64.to_radians();
-        let over_rail = least_words(theta, Obstacle::Rail(Rail::Top), look(true));
+        let over_rail = least_words(theta, Obstacle::Rail(Rail::Top), CueBall::White, look(true));
         assert_eq!(over_rail, "cue at least 7.3° up, over the top rail");
-        let over_ball = least_words(theta, Obstacle::Ball(1), look(false));
+        let over_ball = least_words(theta, Obstacle::Ball(1), CueBall::White, look(false));
         assert_eq!(over_ball, "cue at least 7.3 deg up, over the yellow ball");
-        assert_eq!(no_room_words(Obstacle::Ball(2)), "no room for the cue: the red ball is in the way");
+        assert_eq!(
+            no_room_words(Obstacle::Ball(1), CueBall::Yellow),
+            "no room for the cue: the white ball is in the way"
+        );
     }
 }
