@@ -280,7 +280,7 @@ pub mod tests {
     #[test]
     fn a_match_goes_on_from_where_the_balls_lie_with_the_other_one_as_the_cue_ball() {
         let mut session = Session::new(Goal::Match { innings: 5 }, Venue::Program, vec![exercise("x")], Skill::CLUB, 3);
-        let miss = CueInputs { a: 0.0, b: 0.2, theta: 0.05, phi: 2.5, speed: 1.5 };
+        let miss = CueInputs { a: 0.0, b: 0.2, theta: 0.05, phi: 2.5, speed: 0.4 };
         let (table, before) = session.position().unwrap().unwrap();
         let played = session.play(miss, false).unwrap();
         assert!(!played.made);
