@@ -9,10 +9,11 @@ use std::{
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::Failure;
+use super::{Failure, output::tell};
 use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
+    printing,
     table::{Layout, Table, TableError},
 };
 
@@ -32,10 +33,10 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
 pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
     let Origin { reward, table: trained_on, .. } = policy.origin();
     if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
-        eprintln!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing");
+        tell(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
     }
     if *trained_on != table.name {
-        eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
+        tell(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
     }
 }
 
@@ -82,7 +83,7 @@ pub fn answer_lines<Q: DeserializeOwned, A: Serialize>(
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
         Box::new(BufReader::new(File::open(file).map_err(unreadable)?))
     };
-    let mut out = io::BufWriter::new(io::stdout().lock());
+    let mut out = io::BufWriter::new(printing::stdout());
     let (mut lines, mut refused) = (0_usize, 0_usize);
     for (index, line) in reader.split(b'\n').enumerate() {
         let line = line.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
@@ -96,10 +97,10 @@ pub fn answer_lines<Q: DeserializeOwned, A: Serialize>(
             Failure::wrong_input(format_args!("line {} is not a valid JSON question: {reason}", index + 1))
         });
         match question.and_then(&mut answer) {
-            Ok(answer) => serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?,
+            Ok(answer) => printing::json(&mut out, &answer)?,
             Err(failure) => {
                 refused += 1;
-                serde_json::to_writer(&mut out, &Refusal { error: failure.to_string() }).map_err(io::Error::from)?;
+                printing::json(&mut out, &Refusal { error: failure.to_string() })?;
             }
         }
         writeln!(out)?;

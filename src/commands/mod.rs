@@ -18,11 +18,16 @@ mod table;
 mod train;
 mod watch;
 
+use std::{io::Write, process::ExitCode};
+
 use clap::{Parser, Subcommand};
 
 pub use failure::Failure;
 
-use crate::terminal::{Settings, TerminalError};
+use crate::{
+    printing::{self, is_hidden},
+    terminal::{Settings, TerminalError},
+};
 
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
@@ -57,6 +62,21 @@ enum Command {
 }
 
 impl Cli {
+    /// What the command line says.
+    ///
+    /// # Errors
+    /// Where it is wrong or asks for help: all is said then, and this is the exit code.
+    pub fn read() -> Result<Self, ExitCode> {
+        Self::try_parse().map_err(|answer| {
+            let is_safe = std::env::args_os().all(|argument| !argument.to_string_lossy().chars().any(is_hidden));
+            // clap repeats what it was given as it is, between the codes of its own bold words.
+            let said = if is_safe { answer.print() } else { write!(printing::stderr(), "{}", answer.render()) };
+            // Nobody may be left to tell.
+            let _ = said;
+            ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2))
+        })
+    }
+
     /// The terminal program, with the user's settings.
     fn open(self) -> Result<(), Failure> {
         let path = Settings::path();

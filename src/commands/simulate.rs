@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::{
     Failure,
     input::{ByTable, Scene, answer_lines},
-    output::impulse_words,
+    output::{impulse_words, tell},
 };
 use crate::{
     physics::CueInputs,
+    printing,
     simulation::{Event, Recording},
     study::{Stepped, Steps},
     table::{Layout, Table},
@@ -112,16 +113,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
     let played = play(&table, &layout, &cue, steps)?;
     if cue.validate_tip(table.miscue_limit).is_err() {
-        eprintln!(
+        tell(format_args!(
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
             cue.tip_offset_squared(),
             table.name,
             table.miscue_limit
-        );
+        ));
     }
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
-        serde_json::to_writer(&mut out, &Answer::of(&played)).map_err(io::Error::from)?;
+        printing::json(&mut out, &Answer::of(&played))?;
         writeln!(out)?;
     } else {
         describe(&mut out, &played)?;

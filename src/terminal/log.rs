@@ -9,6 +9,8 @@ use std::{
 
 use tracing::Level;
 
+use crate::printing::Shown;
+
 /// Bytes from which on the file is laid aside at the next start, so that at most two of this size are kept.
 const LARGEST: u64 = 1 << 20;
 
@@ -20,7 +22,7 @@ const LEVEL: Level = Level::INFO;
 /// # Errors
 /// A file that cannot be opened. The program does without, then.
 pub fn start(path: &Path, level: Option<&str>) -> io::Result<()> {
-    let file = Mutex::new(open(path)?);
+    let file = Mutex::new(Shown::new(open(path)?));
     let level = level.and_then(|name| name.parse().ok()).unwrap_or(LEVEL);
     let subscriber =
         tracing_subscriber::fmt().with_writer(file).with_ansi(false).with_target(false).with_max_level(level);

@@ -50,6 +50,7 @@ use crate::{
     coach::Coach,
     drills::store::Store,
     learning::PolicyError,
+    printing,
     storage::Places,
     table::{Layout, LayoutError, Table},
 };
@@ -123,7 +124,7 @@ pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table)?;
-    Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), io::stdout().lock(), prompt)?)
+    Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), printing::stdout(), prompt)?)
 }
 
 /// What the terminal can show.

@@ -25,7 +25,7 @@ use super::{
     session::Session,
     training::Report,
 };
-use crate::storage::Places;
+use crate::{printing::OneLine, storage::Places};
 
 /// Least time between two pictures; keys that come faster are drained and drawn together.
 const LEAST_INTERVAL: Duration = Duration::from_millis(15);
@@ -172,7 +172,7 @@ impl Runner {
     /// Writes refusals and failures down that were shown.
     fn write_down(&mut self) {
         for text in self.app.take_unwritten() {
-            warn!("{text}");
+            warn!("{}", OneLine(text));
         }
     }
 

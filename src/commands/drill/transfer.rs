@@ -15,6 +15,7 @@ use crate::{
         Store,
         store::{Imported, Practice},
     },
+    printing::OneLine,
     storage::{Places, write_atomic},
 };
 
@@ -88,7 +89,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
         ))?;
     }
     for sentence in refused {
-        tell(format_args!("refused: {sentence}"));
+        tell(format_args!("refused: {}", OneLine(sentence)));
     }
     if refused.is_empty() {
         return Ok(());

@@ -21,6 +21,7 @@ use crate::{
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
+    printing,
     table::{Layout, Table},
 };
 
@@ -150,9 +151,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let (table, layout) = args.scene.read()?;
     let coach = coach_for(table, &args.policy)?;
     let answer = answer(args, &coach, &layout, args.rule)?;
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
-        serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?;
+        printing::json(&mut out, &answer)?;
         writeln!(out)?;
     } else {
         describe(&mut out, args, coach.table(), &answer)?;

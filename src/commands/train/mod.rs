@@ -32,6 +32,7 @@ use crate::{
         learner::StartError,
         run::{Ending, Limits, Run, RunError, discard, seeds::is_group},
     },
+    printing,
 };
 
 /// Train an agent without a screen. The run's folder holds its configuration (config.json), its metrics as JSON Lines
@@ -195,7 +196,7 @@ fn say_result(run: &Run, score: Score, json: bool) -> io::Result<()> {
         return Ok(());
     }
     writeln!(
-        io::stdout(),
+        printing::stdout(),
         "{}: mean {} {:.4} on held-out layouts after {} shots",
         result.display(),
         learner.plan().reward,

@@ -1,0 +1,6 @@
+//! What others wrote, typed or did, against the real program: nothing of it may reach the terminal raw, hang or lose anything.
+
+mod escapes;
+#[path = "../drills/common.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod program;
