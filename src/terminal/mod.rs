@@ -15,6 +15,7 @@ mod finder;
 mod geometry;
 mod history;
 mod inbox;
+mod input;
 mod keymap;
 mod last;
 mod log;

@@ -73,7 +73,7 @@ fn tables_and_arguments() {
         &["recommend", "--skill", NAME],
         &["recommend", "--policy", NAME, "--budget-ms", "1"],
         &["drill", "show", NAME],
-        &["drill", "save", NAME],
+        &["drill", "save", NAME, "--layout", "-0.5,0 0,0 0.5,0.03"],
         &["train", "--agent", NAME],
         &["train", "--set", NAME],
         &["train", "--resume", NAME],
