@@ -3,10 +3,7 @@
 use std::io::Write;
 
 use super::{Failure, output::tell};
-use crate::{
-    printing,
-    terminal::Settings,
-};
+use crate::{printing, terminal::Settings};
 
 /// Show every setting with what it means and accepts, as a file to begin with.
 #[derive(Debug, clap::Args)]

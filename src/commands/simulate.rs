@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Failure,
-    input::{ByTable, Scene, answer_lines},
+    Failure, bounded,
+    input::{ByTable, Keys, Scene, answer_lines},
     output::{impulse_words, tell},
 };
 use crate::{
@@ -60,6 +60,10 @@ struct Question {
     preset: String,
     layout: Layout,
     cue: CueInputs,
+}
+
+impl Keys for Question {
+    const KEYS: &'static [&'static str] = &["preset", "layout", "cue"];
 }
 
 /// The answer in JSON.
@@ -145,10 +149,12 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
     match steps {
-        None => Recording::new(table, layout, cue).map(|recording| (recording, None)),
-        Some(steps) => steps.record(table, layout, cue).map(|(recording, stepped)| (recording, Some(stepped))),
+        None => Ok((bounded::play(table, layout, cue)?, None)),
+        Some(steps) => {
+            let (recording, stepped) = bounded::play_in_steps(table, layout, cue, steps)?;
+            Ok((recording, Some(stepped)))
+        }
     }
-    .map_err(Failure::wrong_input)
 }
 
 /// The shot for people to read.

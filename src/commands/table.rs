@@ -6,7 +6,7 @@ use clap::Subcommand;
 
 use super::{Failure, input::table_named};
 use crate::{
-    printing,
+    printing, storage,
     table::{PRESETS, Table},
 };
 
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         Order::Check { file } => {
-            let text = std::fs::read_to_string(file)
+            let text = storage::read_text(file, storage::SMALL)
                 .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
             let table = Table::from_toml(&text)
                 .map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))?;

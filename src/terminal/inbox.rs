@@ -14,12 +14,11 @@ use rustix::{
     io::Errno,
     termios::{Action, QueueSelector, tcflow, tcflush},
 };
-use signal_hook::{
-    consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH},
-    iterator::Signals,
-};
+use signal_hook::consts::{SIGTTIN, SIGTTOU};
 
-use super::{drills::DrillReport, input::Decoder, recommender::Answer, settings::SettingsReport, training::Report};
+use super::{
+    drills::DrillReport, input::Decoder, recommender::Answer, settings::SettingsReport, signals, training::Report,
+};
 
 /// Bytes that are read at once.
 const AT_ONCE: usize = 65_536;
@@ -53,14 +52,19 @@ pub enum News {
 pub fn open() -> io::Result<(Sender<News>, Receiver<News>)> {
     let (sender, receiver) = channel();
     // The input thread learns of a resize too, but only from its first read on: one before that would be lost.
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])?;
+    let mut signals = signals::catch()?;
     let to_screen = sender.clone();
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
+            // The system's way to say that the terminal is somebody else's now.
+            if matches!(signal, SIGTTIN | SIGTTOU) && !signals::has_the_terminal() {
+                let _ = signals::stop();
+                continue;
+            }
             if to_screen.send(News::Signal(signal)).is_err() {
                 break;
             }
-            if matches!(signal, SIGTERM | SIGINT | SIGHUP | SIGQUIT) {
+            if signals::ends(signal) {
                 free_the_screen();
             }
         }

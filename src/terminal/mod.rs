@@ -32,6 +32,7 @@ mod session;
 mod settings;
 mod sgr;
 mod shot;
+mod signals;
 mod spin;
 mod sprites;
 mod status;

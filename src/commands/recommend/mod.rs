@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use self::margins::Margins;
 use super::{
     Failure,
-    input::{ByTable, Scene, answer_lines, note_doubts},
+    input::{ByTable, Keys, Scene, answer_lines, note_doubts},
     named::{policy_called, skill_called},
     output::impulse_words,
 };
@@ -75,6 +75,10 @@ struct Question {
     layout: Layout,
     #[serde(default)]
     rule: Rule,
+}
+
+impl Keys for Question {
+    const KEYS: &'static [&'static str] = &["preset", "layout", "rule"];
 }
 
 /// The answer in JSON.
@@ -179,7 +183,7 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
-        answer.margins = Some(Margins::of(rule, coach.table(), layout, &answer.cue)?);
+        answer.margins = Margins::in_time(rule, coach.table(), layout, &answer.cue)?;
     }
     Ok(answer)
 }

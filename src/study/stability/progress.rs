@@ -41,11 +41,7 @@ impl ProgressLine {
         let seconds = self.started.elapsed().as_secs();
         let line = format!("{seconds} s, {what}: {done} of {of} shots, {findings} findings");
         // A terminal that is gone is no reason to end the run.
-        let _ = if self.terminal {
-            printing::redraw_line(line)
-        } else {
-            writeln!(printing::stderr(), "{line}")
-        };
+        let _ = if self.terminal { printing::redraw_line(line) } else { writeln!(printing::stderr(), "{line}") };
     }
 
     /// Takes the line away.

@@ -37,9 +37,16 @@ enum State {
     Mouse(Vec<u8>),
     /// A string that a terminal answers with, up to its terminator: what introduced it, whether anything came since, and
     /// whether the last of that was an escape character.
-    Reply { introducer: u8, has_content: bool, escape: bool },
+    Reply {
+        introducer: u8,
+        has_content: bool,
+        escape: bool,
+    },
     /// A character of several bytes, behind an escape character or not.
-    Character { bytes: Vec<u8>, is_alt: bool },
+    Character {
+        bytes: Vec<u8>,
+        is_alt: bool,
+    },
     Paste(Paste),
 }
 
@@ -79,7 +86,9 @@ impl Decoder {
                     None => abandon(byte, events),
                 },
                 State::Mouse(bytes) => in_mouse(bytes, byte, events),
-                State::Reply { introducer, has_content, escape } => in_reply(introducer, has_content, escape, byte, events),
+                State::Reply { introducer, has_content, escape } => {
+                    in_reply(introducer, has_content, escape, byte, events)
+                }
                 State::Character { bytes, is_alt } => in_character(bytes, is_alt, byte, events),
                 State::Paste(mut paste) => match paste.push(byte) {
                     Some(text) => {

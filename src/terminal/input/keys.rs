@@ -26,9 +26,8 @@ fn letter(character: char) -> KeyEvent {
 
 /// The key of a control character, if it is one.
 pub fn control(byte: u8) -> Option<Event> {
-    let with_control = |character: u8| {
-        Event::Key(KeyEvent::new(KeyCode::Char(char::from(character)), KeyModifiers::CONTROL))
-    };
+    let with_control =
+        |character: u8| Event::Key(KeyEvent::new(KeyCode::Char(char::from(character)), KeyModifiers::CONTROL));
     Some(match byte {
         b'\r' => key(KeyCode::Enter),
         b'\t' => key(KeyCode::Tab),

@@ -120,8 +120,28 @@ fn a_paste_that_lost_its_end_is_heard_and_its_rest_is_no_row_of_keys() {
 
 fn pieces() -> impl Strategy<Value = Vec<u8>> {
     let known = prop::sample::select(vec![
-        &b"\x1b"[..], b"\x1b[", b"\x1b[<", b"\x1b[<0;", b"\x1b[?", b"\x1b[M", b"\x1bO", b"\x1b]11;", b"\x1bP", b"\x07", b"\x1b\\",
-        b"\x1b[200~", b"\x1b[201~", b"\x1b[1;", b"\x1b[[", b"0;1M", b"~", b"u", b"\xe2\x82", b"\x03", b"q", b"\x18",
+        &b"\x1b"[..],
+        b"\x1b[",
+        b"\x1b[<",
+        b"\x1b[<0;",
+        b"\x1b[?",
+        b"\x1b[M",
+        b"\x1bO",
+        b"\x1b]11;",
+        b"\x1bP",
+        b"\x07",
+        b"\x1b\\",
+        b"\x1b[200~",
+        b"\x1b[201~",
+        b"\x1b[1;",
+        b"\x1b[[",
+        b"0;1M",
+        b"~",
+        b"u",
+        b"\xe2\x82",
+        b"\x03",
+        b"q",
+        b"\x18",
     ])
     .prop_map(<[u8]>::to_vec);
     let any = prop::collection::vec(any::<u8>(), 0..4);
