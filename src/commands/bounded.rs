@@ -7,7 +7,7 @@ use std::{
 
 use super::Failure;
 use crate::{
-    physics::{CueInputs, Impulse},
+    physics::{CueInputs, Impulse, strike},
     simulation::{End, Event, Observer, Recorder, Recording, Segment, simulate},
     study::{Stepped, Steps},
     table::{BALLS, Layout, Table},
@@ -15,6 +15,9 @@ use crate::{
 
 /// Longest time that one shot may take, s. The slowest on a table that exists take some milliseconds.
 const LONGEST: u64 = 5;
+
+/// Most steps of one shot: some seconds of them.
+const MOST_STEPS: f64 = 4e6;
 
 /// Plays a shot from event to event.
 ///
@@ -40,6 +43,15 @@ pub fn play_in_steps(
     cue: &CueInputs,
     steps: Steps,
 ) -> Result<(Recording, Stepped), Failure> {
+    layout.validate(table).map_err(Failure::wrong_input)?;
+    cue.validate().map_err(Failure::wrong_input)?;
+    let finest = Steps::finest(table, &strike(table, cue), MOST_STEPS);
+    if steps.dt < finest {
+        return Err(Failure::wrong_input(format_args!(
+            "dt = {} s would take more steps than can be waited for; accepted is {finest:.0e} s or more for this shot on \"{}\"",
+            steps.dt, table.name
+        )));
+    }
     let play = |impulse: &Impulse, recorder: &mut Recorder| -> (End, (Stepped, bool)) {
         let mut bounded = Bounded::new(recorder);
         let stepped = steps.simulate(table, layout, impulse, &mut bounded);

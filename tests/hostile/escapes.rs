@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use carom::printing::is_hidden;
 
-use super::program::{carom, command, drill, fed};
+use super::program::{carom, command, fed};
 
 /// Sets the title, colours text, turns it around, and begins another line.
 const NAME: &str = "\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}\r\u{7f}";
