@@ -1,7 +1,7 @@
 //! `carom accuracy`: error against run time, measured by the program itself.
 
 use std::{
-    io::{IsTerminal, Write},
+    io::Write,
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
 };
@@ -9,8 +9,9 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::{Failure, input::table_named};
+use super::{Failure, input::table_named, output::tell};
 use crate::{
+    printing,
     storage::write_atomic,
     study::{self, Method, Plan, Study, filmed, random_shots, stability},
     table::{JUDGED, Table},
@@ -95,7 +96,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
         for row in &references {
             write_json(&mut out, row)?;
@@ -113,7 +114,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     out.flush()?;
     drop(out);
     if args.quick {
-        eprintln!("The stability table takes minutes: leave --quick out, or use --stability.");
+        tell("The stability table takes minutes: leave --quick out, or use --stability.");
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
@@ -175,7 +176,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_file(folder, "stability.md", &stability::page(&plan, &rows))?;
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
         for row in &rows {
             write_json(&mut out, row)?;
@@ -187,7 +188,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 }
 
 fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<()> {
-    serde_json::to_writer(&mut *out, value)?;
+    printing::json(out, value)?;
     writeln!(out)
 }
 
@@ -202,7 +203,7 @@ fn measure(table: Table, size: &Size, seed: u64) -> Study {
 
 /// On the standard error, and only where somebody watches.
 fn progress_bar(shots: usize, table: &str) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
+    if !printing::is_watched() {
         return ProgressBar::hidden();
     }
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} shots, {eta} left");
@@ -225,6 +226,6 @@ fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     let path = folder.join(name);
     write_atomic(&path, text.as_bytes())
         .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
-    eprintln!("wrote {}", path.display());
+    tell(format_args!("wrote {}", path.display()));
     Ok(())
 }

@@ -5,12 +5,13 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Failure,
-    input::{ByTable, Scene, answer_lines},
-    output::impulse_words,
+    Failure, bounded,
+    input::{ByTable, Keys, Scene, answer_lines},
+    output::{impulse_words, tell},
 };
 use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, has_room, least_elevation},
+    printing,
     simulation::{Event, Recording},
     study::{Stepped, Steps},
     table::{Layout, Table},
@@ -59,6 +60,10 @@ struct Question {
     preset: String,
     layout: Layout,
     cue: CueInputs,
+}
+
+impl Keys for Question {
+    const KEYS: &'static [&'static str] = &["preset", "layout", "cue"];
 }
 
 /// The answer in JSON.
@@ -153,20 +158,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
     let played = play(&table, &layout, &cue, steps)?;
     if cue.validate_tip(table.miscue_limit).is_err() {
-        eprintln!(
+        tell(format_args!(
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
             cue.tip_offset_squared(),
             table.name,
             table.miscue_limit
-        );
+        ));
     }
     let cue_room = CueRoom::of(&table, &layout, &cue);
     if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
-        eprintln!("note: {note}");
+        tell(format_args!("note: {note}"));
     }
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
-        serde_json::to_writer(&mut out, &Answer::of(&played, cue_room)).map_err(io::Error::from)?;
+        printing::json(&mut out, &Answer::of(&played, cue_room))?;
         writeln!(out)?;
     } else {
         describe(&mut out, &played)?;
@@ -189,10 +194,12 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
     match steps {
-        None => Recording::new(table, layout, cue).map(|recording| (recording, None)),
-        Some(steps) => steps.record(table, layout, cue).map(|(recording, stepped)| (recording, Some(stepped))),
+        None => Ok((bounded::play(table, layout, cue)?, None)),
+        Some(steps) => {
+            let (recording, stepped) = bounded::play_in_steps(table, layout, cue, steps)?;
+            Ok((recording, Some(stepped)))
+        }
     }
-    .map_err(Failure::wrong_input)
 }
 
 /// The shot for people to read.

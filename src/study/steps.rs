@@ -54,6 +54,11 @@ impl Steps {
         if (1e-8..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
     }
 
+    /// The shortest time step, s, with which a shot takes no more than so many steps.
+    pub fn finest(table: &Table, impulse: &Impulse, most: f64) -> f64 {
+        longest(table, impulse) / most
+    }
+
     /// Records a shot as [`Recording::new`] does, but step by step, and tells what the steps did.
     ///
     /// # Errors
@@ -70,9 +75,7 @@ impl Steps {
         let mut stepper = Stepper::new(table, layout, observer);
         let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..stepper.balls[0].state };
         stepper.balls[0] = Ball::launched(&stepper.constants, 0.0, state);
-        // No ball of this energy can roll longer; what still moves then is jitter.
-        let energy = state.specific_energy(table.radius);
-        let limit = 1.0 + (2.0 * energy).sqrt() / rolling_deceleration(table);
+        let limit = longest(table, impulse);
         let (mut steps, mut flow) = (0_u64, ControlFlow::Continue(()));
         while flow.is_continue() && !stepper.at_rest() && steps as f64 * self.dt < limit {
             steps += 1;
@@ -83,6 +86,12 @@ impl Steps {
         let deepest_overlap = stepper.deepest_overlap;
         Stepped { end: stepper.finish(), steps, deepest_overlap, at_rest }
     }
+}
+
+/// Longest time that a shot can take, s: no ball of this energy can roll longer, and what still moves then is jitter.
+fn longest(table: &Table, impulse: &Impulse) -> f64 {
+    let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..BallState::at_rest(DVec2::ZERO) };
+    1.0 + (2.0 * state.specific_energy(table.radius)).sqrt() / rolling_deceleration(table)
 }
 
 /// A ball and the segment that its present motion belongs to.

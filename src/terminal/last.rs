@@ -8,7 +8,7 @@ use crate::{
     coach::Skill,
     drills::Session,
     game::Rule,
-    storage::replace,
+    storage::{self, replace},
     table::{CueBall, Layout, Table},
 };
 
@@ -58,7 +58,7 @@ impl Last {
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
     /// nobody is to be bothered about it.
     pub fn load(path: &Path) -> Option<Self> {
-        let last: Self = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+        let last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
         (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
     }
 

@@ -25,6 +25,7 @@ use ratatui::{
 };
 
 use super::painter::Painter;
+use crate::printing::OneLine;
 
 /// Whether the program has the terminal. A process has one, and a panic has to know: giving it back twice would move the
 /// cursor onto the report.
@@ -142,7 +143,7 @@ fn restore_on_panic() {
     let screen = thread::current().id();
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        tracing::error!("{info}");
+        tracing::error!("{}", OneLine(&info));
         if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
             let _ = give_back(&mut io::stdout());

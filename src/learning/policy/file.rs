@@ -16,7 +16,7 @@ use crate::{
         },
         network::weights::{Reader, WeightsError, Writer},
     },
-    storage::write_atomic,
+    storage::{self, write_atomic},
     table::Table,
 };
 
@@ -108,7 +108,8 @@ impl Policy {
     /// Where the file is missing, damaged, from another program, or for other features or actions.
     pub fn load(path: &Path) -> Result<Self, PolicyError> {
         let origin = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
+        let bytes =
+            storage::read(path, storage::LARGE).map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
         Self::from_bytes(&bytes, &origin)
     }
 

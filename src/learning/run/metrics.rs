@@ -8,6 +8,8 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
+use crate::storage;
+
 use super::number;
 
 /// One line of a run's metrics. Means are over the updates since the line before. Numbers that are not finite stand in the
@@ -156,7 +158,7 @@ impl MetricsFile {
 }
 
 fn content(path: &Path) -> io::Result<Vec<u8>> {
-    match fs::read(path) {
+    match storage::read(path, storage::LARGE) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
         content => content,
     }
