@@ -89,7 +89,9 @@ impl Tally {
         match event.kind {
             EventKind::BallRail(0, _) => self.cushions += 1,
             EventKind::BallBall(0, ball) if !self.met[ball - 1] => {
-                self.red_first |= !self.met_any() & (ball == 2);
+                if !self.met_any() {
+                    self.red_first = ball == 2;
+                }
                 self.met[ball - 1] = true;
                 if self.met_both() {
                     self.cushions_before_second = self.cushions;

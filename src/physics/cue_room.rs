@@ -248,15 +248,16 @@ impl Stick {
     /// `None` for a ball that the cue is too short for, or that lies ahead.
     fn over_ball(&self, place: DVec2) -> Option<Need> {
         let apart = place - self.point.truncate();
-        let (behind, aside, above) = (apart.dot(self.back), apart.perp_dot(self.back), -self.point.z);
+        let (behind, above) = (apart.dot(self.back), -self.point.z);
         if behind - self.radius >= self.room.length + self.butt() {
             return None;
         }
         let reach = self.radius / self.cos + 0.5 * self.room.tip;
         if behind <= 0.0 {
-            // The cue leans away from it. Only a tip far out on the cue ball can be near it sideways.
-            let least = reach + self.growth * above.max(0.0);
-            return (aside.abs() < least).then_some(Need::Never).filter(|_| above > 0.0);
+            // The foot comes to `above` at most, and the cue's axis no nearer than the ball is away: only a tip far out on the
+            // cue ball can touch it.
+            let is_near = apart.length() < reach + self.growth * above;
+            return (above > 0.0 && is_near).then_some(Need::Never);
         }
         // Roots of (1 + k²) s² + 2 k reach s + reach² - |o|².
         let squared = 1.0 + self.growth * self.growth;

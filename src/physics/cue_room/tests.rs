@@ -54,7 +54,7 @@ fn towards_trouble(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueInp
 
 /// Whether a point of the cue is in a rail or a ball, by looking at many of them: the definition, written down again.
 pub fn collides(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
-    let room = table.room.unwrap();
+    let Some(room) = table.room else { return false };
     let (sin, cos) = cue.theta.sin_cos();
     let forward = DVec2::from_angle(cue.phi);
     let c = (1.0 - cue.a * cue.a - cue.b * cue.b).sqrt();
@@ -93,12 +93,14 @@ fn at(cue: &CueInputs, theta: f64) -> CueInputs {
 fn from_the_least_elevation_on_no_point_of_the_cue_is_in_a_rail_or_a_ball_and_below_it_one_is() {
     let table = table();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(16);
-    let (mut raised, mut bounds, mut refused) = (0, 0, 0);
+    let (mut raised, mut bounds, mut refused, mut wrongly) = (0, 0, 0, 0);
     for _ in 0..1500 {
         let layout = layout(&table, &mut rng);
         let cue = towards_trouble(&table, &layout, &mut rng);
         let Ok(least) = least_elevation(&table, &layout, &cue) else {
             refused += 1;
+            let has_some = (0..30).any(|step| !collides(&table, &layout, &at(&cue, 0.05 * f64::from(step))));
+            wrongly += i32::from(has_some);
             continue;
         };
         let steeper = [1e-9, 1e-3, 0.1, 0.3, 0.6, 0.9].map(|share| least.theta + share * (FRAC_PI_2 - least.theta));
@@ -116,9 +118,11 @@ fn from_the_least_elevation_on_no_point_of_the_cue_is_in_a_rail_or_a_ball_and_be
     }
     // Those are cues that would slip in beside a ball, under its middle, whose flat end is nearer to a nose than it is
     // wide, or whose butt ends at a nose.
-    println!("{raised} raised, {bounds} of them by more than they must be, {refused} refused");
+    println!(
+        "{raised} raised, {bounds} by more than they must be; {refused} refused, {wrongly} that would do at some elevation"
+    );
     assert!(raised > 900 && 50 * bounds < raised, "{raised} raised, {bounds} of them by more than they must be");
-    assert!(refused < 150, "{refused} refused");
+    assert!(refused < 150 && 15 * wrongly < refused, "{refused} refused, {wrongly} that would do at some elevation");
 }
 
 /// The middle of a half of the default table, with a cue ball so far from the bottom rail that it is played away from.
@@ -166,6 +170,16 @@ fn a_cue_that_cannot_be_held_anyhow_is_refused_and_a_table_without_limits_refuse
     assert_eq!(least_elevation(&table, &layout, &up(0.0)).unwrap_err().obstacle, Obstacle::Ball(2));
     let over = least_elevation(&table, &layout, &up(0.5)).unwrap();
     assert!(over.over == Some(Obstacle::Ball(2)) && over.theta > 0.7, "{over:?}");
+}
+
+#[test]
+fn a_ball_ahead_is_in_nobodys_way_wherever_the_tip_is() {
+    let table = table();
+    for (apart, b) in [(0.062, -0.45), (0.3, -0.3), (0.3, 0.0), (1.0, 0.45)] {
+        let layout = Layout::new([DVec2::ZERO, DVec2::new(0.0, apart), DVec2::new(-1.2, 0.3)]);
+        let least = least_elevation(&table, &layout, &up(b)).unwrap();
+        assert!(least.theta < 3.0_f64.to_radians() && !matches!(least.over, Some(Obstacle::Ball(_))), "{b}: {least:?}");
+    }
 }
 
 #[test]

@@ -44,8 +44,8 @@ fn goal_words(goal: Goal) -> String {
         Goal::Game { innings: 0 } => "game".to_owned(),
         Goal::Game { innings: 1 } => "game, 1 inning".to_owned(),
         Goal::Game { innings } => format!("game, {innings} innings"),
-        Goal::Match { innings: 0 } => "match of two".to_owned(),
-        Goal::Match { innings } => format!("match of two, {innings} innings"),
+        Goal::Match { innings: 0 } => "match".to_owned(),
+        Goal::Match { innings } => format!("match, {innings} innings"),
     }
 }
 
