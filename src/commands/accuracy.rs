@@ -127,14 +127,14 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
         Some(name) => table_named(name).map(|table| vec![(table.name.clone(), table)])?,
         None => filmed::models(),
     };
-    let rows = filmed::rows(&models, &film, |name| eprintln!("playing the film on {name} ..."));
+    let rows = filmed::rows(&models, &film, |name| tell(format_args!("playing the film on {name} ...")));
     if let Some(folder) = &args.out {
         write_file(folder, "filmed.csv", &filmed::csv(&rows))?;
         if let Some((_, table)) = models.last() {
             write_file(folder, "filmed.svg", &filmed::paths(table, &film))?;
         }
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
         rows.iter().try_for_each(|row| write_json(&mut out, row))?;
     } else {
@@ -152,9 +152,9 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
         |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());
     let (even, odd): (Vec<_>, Vec<_>) = (half(0).collect(), half(1).collect());
     let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     for (used, fit_on, judge_on) in parts {
-        eprintln!("fitting {used} ...");
+        tell(format_args!("fitting {used} ..."));
         let fitted = filmed::fit_constants(&table, model, fit_on);
         let name = format!("fitted to {used}");
         let row = filmed::judge(&name, &fitted.table, judge_on);
