@@ -33,6 +33,14 @@ pub fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording
     finite(table, recording, is_over)
 }
 
+/// Plays a shot in which the cue ball has this motion just after the stroke.
+///
+/// # Errors
+/// What is wrong with the layout or the motion; and where its numbers get out of hand.
+pub fn play_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Recording, Failure> {
+    finite(table, Recording::with_impulse(table, layout, impulse).map_err(Failure::wrong_input)?, false)
+}
+
 /// Plays a shot in fixed steps.
 ///
 /// # Errors

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -10,7 +11,7 @@ use super::{
     output::{impulse_words, tell},
 };
 use crate::{
-    physics::{CueInputs, LeastElevation, NoRoom, has_room, least_elevation},
+    physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
     printing,
     simulation::{Event, Recording},
     study::{Stepped, Steps},
@@ -31,7 +32,7 @@ pub struct Args {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// JSON Lines of shots with `preset`, `layout` and `cue`; "-" reads the standard input.
+    /// JSON Lines of shots with `preset`, `layout` and `cue`, or `impulse` (velocity, spin of the cue ball) in its place; "-" reads the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "shot")]
     batch: Option<String>,
     /// How time goes on: from event to event, or in the fixed steps of thesis 3.1, to see what they miss.
@@ -59,17 +60,70 @@ enum Method {
 struct Question {
     preset: String,
     layout: Layout,
-    cue: CueInputs,
+    cue: Option<CueInputs>,
+    impulse: Option<GivenImpulse>,
 }
 
 impl Keys for Question {
-    const KEYS: &'static [&'static str] = &["preset", "layout", "cue"];
+    const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse"];
+}
+
+/// A motion of the cue ball in the place of a stroke, as a film shows it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GivenImpulse {
+    /// Along x, y and, if a third is given, upwards, m/s.
+    velocity: Vec<f64>,
+    /// About x, y and the vertical, rad/s.
+    spin: [f64; 3],
+}
+
+impl GivenImpulse {
+    fn impulse(&self) -> Result<Impulse, Failure> {
+        match self.velocity[..] {
+            [x, y] => Ok(Impulse { velocity: DVec2::new(x, y), spin: DVec3::from_array(self.spin) }),
+            [x, y, up] if up == 0.0 => Ok(Impulse { velocity: DVec2::new(x, y), spin: DVec3::from_array(self.spin) }),
+            [_, _, up] => Err(Failure::wrong_input(format_args!(
+                "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth"
+            ))),
+            _ => Err(Failure::wrong_input(format_args!(
+                "impulse.velocity has {} numbers; accepted are [x, y] and [x, y, 0]",
+                self.velocity.len()
+            ))),
+        }
+    }
+}
+
+impl Question {
+    fn answer(&self, table: &Table, steps: Option<Steps>) -> Result<Answer, Failure> {
+        match (&self.cue, &self.impulse) {
+            (Some(cue), None) => {
+                Ok(Answer::of(&play(table, &self.layout, cue, steps)?, CueRoom::of(table, &self.layout, cue)))
+            }
+            (None, Some(_)) if steps.is_some() => {
+                Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
+            }
+            (None, Some(given)) => {
+                Ok(Answer::of(&(bounded::play_impulse(table, &self.layout, &given.impulse()?)?, None), None))
+            }
+            _ => Err(Failure::wrong_input("a line needs either cue or impulse")),
+        }
+    }
+}
+
+/// An event, and where a ball was that met a cushion.
+#[derive(Serialize)]
+struct PlacedEvent {
+    #[serde(flatten)]
+    event: Event,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<DVec2>,
 }
 
 /// The answer in JSON.
 #[derive(Serialize)]
 struct Answer {
-    events: Vec<Event>,
+    events: Vec<PlacedEvent>,
     #[serde(rename = "final")]
     end: Layout,
     duration: f64,
@@ -128,7 +182,14 @@ impl Answer {
     fn of((recording, stepped): &Played, cue_room: Option<CueRoom>) -> Self {
         Self {
             cue_room,
-            events: recording.events().to_vec(),
+            events: recording
+                .events()
+                .iter()
+                .map(|&event| {
+                    let at = event.kind.rail().map(|_| recording.state(event.kind.balls().0, event.time).position);
+                    PlacedEvent { event, at }
+                })
+                .collect(),
             end: recording.final_layout(),
             duration: recording.duration(),
             steps: stepped.map(|Stepped { steps, deepest_overlap, at_rest, .. }| StepsAnswer {
@@ -148,9 +209,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
         return answer_lines(file, |question: Question| {
-            let Question { preset, layout, cue } = question;
-            let table = tables.get(&preset)?;
-            Ok(Answer::of(&play(table, &layout, &cue, steps)?, CueRoom::of(table, &layout, &cue)))
+            let table = tables.get(&question.preset)?;
+            question.answer(table, steps)
         });
     }
     let (table, layout) = args.scene.read()?;

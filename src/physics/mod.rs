@@ -10,7 +10,7 @@ mod rolling;
 pub use contact::{
     ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
 };
-pub use cue::{CueError, CueInputs, Impulse, squirt, strike};
+pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 #[cfg(test)]
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
