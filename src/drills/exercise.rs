@@ -7,11 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     game::Rule,
     learning::policy::kept::{LONGEST_NAME, is_name},
-<<<<<<< ours
-    physics::{CueError, CueInputs, has_room},
-=======
-    physics::{CueError, CueInputs, ImpulseError},
->>>>>>> theirs
+    physics::{CueError, CueInputs, ImpulseError, has_room},
     simulation::ShotError,
     table::{Layout, LayoutError, Table, TableError},
 };
