@@ -4,6 +4,9 @@
 //! [`printing`] what goes out, [`storage`] files, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents,
 //! [`coach`] recommendations, [`drills`] practice, [`study`] the program measuring itself, [`terminal`] screens, [`commands`] the command line.
 
+// What may not be used stands in clippy.toml.
+#![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]
+
 pub mod coach;
 pub mod commands;
 pub mod drills;

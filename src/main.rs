@@ -1,5 +1,8 @@
 //! The program: parses the command line, runs it, and turns failures into a sentence and an exit code.
 
+// What may not be used stands in clippy.toml.
+#![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]
+
 use std::{io::Write, process::ExitCode};
 
 use carom::{commands::Cli, printing};

@@ -91,6 +91,7 @@ fn question<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
     // serde counts lines within the line: only its column helps.
     let reason = |error: serde_json::Error| error.to_string().replace(" at line 1", ",");
     let question = serde_json::from_slice(line).map_err(reason)?;
+    #[expect(clippy::zero_sized_map_values, reason = "serde reads a set from no object")]
     let keys: HashMap<String, IgnoredAny> = serde_json::from_slice(line).map_err(reason)?;
     match keys.keys().find(|key| !Q::KEYS.contains(&key.as_str()) && !ANSWERS.contains(&key.as_str())) {
         Some(key) => Err(format!("\"{key}\" is not known; accepted are {}", Q::KEYS.join(", "))),

@@ -132,6 +132,7 @@ fn wait(input: impl AsFd, patience: Option<Duration>) -> io::Result<Waited> {
 
 /// Lets a screen end that waits for a terminal which takes nothing any more, as over a link that stands still: what has
 /// not been taken is thrown away, as often as that is in the way. The process ends meanwhile, and this thread with it.
+#[allow(clippy::disallowed_methods, reason = "nothing is written")]
 fn free_the_screen() -> ! {
     let output = io::stdout();
     loop {

@@ -1,5 +1,10 @@
 //! The terminal while the program has it: taken over, given back as it was found, whatever ends the program.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "what takes the terminal over are control characters; text goes through the painter"
+)]
+
 use std::{
     fs::File,
     io::{self, IsTerminal, Write},

@@ -43,7 +43,7 @@ impl Margins {
         let (sender, found) = mpsc::channel();
         let (table, layout, cue) = (table.clone(), *layout, *cue);
         // Nobody waits for one that takes longer; it ends with the program.
-        thread::spawn(move || sender.send(Self::of(rule, &table, &layout, &cue)));
+        thread::spawn(move || drop(sender.send(Self::of(rule, &table, &layout, &cue))));
         found.recv_timeout(LONGEST).map_or_else(
             |_| {
                 tell(format_args!(

@@ -8,7 +8,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use crate::storage;
+use crate::{printing, storage};
 
 use super::number;
 
@@ -112,7 +112,7 @@ impl MetricsFile {
     /// Adds a line to those that wait.
     pub fn push(&mut self, record: &Record) {
         // A record has nothing but numbers under fixed names, and memory takes any number of bytes.
-        if serde_json::to_writer(&mut self.waiting, record).is_ok() {
+        if printing::json(&mut self.waiting, record).is_ok() {
             self.waiting.push(b'\n');
         }
     }

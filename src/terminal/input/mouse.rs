@@ -7,9 +7,8 @@ pub fn sgr(parameters: &str, last: u8) -> Option<Event> {
     let [button, column, row] = numbers(parameters)?;
     let (kind, modifiers) = button_of(u8::try_from(button).ok()?)?;
     let kind = match (kind, last) {
-        (kind, b'M') => kind,
         (MouseEventKind::Down(button), b'm') => MouseEventKind::Up(button),
-        (kind, b'm') => kind,
+        (kind, b'M' | b'm') => kind,
         _ => return None,
     };
     event(kind, modifiers, column, row)
