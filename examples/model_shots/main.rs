@@ -59,7 +59,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
 fn renew(exercise: &mut Exercise) {
     let wanted = exercise.par.map_or(0.0, mean) - exercise.shot.map_or(0.0, |shot| cost(&shot));
     let present = exercise.shot.map_or(0.0, |shot| worth(exercise, &shot));
-    if present >= wanted - SHORTFALL / 5.0 {
+    if exercise.shot.is_some() && present >= wanted - SHORTFALL / 5.0 {
         return;
     }
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(2026);
