@@ -9,7 +9,7 @@ mod rolling;
 pub use contact::{
     ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
 };
-pub use cue::{CueError, CueInputs, Impulse, squirt, strike};
+pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 pub use impact::{BallImpact, Cushion, ImpactLaw, collide_balls, collide_rail, collide_together};
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,

@@ -35,6 +35,10 @@ pub enum Order {
     Tell,
     /// Balls as it leaves them.
     GoOn,
+    /// Which filmed shots there are.
+    Films,
+    /// The filmed shot of this number, beside its simulation.
+    Film(u32),
     /// The last change of the balls back.
     Undo,
     /// What may be said.
@@ -58,6 +62,8 @@ pub const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     ("skill club", "who plays: perfect, expert, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1"),
     ("plan off", "whether the coach has the next point in mind: on or off"),
+    ("film", "which filmed shots there are"),
+    ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
     ("undo", "take the last change of the balls back"),
     ("quit", "end; so does the end of the input"),
 ];
@@ -77,6 +83,10 @@ impl FromStr for Order {
             ["opening"] => Self::Opening,
             ["random"] => Self::Random,
             ["undo"] => Self::Undo,
+            ["film"] => Self::Films,
+            ["film", number] => Self::Film(
+                number.parse().map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
+            ),
             ["help"] => Self::Help,
             ["quit"] => Self::Quit,
             ["plan", "on"] => Self::Plan(true),
@@ -133,6 +143,7 @@ mod tests {
             ("move red left -3", "-3"),
             ("rule snooker", "snooker"),
             ("skill god", "god"),
+            ("film first", "first"),
         ] {
             let error = line.parse::<Order>().unwrap_err();
             assert!(error.contains(named), "{line}: {error}");
