@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     game::Rule,
     learning::policy::kept::{LONGEST_NAME, is_name},
-    physics::{CueError, CueInputs, ImpulseError},
+    physics::{CueError, CueInputs, ImpulseError, has_room},
     simulation::ShotError,
     table::{Layout, LayoutError, Table, TableError},
 };
@@ -195,6 +195,12 @@ impl Exercise {
         let table = Table::preset(&self.table)?;
         self.layout.validate(&table)?;
         Ok(table)
+    }
+
+    /// The shot that it teaches; `None` where it has none, or the cue has no room for it.
+    pub fn taught(&self) -> Option<CueInputs> {
+        let table = self.table().ok()?;
+        self.shot.filter(|shot| has_room(&table, &self.layout, shot))
     }
 
     /// Checks all that others rely on: the name, the words, the table, the layout and the shot.

@@ -86,7 +86,10 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            segment.half_acceleration = u * (-0.5 * constants.sliding / speed) + 0.5 * constants.tilt;
+            segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
+            if !constants.even {
+                segment.half_acceleration += 0.5 * constants.tilt;
+            }
             (segment, speed * constants.slide_time)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
@@ -101,11 +104,12 @@ impl Segment {
         let speed = self.velocity.length();
         self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
         self.motion = Motion::Rolling;
-        let (deceleration, end) = constants.rolling.band(speed);
-        self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
-        if constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0 {
+        if constants.even {
+            self.half_acceleration = self.velocity * (-0.5 * constants.rolling.least / speed);
             return (self, speed * constants.roll_time);
         }
+        let (deceleration, end) = constants.rolling.band(speed);
+        self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
         // A slope pulls a rolling ball with five sevenths of its acceleration, and helps or hinders the band's end.
         let pull = 5.0 / 7.0 * constants.tilt;
         self.half_acceleration += 0.5 * pull;
@@ -117,18 +121,13 @@ impl Segment {
     /// deceleration.
     #[inline(always)]
     pub fn rolls_to_rest(&self, constants: &Constants, lasts: f64) -> bool {
-        (constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0)
-            || self.velocity_at_end(constants, lasts) == DVec2::ZERO
-    }
-
-    /// Velocity at the end of a roll's band, m/s: zero where it is less than what counts as rest.
-    fn velocity_at_end(&self, constants: &Constants, lasts: f64) -> DVec2 {
-        let velocity = self.velocity_after(lasts);
-        if velocity.length_squared() < constants.tolerance.still * constants.tolerance.still {
-            DVec2::ZERO
-        } else {
-            velocity
+        if constants.even {
+            return true;
         }
+        if constants.tilt == DVec2::ZERO {
+            return constants.rolling.is_last(self.velocity.length());
+        }
+        self.velocity_after(lasts).length() < constants.tolerance.still
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
@@ -139,12 +138,14 @@ impl Segment {
         let start = self.start + duration;
         if self.motion == Motion::Sliding {
             // What the slip leaves is known without its duration, which keeps the rounding small.
-            let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0)
-                + (5.0 / 7.0 * duration) * constants.tilt;
+            let mut velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
+            if !constants.even {
+                velocity += (5.0 / 7.0 * duration) * constants.tilt;
+            }
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
             if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
         } else if !self.rolls_to_rest(constants, duration) {
-            let velocity = self.velocity_at_end(constants, duration);
+            let velocity = self.velocity_after(duration);
             Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
             let position = self.position + 0.5 * duration * self.velocity;
@@ -192,10 +193,10 @@ impl Segment {
             Motion::Stationary | Motion::Resting => 0.0,
         } * constants.per_radius;
         // A slope does not turn a sliding ball.
-        let turning = match self.motion {
-            Motion::Sliding => self.half_acceleration - 0.5 * constants.tilt,
-            _ => self.half_acceleration,
-        };
+        let mut turning = self.half_acceleration;
+        if !constants.even && self.motion == Motion::Sliding {
+            turning -= 0.5 * constants.tilt;
+        }
         let horizontal = self.spin.truncate() + (rate * t) * turning.perp();
         horizontal.extend(decayed_spin(self.spin.z, constants.spinning, t))
     }
@@ -218,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_sliding_ball_rolls_exactly_when_its_slip_is_used_up() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let state =
             BallState { position: DVec2::ZERO, velocity: DVec2::new(2.0, -1.0), spin: DVec3::new(30.0, -70.0, 20.0) };
         let (slide, duration) = Segment::free(&constants, 0.0, &state);
@@ -232,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_rolling_ball_stops_after_v_squared_over_two_a() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let velocity = DVec2::new(0.3, 0.4);
         let spin = rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, duration) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
@@ -243,7 +244,7 @@ mod tests {
 
     #[test]
     fn spin_about_the_vertical_decays_to_zero_and_stays_there() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let spin = DVec3::new(0.0, 0.0, -1.0);
         let state = BallState { position: DVec2::ZERO, velocity: DVec2::ZERO, spin };
         let (rest, _) = Segment::free(&constants, 0.0, &state);

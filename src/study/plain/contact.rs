@@ -47,19 +47,19 @@ impl Contact {
         }
     }
 
-    /// Restitution of an impact.
+    /// Restitution of a slow impact.
     pub fn restitution<R: Real>(self, numbers: &Numbers<R>) -> R {
         match self {
             Self::Balls(..) => numbers.ball_restitution,
-            Self::Rail(..) => numbers.rail_restitution,
+            Self::Rail(_, rail) => numbers.cushion(rail).restitution,
         }
     }
 
-    /// Coulomb's coefficient; `None` where nothing slips.
+    /// Coulomb's coefficient at rest; `None` where nothing slips.
     pub fn friction<R: Real>(self, numbers: &Numbers<R>) -> Option<R> {
         match self {
             Self::Balls(..) => numbers.ball_friction,
-            Self::Rail(..) => Some(numbers.rail_friction),
+            Self::Rail(_, rail) => Some(numbers.cushion(rail).friction),
         }
     }
 

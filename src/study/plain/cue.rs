@@ -17,9 +17,22 @@ pub struct Stroke<R> {
     pub speed: R,
 }
 
-/// Velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass.
+/// Sine and cosine of the direction in which the ball squirts: an angle with the tangent
+/// `5/2 a √(1-a²) / (1 + m/m_e + 5/2 (1-a²))` away from the tip's side (Alciatore, TP A.31).
+fn squirted<R: Real>(numbers: &Numbers<R>, a: R, (sine, cosine): (R, R)) -> (R, R) {
+    let Some(ratio) = numbers.end_ratio else { return (sine, cosine) };
+    let (one, rest) = (R::of(1.0), (R::of(1.0) - a * a).max(R::zero()));
+    let tangent = R::of(2.5) * a * rest.sqrt() / (one + ratio + R::of(2.5) * rest);
+    let (turned_sine, turned_cosine) = (sine - tangent * cosine, cosine + tangent * sine);
+    let length = (one + tangent * tangent).sqrt();
+    (turned_sine / length, turned_cosine / length)
+}
+
+/// Velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass, along the
+/// direction in which the ball squirts.
 pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, Vector<R>) {
-    let Stroke { a, b, theta: (sin_theta, cos_theta), phi: (sin_phi, cos_phi), speed } = *stroke;
+    let Stroke { a, b, theta: (sin_theta, cos_theta), phi, speed } = *stroke;
+    let (sin_phi, cos_phi) = squirted(numbers, a, phi);
     let c = (R::of(1.0) - a * a - b * b).max(R::zero()).sqrt();
     let offset = a * a + b * b * cos_theta * cos_theta + c * c * sin_theta * sin_theta
         - R::of(2.0) * b * c * cos_theta * sin_theta;

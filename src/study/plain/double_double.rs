@@ -18,6 +18,9 @@ impl DoubleDouble {
     /// Ratio of a circle's circumference to its diameter.
     pub const PI: Self = Self { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
+    /// Natural logarithm of two.
+    const LN_2: Self = Self { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
+
     /// The sum of two `f64`, exactly, where `large` is zero or not the smaller of the two.
     fn of_ordered(large: f64, small: f64) -> Self {
         let high = large + small;
@@ -62,6 +65,21 @@ impl DoubleDouble {
             2 => (-sine, -cosine),
             _ => (-cosine, sine),
         }
+    }
+
+    /// Hyperbolic sine and cosine by their power series, for arguments of up to a half.
+    fn hyperbolic(self) -> (Self, Self) {
+        let (mut sine, mut cosine) = (Self::zero(), Self::zero());
+        let mut term = Self::of(1.0);
+        for n in 0..26 {
+            if n % 2 == 0 {
+                cosine = cosine + term;
+            } else {
+                sine = sine + term;
+            }
+            term = term * self / Self::of(f64::from(n + 1));
+        }
+        (sine, cosine)
     }
 }
 
@@ -141,6 +159,27 @@ impl Real for DoubleDouble {
         let root = self.high.sqrt();
         let rest = self - Self::of_product(root, root);
         Self::of_ordered(root, rest.high / (2.0 * root))
+    }
+
+    /// By the power series after division by a power of two.
+    fn exp(self) -> Self {
+        let powers = (self.high / std::f64::consts::LN_2).round();
+        let rest = self - Self::LN_2 * Self::of(powers);
+        let (sine, cosine) = rest.hyperbolic();
+        (sine + cosine) * Self::of(powers.exp2())
+    }
+
+    fn tanh(self) -> Self {
+        let one = Self::of(1.0);
+        if self.high.abs() < 0.25 {
+            let (sine, cosine) = self.hyperbolic();
+            return sine / cosine;
+        }
+        // Beyond 40 what is missing from one is rounding.
+        let size = self.abs().min(Self::of(40.0));
+        let small = (Self::of(-2.0) * size).exp();
+        let tangent = (one - small) / (one + small);
+        if self.high < 0.0 { -tangent } else { tangent }
     }
 }
 

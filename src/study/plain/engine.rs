@@ -31,12 +31,19 @@ pub struct Shot<R> {
     pub energy: [R; 2],
 }
 
-/// Why a shot cannot be judged by this engine. In double-double no shot is known of which that is true.
+/// Why a shot cannot be judged by this engine: its table has a law that is missing here, or the equations are not solved. In
+/// double-double no shot is known of which the latter is true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unjudged {
     /// No forces are found that obey all laws of resting contact.
     #[error("no forces are found that obey all laws of resting contact")]
     Unsolved,
+    /// A cushion's impacts are integrated, by a model that this engine has not.
+    #[error("the model of the table's rails is integrated over the impulse, which this engine does not do")]
+    IntegratedRail,
+    /// The table is not level.
+    #[error("the table is not level, and rolling on a slope is not part of this engine")]
+    Slope,
     /// The events do not end.
     #[error("more than {MOST_STEPS} steps from event to event")]
     Endless,
@@ -53,7 +60,7 @@ enum Next {
 /// Plays a shot: ball 0 starts with the given velocity and spin.
 ///
 /// # Errors
-/// [`Unjudged`], where the equations are not solved.
+/// [`Unjudged`], where the table has other laws, or the equations are not solved.
 pub fn play<R: Real>(
     numbers: &Numbers<R>,
     positions: [Vector<R>; BALLS],
@@ -61,9 +68,8 @@ pub fn play<R: Real>(
     spin: Vector<R>,
     finder: Finder<R>,
 ) -> Result<Shot<R>, Unjudged> {
-    let still =
-        |position| Ball { position, velocity: Vector::zero(), spin: Vector::zero(), motion: Motion::Stationary };
-    let mut balls = positions.map(still);
+    numbers.judged()?;
+    let mut balls = positions.map(Ball::still);
     (balls[0].velocity, balls[0].spin) = (velocity, spin);
     balls[0].set_off(numbers);
     let energy_of = |balls: &[Ball<R>; BALLS]| balls.iter().fold(R::zero(), |sum, ball| sum + ball.energy(numbers));
@@ -79,6 +85,9 @@ pub fn play<R: Real>(
         stride = piece.as_ref().map_or(1.0, |piece| piece.stride);
         slow = if piece.as_ref().is_some_and(Piece::is_slow) { slow + 1 } else { 0 };
         resting = std::array::from_fn(|ball| piece.as_ref().is_some_and(|piece| piece.has(ball)));
+        for (ball, pressed) in balls.iter_mut().zip(resting) {
+            ball.choose_band(numbers, pressed);
+        }
         let course = Course { numbers: *numbers, balls, piece };
         let Some((time, next)) = predict(&course, finder) else {
             let duration = events.last().map_or(R::zero(), |event| event.0);
@@ -89,6 +98,7 @@ pub fn play<R: Real>(
         let (moved, lost) = course.after(time);
         (balls, work) = (moved, work + lost);
         match next {
+            Next::MotionEnds(index) if balls[index].rolls_on() => balls[index].band = None,
             Next::MotionEnds(index) => {
                 let ball = &mut balls[index];
                 let ended = ball.motion;

@@ -41,12 +41,13 @@ impl<R: Real> State<R> {
         state.time = combine(self.time, other.time);
         state.work = combine(self.work, other.work);
         for (ball, with) in state.balls.iter_mut().zip(&other.balls) {
-            let Ball { position, velocity, spin, motion } = *ball;
+            let Ball { position, velocity, spin, motion, band } = *ball;
             *ball = Ball {
                 position: position.with(with.position, combine),
                 velocity: velocity.with(with.velocity, combine),
                 spin: spin.with(with.spin, combine),
                 motion,
+                band,
             };
         }
         state

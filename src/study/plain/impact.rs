@@ -1,16 +1,23 @@
-//! Collisions (thesis 2.2.2 and 2.2.3). Each returns the energy over mass that it takes, worked out from the impulses.
+//! Collisions (thesis 2.2.2 and 2.2.3, and cushions at the height of their nose). Each returns the energy over mass that it
+//! takes, worked out from the impulses.
 
-use super::{Ball, Numbers, Real, Vector};
+use super::{
+    Ball, Numbers, Real, Vector,
+    rails::{Cushion, Meeting},
+};
 
-/// Two balls collide, with the given restitution (the table's, or zero at the end of a chatter).
-pub fn balls_collide<R: Real>(numbers: &Numbers<R>, restitution: R, first: &mut Ball<R>, second: &mut Ball<R>) -> R {
+/// Two balls collide.
+pub fn balls_collide<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut Ball<R>) -> R {
     let one = R::of(1.0);
     let n = (first.position - second.position).direction();
     let relative = first.velocity - second.velocity;
     let approach = -relative.dot(n);
+    let slow = numbers.ball_restitution;
+    let restitution = numbers.ball_falling.map_or(slow, |falling| falling.at(slow, approach));
     let push = R::of(0.5) * (one + restitution) * approach;
     let slip = relative + n * approach + n.cross(first.spin + second.spin) * numbers.radius;
-    let share = coulomb(numbers.ball_friction, push, slip.length(), R::ratio(1.0, 7.0));
+    let by_slip = numbers.ball_slip_friction.map(|[least, rise, fade]| least + rise * (-fade * slip.length()).exp());
+    let share = coulomb(by_slip.or(numbers.ball_friction), push, slip.length(), R::ratio(1.0, 7.0));
     let change = n * push - slip.flat() * share;
     first.velocity = first.velocity + change;
     second.velocity = second.velocity - change;
@@ -20,16 +27,53 @@ pub fn balls_collide<R: Real>(numbers: &Numbers<R>, restitution: R, first: &mut 
     R::of(0.25) * (one - restitution * restitution) * approach * approach + rubbed(slip, share, R::of(0.5))
 }
 
-/// A ball hits the cushion with normal `n`, with the given restitution.
-pub fn rail_collides<R: Real>(numbers: &Numbers<R>, restitution: R, n: Vector<R>, ball: &mut Ball<R>) -> R {
+/// A ball hits a cushion, whose normal into the table is `n`.
+pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vector<R>, ball: &mut Ball<R>) -> R {
     let one = R::of(1.0);
     let approach = -ball.velocity.dot(n);
+    let slow = cushion.restitution;
+    let restitution = cushion.falling.map_or(slow, |falling| falling.at(slow, approach));
+    if let Meeting::Nose { sine, cosine, most } = cushion.meeting {
+        return nose_collides(numbers, cushion.friction, restitution, n, [sine, cosine], most, ball);
+    }
     let push = (one + restitution) * approach;
     let slip = ball.velocity + n * approach + n.cross(ball.spin) * numbers.radius;
-    let share = coulomb(Some(numbers.rail_friction), push, slip.length(), R::ratio(2.0, 7.0));
+    let share = coulomb(Some(cushion.friction), push, slip.length(), R::ratio(2.0, 7.0));
     ball.velocity = ball.velocity + n * push - slip.flat() * share;
     ball.spin = ball.spin + n.cross(slip) * (R::of(2.5) * share / numbers.radius);
     R::of(0.5) * (one - restitution * restitution) * approach * approach + rubbed(slip, share, R::of(0.25))
+}
+
+/// The impulse acts along the line from the nose to the ball's centre, and friction across it. What has a part upwards the
+/// cloth takes up.
+fn nose_collides<R: Real>(
+    numbers: &Numbers<R>,
+    friction: R,
+    restitution: R,
+    n: Vector<R>,
+    [sine, cosine]: [R; 2],
+    most: Option<R>,
+    ball: &mut Ball<R>,
+) -> R {
+    let before = *ball;
+    let to_nose = Vector::up() * sine - n * cosine;
+    let push = (R::of(1.0) + restitution) * ball.velocity.dot(to_nose);
+    let surface = ball.velocity + ball.spin.cross(to_nose) * numbers.radius;
+    let slip = surface - to_nose * surface.dot(to_nose);
+    let size = slip.length();
+    let share = match most {
+        None => coulomb(Some(friction), push, size, R::ratio(2.0, 7.0)),
+        Some(most) if size > R::zero() => most * (friction * push / (most * size)).tanh(),
+        Some(_) => R::zero(),
+    };
+    let rub = slip * -share;
+    let impulse = (rub - to_nose * push).flat();
+    ball.velocity = ball.velocity + impulse;
+    let turn = to_nose.cross(rub);
+    ball.spin = ball.spin + turn * (R::of(2.5) / numbers.radius);
+    // Impulses times the mean speeds that they act on.
+    let mean = R::of(-0.5);
+    mean * (impulse.dot(before.velocity + ball.velocity) + numbers.radius * turn.dot(before.spin + ball.spin))
 }
 
 /// Tangential impulse over slip: Coulomb's, or what stops the slip if that is less.

@@ -4,7 +4,7 @@
 //! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.
 //!
 //! Free balls go along parabolas from event to event (`motion`, `meeting`). Contacts that close at one moment collide
-//! together (`rounds`). Bounces that shrink without end become a resting contact (`moment`), whose forces follow from the
+//! together (`rounds`); tables give the laws of their parts (`table`, `rails`, `impact`). Bounces that shrink without end become a resting contact (`moment`), whose forces follow from the
 //! laws by complementarity (`rest`, `laws`, `system`, `complementarity`) and are integrated from one change of the laws to
 //! the next (`piece`, `extrapolation`).
 
@@ -22,6 +22,7 @@ mod meeting;
 mod moment;
 mod motion;
 mod piece;
+mod rails;
 mod real;
 mod rest;
 mod roots;
@@ -40,6 +41,7 @@ pub use double_double::DoubleDouble;
 pub use engine::{Shot, Unjudged, play};
 pub use impact::{balls_collide, rail_collides};
 pub use motion::{Ball, Motion};
+pub use rails::Cushion;
 pub use real::Real;
 pub use roots::{Finder, algorithm_1010, by_extrema, closed_form};
 pub use table::{Numbers, normal as rail_normal};

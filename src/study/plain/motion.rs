@@ -13,6 +13,15 @@ pub enum Motion {
     Sliding,
 }
 
+/// A stretch of constant deceleration of a rolling ball, which keeps its direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Band<R> {
+    /// m/s².
+    deceleration: R,
+    /// Speed at which it changes, m/s; zero for rest.
+    end: R,
+}
+
 /// A ball at one moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Ball<R> {
@@ -24,9 +33,37 @@ pub struct Ball<R> {
     pub spin: Vector<R>,
     /// The equation of motion in force.
     pub motion: Motion,
+    /// The band in which a ball that nothing presses rolls, as soon as that is known.
+    pub band: Option<Band<R>>,
 }
 
 impl<R: Real> Ball<R> {
+    /// A ball that lies still.
+    pub fn still(position: Vector<R>) -> Self {
+        let zero = Vector::zero();
+        Self { position, velocity: zero, spin: zero, motion: Motion::Stationary, band: None }
+    }
+
+    /// Chooses the band of a ball that begins to roll where nothing presses it; one that is `pressed` has none.
+    pub fn choose_band(&mut self, numbers: &Numbers<R>, pressed: bool) {
+        if pressed || self.motion != Motion::Rolling {
+            self.band = None;
+        } else if self.band.is_none() {
+            let (deceleration, end) = numbers.band(self.velocity.length());
+            self.band = Some(Band { deceleration, end });
+        }
+    }
+
+    /// Deceleration of a ball that rolls, m/s², and the speed down to which it holds.
+    fn rolls(&self, numbers: &Numbers<R>) -> (R, R) {
+        self.band.map_or_else(|| numbers.band(self.velocity.length()), |Band { deceleration, end }| (deceleration, end))
+    }
+
+    /// Whether the ball rolls on in another band when this one ends.
+    pub fn rolls_on(&self) -> bool {
+        self.motion == Motion::Rolling && self.band.is_some_and(|band| band.end > R::zero())
+    }
+
     /// Slip of the lowest point on the cloth: `v + R z×w` (thesis equation 1).
     pub fn slip(&self, numbers: &Numbers<R>) -> Vector<R> {
         (self.velocity + Vector::up().cross(self.spin) * numbers.radius).flat()
@@ -42,7 +79,7 @@ impl<R: Real> Ball<R> {
     pub fn acceleration(&self, numbers: &Numbers<R>) -> Vector<R> {
         match self.motion {
             Motion::Sliding => self.slip(numbers).direction() * -numbers.slide,
-            Motion::Rolling => self.velocity.direction() * (-R::ratio(5.0, 7.0) * numbers.roll),
+            Motion::Rolling => self.velocity.direction() * -self.rolls(numbers).0,
             Motion::Stationary => Vector::zero(),
         }
     }
@@ -51,7 +88,10 @@ impl<R: Real> Ball<R> {
     pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
         match self.motion {
             Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
-            Motion::Rolling => Some(R::ratio(7.0, 5.0) * self.velocity.length() / numbers.roll),
+            Motion::Rolling => {
+                let (deceleration, end) = self.rolls(numbers);
+                Some((self.velocity.length() - end) / deceleration)
+            }
             Motion::Stationary => None,
         }
     }
@@ -76,6 +116,7 @@ impl<R: Real> Ball<R> {
     /// Chooses the motion, and makes what has ended end exactly: slips and speeds up to `none`, m/s.
     pub fn go_on(&mut self, numbers: &Numbers<R>, none: R) {
         self.motion = self.on_cloth(numbers, none);
+        self.band = None;
         match self.motion {
             Motion::Sliding => {}
             Motion::Rolling => _ = Motion::Sliding.successor(self, numbers),
@@ -100,7 +141,8 @@ impl<R: Real> Ball<R> {
             }
             Motion::Rolling => {
                 ball.spin = Vector::up().cross(ball.velocity) * (R::of(1.0) / numbers.radius);
-                work = numbers.roll * (ball.position - self.position).length();
+                let resistance = R::ratio(7.0, 5.0) * self.rolls(numbers).0;
+                work = resistance * (ball.position - self.position).length();
             }
             Motion::Stationary => {}
         }

@@ -5,7 +5,8 @@ use std::{
     ops::{Add, Div, Mul, Neg, Sub},
 };
 
-/// A real number to some precision. The engine needs no more than the four operations, the root and a comparison.
+/// A real number to some precision. The engine needs no more than the four operations, the root, a comparison and, for the
+/// frictions of some tables, the exponential.
 pub trait Real:
     Copy
     + Debug
@@ -28,6 +29,14 @@ pub trait Real:
     /// The square root of a number that is not negative.
     #[must_use]
     fn sqrt(self) -> Self;
+
+    /// `e` to this power.
+    #[must_use]
+    fn exp(self) -> Self;
+
+    /// The hyperbolic tangent.
+    #[must_use]
+    fn tanh(self) -> Self;
 
     /// Zero.
     fn zero() -> Self {
@@ -72,6 +81,14 @@ impl Real for f64 {
     fn sqrt(self) -> Self {
         self.sqrt()
     }
+
+    fn exp(self) -> Self {
+        self.exp()
+    }
+
+    fn tanh(self) -> Self {
+        self.tanh()
+    }
 }
 
 impl Real for f32 {
@@ -87,5 +104,13 @@ impl Real for f32 {
 
     fn sqrt(self) -> Self {
         self.sqrt()
+    }
+
+    fn exp(self) -> Self {
+        self.exp()
+    }
+
+    fn tanh(self) -> Self {
+        self.tanh()
     }
 }

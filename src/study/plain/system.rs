@@ -121,7 +121,9 @@ impl<R: Real> System<R> {
         }
         if motion == Motion::Rolling {
             let velocity = state.velocity;
-            self.rub(numbers, &Row::centre(ball, velocity.direction()), numbers.roll, velocity.length());
+            let speed = velocity.length();
+            let resistance = numbers.roll + R::ratio(7.0, 5.0) * numbers.roll_growth * speed;
+            self.rub(numbers, &Row::centre(ball, velocity.direction()), resistance, speed);
         } else if motion == Motion::Stationary {
             self.unknown(Law::Hold(numbers.roll), &axes.map(|axis| (Row::centre(ball, axis), zero)));
         }

@@ -1,6 +1,9 @@
 //! A table's numbers in the engine's own precision.
 
-use super::{Real, Vector};
+use super::{
+    Real, Unjudged, Vector,
+    rails::{Cushion, Falling, Meeting},
+};
 use crate::{simulation::Rail, table::Table};
 
 /// What the equations need of a table, in SI units.
@@ -18,24 +21,33 @@ pub struct Numbers<R> {
     pub slide: R,
     /// `mu_r g`, m/s².
     pub roll: R,
+    /// Growth of a rolling ball's deceleration with its speed, 1/s.
+    pub roll_growth: R,
     /// Decay of `w_z`: `5 mu_sp g / 2R`, rad/s².
     pub twist: R,
     /// Restitution between balls.
     pub ball_restitution: R,
+    /// How that falls with the speed of the impact.
+    pub ball_falling: Option<Falling<R>>,
     /// Friction between balls, `None` for a contact that never slips.
     pub ball_friction: Option<R>,
-    /// Restitution at a cushion.
-    pub rail_restitution: R,
-    /// Friction at a cushion.
-    pub rail_friction: R,
+    /// Friction of an impact of two balls by its slip: least, what slow slip adds, and how fast that fades, s/m.
+    pub ball_slip_friction: Option<[R; 3]>,
+    /// The cushions in the order of [`Rail::ALL`].
+    pub cushions: [Cushion<R>; 4],
     /// Ball mass over cue mass.
     pub mass_ratio: R,
+    /// Ball mass over the mass of the cue's end, `None` for a cue that nothing turns aside.
+    pub end_ratio: Option<R>,
+    /// Whether the table is level.
+    is_level: bool,
 }
 
 impl<R: Real> Numbers<R> {
     /// The numbers of `table`, whose `f64` are taken as exact.
     pub fn of(table: &Table) -> Self {
         let (radius, gravity, half) = (R::of(table.radius), R::of(table.gravity), R::of(0.5));
+        let mass = R::of(table.ball_mass);
         Self {
             radius,
             turnability: R::of(2.5) / (radius * radius),
@@ -43,13 +55,36 @@ impl<R: Real> Numbers<R> {
             half_width: half * R::of(table.width) - radius,
             slide: R::of(table.sliding_friction) * gravity,
             roll: R::of(table.rolling_friction) * gravity,
+            roll_growth: R::of(table.rolling_growth),
             twist: R::of(2.5) * R::of(table.spinning_friction) * gravity / radius,
             ball_restitution: R::of(table.ball_restitution),
+            ball_falling: table.ball_fade.map(Falling::of),
             ball_friction: table.ball_friction.map(R::of),
-            rail_restitution: R::of(table.rail_restitution),
-            rail_friction: R::of(table.rail_friction),
-            mass_ratio: R::of(table.ball_mass) / R::of(table.cue_mass),
+            ball_slip_friction: table.ball_slip_friction.map(|law| [law.least, law.rise, law.fade].map(R::of)),
+            cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)),
+            mass_ratio: mass / R::of(table.cue_mass),
+            end_ratio: table.cue_end_mass.map(|end| mass / R::of(end)),
+            is_level: table.tilt == glam::DVec2::ZERO,
         }
+    }
+
+    /// Whether the table has laws that this engine lacks.
+    ///
+    /// # Errors
+    /// Which one.
+    pub fn judged(&self) -> Result<(), Unjudged> {
+        if self.cushions.iter().any(|cushion| matches!(cushion.meeting, Meeting::Integrated)) {
+            Err(Unjudged::IntegratedRail)
+        } else if self.is_level {
+            Ok(())
+        } else {
+            Err(Unjudged::Slope)
+        }
+    }
+
+    /// A rail's cushion.
+    pub fn cushion(&self, rail: Rail) -> &Cushion<R> {
+        &self.cushions[rail as usize]
     }
 
     /// How far a ball's centre can go towards `rail`.
@@ -58,6 +93,28 @@ impl<R: Real> Numbers<R> {
             Rail::Left | Rail::Right => self.half_length,
             Rail::Bottom | Rail::Top => self.half_width,
         }
+    }
+
+    /// Deceleration of a ball that begins to roll with `speed`, m/s², and the speed down to which it holds.
+    ///
+    /// The law is that of `physics::rolling`: the last band begins where `c1 v` is 0.0118 `c0`, any other takes the share
+    /// `a / (1.4 a + 9.5 c1 v)` of its first speed.
+    pub fn band(&self, speed: R) -> (R, R) {
+        let (least, growth) = (R::ratio(5.0, 7.0) * self.roll, self.roll_growth);
+        if growth <= R::zero() {
+            return (least, R::zero());
+        }
+        let pull = growth * speed;
+        let end = if pull <= R::of(0.0118) * least {
+            R::zero()
+        } else {
+            let fast = least + pull;
+            speed - speed * fast / (R::of(1.4) * fast + R::of(9.5) * pull)
+        };
+        let (width, middle) = (speed - end, R::of(0.5) * (speed + end));
+        let mean = least + growth * middle;
+        let second = growth * width * width;
+        (mean + second * (R::of(1.0) / (R::of(24.0) * middle) - growth / (R::of(12.0) * mean)), end)
     }
 }
 

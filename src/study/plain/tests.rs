@@ -113,7 +113,7 @@ fn an_impact_passes_through_a_row_of_balls() {
 
 #[test]
 fn a_symmetric_break_stays_symmetric() {
-    for table in [thesis(), Table::default()] {
+    for table in [thesis(), Table::preset("textbook").unwrap()] {
         let numbers = Numbers::<D>::of(&table);
         let high = table.radius;
         let places = [vector(-0.3, 0.0, 0.0), vector(0.3, high, 0.0), vector(0.3, -high, 0.0)];
@@ -136,7 +136,7 @@ fn in_single_precision_it_ends_as_well() {
 }
 
 fn judges_all(random: usize, adversarial_shots: usize) {
-    for table in [thesis(), Table::default()] {
+    for table in [thesis(), Table::preset("textbook").unwrap()] {
         for shot in random_shots(&table, random, 1) {
             let _ = played(&table, &shot, [0, 1, 2], false);
         }
