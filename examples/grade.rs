@@ -1,7 +1,7 @@
 //! Measures how hard the exercises of a folder are, and writes it into their files.
 //!
 //! `cargo run --release --example grade -- saves/` plays every shot 10,000 times with the errors of a beginner, a club player
-//! and an expert, and rewrites par and grade. With `--check` it writes nothing, and fails where a file is not what it would
+//! and an expert, rewrites par and grade, and puts the easiest first. With `--check` it writes nothing, and fails where a file is not what it would
 //! write, or where a shot does not show what its category teaches.
 
 use std::{
@@ -59,6 +59,7 @@ fn grade(path: &Path, check: bool) -> Result<bool, Box<dyn Error>> {
             println!("{category:14} {name:26} grade {grade}  {beginner:.3} {club:.3} {expert:.3}");
         }
     }
+    file.exercises.sort_by_key(|exercise| exercise.grade);
     let measured = file.to_text()?;
     if measured != text && check {
         println!("{}: not as measured", path.display());

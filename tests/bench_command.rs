@@ -42,7 +42,7 @@ fn bench_gives_every_rate_as_one_json_object() {
 fn bench_tells_people_a_line_for_every_rate() {
     let output = bench(&["--seconds", "0.01"]).assert().success().get_output().stdout.clone();
     let text = String::from_utf8(output).unwrap();
-    assert!(text.lines().count() == 13 && text.lines().skip(1).all(|line| line.contains(" /s")), "{text}");
+    assert!(text.lines().count() == 16 && text.lines().skip(1).all(|line| line.contains(" /s")), "{text}");
 }
 
 #[test]

@@ -24,7 +24,7 @@ fn said(args: &[&str], code: i32) -> String {
 #[test]
 fn a_table_that_is_shown_can_be_changed_checked_and_played_on() {
     assert_eq!(text(&["table"]), text(&["table", "list"]));
-    assert_eq!(text(&["table", "list", "--json"]).lines().count(), 2);
+    assert_eq!(text(&["table", "list", "--json"]).lines().count(), 3);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");
     let file = file.to_str().unwrap();
@@ -40,7 +40,7 @@ fn what_is_wrong_with_a_table_is_said() {
     let file = folder.path().join("bad.toml");
     let name = file.to_str().unwrap();
     assert!(said(&["table", "check", name], 1).contains("bad.toml"));
-    std::fs::write(&file, text(&["table", "show"]).replace("e_rail = 0.85", "e_rail = 1.5")).unwrap();
+    std::fs::write(&file, text(&["table", "show", "textbook"]).replace("e_rail = 0.85", "e_rail = 1.5")).unwrap();
     let message = said(&["table", "check", name], 2);
     assert!(
         message.contains("e_rail = 1.5") && message.contains("0 to 1") && message.contains("bad.toml"),

@@ -49,7 +49,7 @@ fn built(table: &Table, before: usize, between: usize) -> ([DVec2; 3], CueInputs
 
 #[test]
 fn cushions_count_before_the_second_ball_wherever_they_come() {
-    let table = Table::default();
+    let table = Table::preset("textbook").unwrap();
     for (before, between) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3)] {
         let (balls, shot) = built(&table, before, between);
         let expected = [vec![0; before], vec![1], vec![0; between], vec![2]].concat();
@@ -64,7 +64,7 @@ fn cushions_count_before_the_second_ball_wherever_they_come() {
 
 #[test]
 fn cushions_after_the_second_ball_count_for_nothing() {
-    let table = Table::default();
+    let table = Table::preset("textbook").unwrap();
     for between in [0, 2] {
         let (balls, shot) = built(&table, 0, between);
         let course = course(&play(&table, balls, &shot));
@@ -76,7 +76,7 @@ fn cushions_after_the_second_ball_count_for_nothing() {
 
 #[test]
 fn the_same_ball_twice_is_one_ball() {
-    let table = Table::default();
+    let table = Table::preset("textbook").unwrap();
     // Straight at a ball before the short cushion: it comes back and is met again.
     let balls = [DVec2::new(0.0, 0.0), DVec2::new(1.2, 0.0), DVec2::new(-1.2, 0.6)];
     let shot = CueInputs::parse("0,0.3,0,0,3").unwrap();
@@ -90,7 +90,7 @@ fn the_same_ball_twice_is_one_ball() {
 /// rules; here the impact counts, for the simulator knows no faults.)
 #[test]
 fn a_ball_that_is_touched_at_the_start_counts_only_when_it_is_met() {
-    let table = Table::default();
+    let table = Table::preset("textbook").unwrap();
     let frozen = DVec2::new(-2.0 * table.radius, 0.0);
     let away = CueInputs::parse("0,0,0,0,1.2").unwrap();
     // The other ball is met, and the cue ball stays there: one ball.

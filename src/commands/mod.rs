@@ -28,7 +28,7 @@ use output::tell;
 
 use crate::{
     printing::{self, is_hidden},
-    storage::refuse_large_files,
+    storage::{Places, notice, refuse_large_files},
     terminal::{Settings, TerminalError},
 };
 
@@ -93,6 +93,9 @@ impl Cli {
         let (settings, complaints) = Settings::load(&path);
         let table = input::table_named(self.table.as_ref().unwrap_or(&settings.table))?;
         if self.plain {
+            if let Some(news) = notice(&Places::of_this_user(), &path) {
+                tell(format_args!("note: {news}"));
+            }
             for complaint in &complaints {
                 tell(format_args!("{}: {complaint}", path.display()));
             }

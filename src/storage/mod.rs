@@ -3,6 +3,7 @@
 mod atomic;
 mod limit;
 mod lock;
+mod notices;
 mod places;
 mod reading;
 
@@ -11,5 +12,6 @@ pub use atomic::{
 };
 pub use limit::refuse_large_files;
 pub use lock::Lock;
+pub use notices::notice;
 pub use places::Places;
 pub use reading::{LARGE, PRACTICE, SMALL, open, read, read_text};

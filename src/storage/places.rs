@@ -21,6 +21,8 @@ pub struct Places {
     pub last: PathBuf,
     /// What happened, line by line.
     pub log: PathBuf,
+    /// Which notices have been given.
+    pub notices: PathBuf,
 }
 
 impl Places {
@@ -31,6 +33,15 @@ impl Places {
             || [PathBuf::from("carom-data"), PathBuf::from("carom-data")],
             |dirs| [dirs.data_dir(), dirs.state_dir().unwrap_or_else(|| dirs.data_local_dir())].map(Path::to_owned),
         );
+        Self::in_folders(&data, &state)
+    }
+
+    /// All of it in one folder.
+    pub fn under(folder: &Path) -> Self {
+        Self::in_folders(folder, folder)
+    }
+
+    fn in_folders(data: &Path, state: &Path) -> Self {
         Self {
             runs: data.join("runs"),
             policies: data.join("policies"),
@@ -39,6 +50,7 @@ impl Places {
             player: data.join("player.json"),
             last: state.join("last.json"),
             log: state.join("carom.log"),
+            notices: state.join("notices"),
         }
     }
 }

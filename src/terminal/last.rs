@@ -58,7 +58,8 @@ impl Last {
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
     /// nobody is to be bothered about it.
     pub fn load(path: &Path) -> Option<Self> {
-        let last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
+        let mut last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
+        last.table = renewed(last.table);
         (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
     }
 
@@ -73,6 +74,12 @@ impl Last {
         let bytes = serde_json::to_vec(self).map_err(io::Error::from)?;
         replace(path, &bytes)
     }
+}
+
+/// The table that the name "match" means now, where this is the one that it meant in older versions.
+fn renewed(table: Table) -> Table {
+    let is_former = |textbook: Table| Table { name: table.name.clone(), ..textbook } == table;
+    if table.name == "match" && Table::preset("textbook").is_ok_and(is_former) { Table::default() } else { table }
 }
 
 #[cfg(test)]
@@ -101,5 +108,21 @@ mod tests {
         assert_eq!(Last::load(&path), None, "no shot would end on this table");
         std::fs::write(&path, "{").unwrap();
         assert_eq!(Last::load(&path), None);
+    }
+
+    #[test]
+    fn a_session_on_the_former_match_table_goes_on_on_the_present_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("last.json");
+        let on = |textbook: &str, name: &str| {
+            let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
+            Last::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false)
+                .save(&path)
+                .unwrap();
+            Last::load(&path).unwrap().table
+        };
+        assert_eq!(on("textbook", "match"), Table::default());
+        assert_eq!(on("thesis", "match").length, Table::preset("thesis").unwrap().length, "somebody's own");
+        assert_eq!(on("textbook", "textbook"), Table::preset("textbook").unwrap());
     }
 }

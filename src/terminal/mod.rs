@@ -54,7 +54,7 @@ use crate::{
     drills::store::Store,
     learning::PolicyError,
     printing,
-    storage::Places,
+    storage::{self, Places},
     table::{Layout, LayoutError, Table},
 };
 
@@ -116,6 +116,7 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Resul
         .with_settings(settings)
         .with_last(Last::load(&places.last))
         .with_own_skill(own.map(|own| own.skill))
+        .with_notice(storage::notice(&places, &Settings::path()))
         .with_complaints(&Settings::path(), complaints);
     Ok(runner::run(app, places)?)
 }

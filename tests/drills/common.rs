@@ -11,7 +11,7 @@ use assert_cmd::cargo::cargo_bin;
 use serde_json::Value;
 
 /// A position with a shot that an expert makes now and then.
-pub const SAVE: &[&str] = &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,0,1,4"];
+pub const SAVE: &[&str] = &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,3,1,4"];
 
 pub struct Outcome {
     pub code: Option<i32>,

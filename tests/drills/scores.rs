@@ -43,7 +43,7 @@ fn a_seed_plays_the_same_again_and_is_compared_with_what_is_taught_or_the_coach(
     let folder = folder();
     let play = || {
         let args =
-            ["try", "mine", "--shot", "0,0.3,0,5,4", "--repeat", "5", "--skill", "club", "--seed", "3", "--json"];
+            ["try", "mine", "--shot", "0,0.3,3,5,4", "--repeat", "5", "--skill", "club", "--seed", "3", "--json"];
         drill(folder.path(), &[&args[..], &["--budget-ms", "1000"]].concat()).json()
     };
     let (once, again) = (play(), play());
@@ -58,12 +58,12 @@ fn a_seed_plays_the_same_again_and_is_compared_with_what_is_taught_or_the_coach(
         assert!(!attempt["changes"].as_array().unwrap().is_empty());
         assert_eq!(attempt["advised_by"], "exercise");
     }
-    let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,0,1,4", "--json"]).json();
+    let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,3,1,4", "--json"]).json();
     let own = kinds(&own, "attempt")[0];
     assert_eq!([&own["changes"], &own["advised_chance"]], [&json!([]), &own["chance"]], "as it is taught");
     assert_ne!(attempts[0]["played"], attempts[1]["played"], "every attempt has its own errors");
     assert_eq!(drill(folder.path(), &["history", "--json"]).json()[0]["tried"], 11);
-    let shifted = ["try", "mine", "--shot", "0,0.3,0,1,4", "--repeat", "3", "--shifted", "--budget-ms", "20", "--json"];
+    let shifted = ["try", "mine", "--shot", "0,0.3,3,1,4", "--repeat", "3", "--shifted", "--budget-ms", "20", "--json"];
     let lines = drill(folder.path(), &shifted).json();
     assert_eq!(kinds(&lines, "position").len(), 3, "the balls are shifted every time");
 }
@@ -153,7 +153,7 @@ fn enough_results_tell_a_skill_that_every_command_takes() {
     assert!(low < number(&answer["scale"]) && number(&answer["scale"]) < high && high < 16.0, "{answer}");
     let report = own(&["evaluate", "--policy-only", "--layouts", "1", "--json"]).json().remove(0);
     assert_eq!(report["robustness"]["skill"], answer["skill"]);
-    let lines = own(&["drill", "try", "mine", "--shot", "0,0.3,0,1,4", "--budget-ms", "0", "--json"]).json();
+    let lines = own(&["drill", "try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "0", "--json"]).json();
     assert_eq!(kinds(&lines, "attempt").len(), 1);
 }
 

@@ -28,7 +28,7 @@ fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
         let args = ["drill", "run", "mine", "--goal", "10000", "--strokes", "10000", "--json"];
         let mut child = command(folder.path(), &args).stdin(Stdio::piped()).spawn().unwrap();
         let mut input = child.stdin.take().unwrap();
-        let feeder = std::thread::spawn(move || while writeln!(input, "0,0.3,0,1,4").is_ok() {});
+        let feeder = std::thread::spawn(move || while writeln!(input, "0,0.3,3,1,4").is_ok() {});
         let lines = BufReader::new(child.stdout.take().unwrap()).lines();
         // All kills at another moment, most of them while an attempt is played or written.
         std::thread::sleep(Duration::from_millis(40 + 37 * kill));
@@ -95,7 +95,7 @@ fn on_a_full_disk_a_sentence_says_so_and_what_was_written_stays() {
 fn a_folder_that_cannot_be_written_is_named() {
     let folder = folder();
     fs::write(folder.path().join("carom/sessions"), "in the way").unwrap();
-    for args in [&["log", "mine", "make"][..], &["try", "mine", "--shot", "0,0.3,0,1,4", "--budget-ms", "10"]] {
+    for args in [&["log", "mine", "make"][..], &["try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "10"]] {
         let refused = drill(folder.path(), args);
         assert!(refused.code == Some(1) && refused.err.contains("carom/sessions"), "{}", refused.err);
         assert!(!refused.out.contains("of 1 made"), "{}", refused.out);

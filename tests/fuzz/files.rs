@@ -51,14 +51,6 @@ fn only(folder: &str) -> (String, Vec<u8>) {
     (file.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(file).unwrap())
 }
 
-fn places(folder: &Path) -> Places {
-    let mut places = Places::of_this_user();
-    places.sessions = folder.join("sessions");
-    places.positions = folder.join("positions");
-    places.player = folder.join("player.json");
-    places
-}
-
 fn one_of(names: &'static [&'static str]) -> impl Strategy<Value = (&'static str, Vec<u8>)> {
     prop::sample::select(names).prop_flat_map(|name| (Just(name), mutated(sound(&format!("run/{name}")))))
 }
@@ -81,7 +73,7 @@ proptest! {
             fs::create_dir(folder.path().join(kind)).unwrap();
             fs::write(folder.path().join(kind).join(only(&format!("carom/{kind}")).0), bytes).unwrap();
         }
-        let store = Store::new(&places(folder.path()));
+        let store = Store::new(&Places::under(folder.path()));
         let found = store.sessions();
         prop_assert_eq!(found.items.len() + found.notes.len(), 1, "it is read or told of");
         for session in &found.items {

@@ -22,9 +22,9 @@ fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
     let home = tempfile::tempdir().unwrap();
     let start = || Session::start_at(home.path(), carom(), 80, 24);
     let mut first = start();
-    first.wait_for("white at x -710.0 mm, y 0.0 mm");
+    first.wait_for("white at x -710.0 mm, y 182.5 mm");
     first.send("\x1b[1;2B");
-    first.wait_for("white at x -710.0 mm, y -100.0 mm");
+    first.wait_for("white at x -710.0 mm, y 82.5 mm");
     first.send("[");
     first.wait_for("there is no");
     first.signal("HUP");
@@ -41,7 +41,7 @@ fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
     third.send("c");
     third.wait_for("this is where the last session ended");
     third.send("\t\x1b[Z");
-    third.wait_for("white at x -710.0 mm, y -100.0 mm");
+    third.wait_for("white at x -710.0 mm, y 82.5 mm");
     third.send("q");
     assert!(third.assert_left_without_trace().success());
     let log = std::fs::read_to_string(home.path().join("state/carom/carom.log")).unwrap();
@@ -84,7 +84,7 @@ fn raw_mode_is_off_again_after_the_end() {
 
 #[test]
 fn it_is_told_to_end_wherever_it_is() {
-    let press_the_white_ball = "\x1b[<0;34;16M\x1b[<32;40;16M";
+    let press_the_white_ball = "\x1b[<0;34;13M\x1b[<32;40;13M";
     for (keys, text) in [
         (&[":", "the"][..], " of "),
         (&["?"], "Placing the balls"),
@@ -167,11 +167,11 @@ fn whatever_kills_it_two_seconds_are_lost_at_most() {
     session.wait_for(OPENING);
     // The second move comes at once after the first one, and then nothing that could be a reason to write it down.
     session.send("\x1b[1;2B");
-    session.wait_for("y -100.0 mm");
+    session.wait_for("y 82.5 mm");
     session.send("\x1b[1;2B");
-    session.wait_for("y -200.0 mm");
+    session.wait_for("y -17.5 mm");
     let start = Instant::now();
-    while !session.last().contains("-0.2]") {
+    while !session.last().contains("[-0.71,-0.0175") {
         assert!(start.elapsed() < Duration::from_secs(4), "{}", session.last());
         session.count(Duration::from_millis(50));
     }

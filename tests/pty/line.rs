@@ -13,7 +13,7 @@ fn begun(keys: &[&str]) -> Session {
     let mut session = Session::start(120, 40);
     session.wait_for(OPENING);
     session.send("\x1b[1;2B");
-    session.wait_for("y -100.0 mm");
+    session.wait_for("y 82.5 mm");
     for key in keys {
         if *key == " " {
             session.wait_for_advice();
@@ -32,7 +32,7 @@ fn a_line_that_is_cut_ends_the_program_and_what_was_done_is_kept() {
         let status = session.ends_within(SOON);
         // Either is right: whichever of the signal and the end of the input is noticed first.
         assert!(!status.success(), "{keys:?}: {status:?}");
-        assert!(session.last().contains("-0.1]"), "{keys:?}: {}", session.last());
+        assert!(session.last().contains(",0.0824"), "{keys:?}: {}", session.last());
     }
 }
 
@@ -74,7 +74,7 @@ fn on_a_line_that_stands_still_the_program_can_be_ended_and_gives_the_terminal_b
     session.signal("TERM");
     let status = session.ends_within(SOON);
     assert!(status.signal().is_some(), "{status:?}");
-    assert!(session.last().contains("-0.1]"), "{}", session.last());
+    assert!(session.last().contains(",0.0824"), "{}", session.last());
     // What the line still holds ends with that.
     session.assert_left_without_trace();
 }

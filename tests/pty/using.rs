@@ -17,10 +17,10 @@ const FRAME: &[u8] = b"\x1b[?2026h";
 #[test]
 fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     let mut session = Session::start(80, 24);
-    session.wait_for("white at x -710.0 mm, y 0.0 mm");
+    session.wait_for("white at x -710.0 mm, y 182.5 mm");
     assert!(session.screen().alternate_screen() && session.screen().hide_cursor());
     session.send("\x1b[B\x1b[1;2B");
-    session.wait_for("white at x -710.0 mm, y -110.0 mm");
+    session.wait_for("white at x -710.0 mm, y 72.5 mm");
     session.send("\r");
     session.wait_for("Events 0/");
     session.wait_for("‖");
@@ -81,16 +81,16 @@ fn a_resize_repaints_and_a_small_terminal_says_so() {
 #[test]
 fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
     let mut session = Session::start(120, 40);
-    session.wait_for("white at x -710.0 mm, y 0.0 mm");
+    session.wait_for("white at x -710.0 mm, y 182.5 mm");
     let screen = session.screen();
     assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::ButtonMotion, "not every motion");
     assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
     session.count(Duration::from_millis(200));
     // What comes at once is below the 1,024 bytes that the input library reads at a time.
-    let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 16 + n % 2)).collect();
+    let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 13 + n % 2)).collect();
     let before = session.bytes;
-    session.send(&format!("\x1b[<0;34;16M{}\x1b[<32;44;16M\x1b[<0;44;16m", reports.concat()));
-    session.wait_for("white at x -447.0 mm, y 0.0 mm");
+    session.send(&format!("\x1b[<0;34;13M{}\x1b[<32;44;13M\x1b[<0;44;13m", reports.concat()));
+    session.wait_for("white at x -447.0 mm, y 182.5 mm");
     session.count(Duration::from_millis(200));
     let drag = session.bytes - before;
     // A picture is about 300 bytes.

@@ -70,11 +70,11 @@ fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
     let text = player.text(120, 40);
-    for part in ["expert makes it 94 % (92-95); hits yellow", "-0.200 R, 6.2 mm right", "82.60°", "V0", "ω0"] {
+    for part in ["expert makes it 94 % (92-95); hits yellow", "0.200 R, 6.2 mm left", "-72.00°", "V0", "ω0"] {
         assert!(text.contains(part), "{part}\n{text}");
     }
     // The line of aim in diamonds beside the degrees.
-    assert!(text.contains("82.60° bottom 1.7→top 2.3") && text.contains("hits yellow"), "{text}");
+    assert!(text.contains("-72.00° ") && text.contains("hits yellow"), "{text}");
 }
 
 #[test]
@@ -255,20 +255,21 @@ const KEYS: &[&str] = &[
 #[test]
 fn the_balls_have_their_colours_where_they_lie() {
     let picture = Player::new().picture(120, 40);
-    // Bed of 108 by 27 cells from (6, 2): white at a quarter, red at three quarters, half way down.
-    assert_eq!(picture[(33, 15)].fg, Color::Rgb(0xf7, 0xf3, 0xe8));
+    // Bed of 108 by 27 cells from (6, 2): yellow at a quarter, white above it, red at three quarters, half way down.
+    assert_eq!(picture[(33, 15)].fg, Color::Rgb(0xf6, 0xc3, 0x24));
+    assert_eq!(picture[(33, 12)].fg, Color::Rgb(0xf7, 0xf3, 0xe8));
     assert_eq!(picture[(87, 15)].fg, Color::Rgb(0xd9, 0x36, 0x36));
     assert_eq!(picture[(60, 15)].bg, Color::Rgb(0x1b, 0x6d, 0x83));
 }
 
 #[test]
 fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
-    // Positive a is left of the centre, and the recommended shot has a negative one.
+    // Positive a is left of the centre, as that of the recommended shot is.
     let picture = Player::new().press("Enter").answer().picture(120, 40);
     let blue = Color::Rgb(0x1f, 0x63, 0xc8);
     let columns: Vec<u16> =
         (72..84).filter(|&x| (30..40).any(|y| picture[(x, y)].fg == blue || picture[(x, y)].bg == blue)).collect();
-    assert!(!columns.is_empty() && columns.iter().all(|&x| x >= 78), "{columns:?}");
+    assert!(!columns.is_empty() && columns.iter().all(|&x| x <= 77), "{columns:?}");
 }
 
 #[test]

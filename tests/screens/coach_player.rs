@@ -19,9 +19,9 @@ pub const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unic
 
 /// A shot that makes the point from the opening position, so that the pictures do not change with the coach, two others,
 /// and one that makes the point from where the first leaves the balls.
-pub const SHOT: &str = "-0.2,0.2,6,82.6,2.5";
-pub const OTHERS: [&str; 2] = ["0.362,-0.11,0.467,107.632,5.525", "0.295,0.308,3.879,107.102,2.182"];
-pub const NEXT: &str = "-0.051,0.323,7.533,-146.013,6";
+pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
+pub const OTHERS: [&str; 2] = ["0.4,-0.22,2.37,-104.8,4.84", "0.09,0.35,2,-73.3,2.58"];
+pub const NEXT: &str = "-0.353,0.054,3.2,87.8,5.07";
 
 /// Whether a toast says `part`.
 pub fn is_toast(app: &App, part: &str) -> bool {

@@ -22,7 +22,7 @@ pub const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, 
 pub const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
 
 /// A stroke that makes the point from the opening position.
-pub const SHOT: &str = "-0.2,0.2,6,82.6,2.5";
+pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
 
 pub struct Player {
     pub app: App,
@@ -32,16 +32,7 @@ pub struct Player {
 }
 
 pub fn places(folder: &TempDir) -> Places {
-    let path = |name: &str| folder.path().join(name);
-    Places {
-        runs: path("runs"),
-        policies: path("policies"),
-        sessions: path("sessions"),
-        positions: path("positions"),
-        player: path("player.json"),
-        last: folder.path().join("last.json"),
-        log: folder.path().join("carom.log"),
-    }
+    Places::under(folder.path())
 }
 
 /// A position from the opening, with the shot that makes the point.

@@ -114,9 +114,9 @@ fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
 fn taught(player: Player) -> Player {
     let turn = player.app.drills().turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
-    let fine = ((degrees - 82.6) * 5.0).round() as usize;
-    let keys = vec!["Right"; fine].join(" ");
-    player.press(&keys).press("C-Right").press(&"l ".repeat(12)).press(&"k ".repeat(12)).press("+ + + + + +")
+    let fine = ((-72.0 - degrees) * 5.0).round() as usize;
+    let keys = vec!["Left"; fine].join(" ");
+    player.press(&keys).press("C-Left").press(&"h ".repeat(12)).press(&"k ".repeat(18)).press("+ + + + + +")
 }
 
 #[test]

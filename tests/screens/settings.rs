@@ -125,7 +125,7 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     // theme, colours, glyphs, table, rule, skill, plan, think_ms, step_mm, speed, mouse
     let player = player
         .press("Down Down Down Right Down Right Right Down Left Down Right Down Left Down Right Down Right Down l");
-    assert_eq!(player.app.table().name, "thesis");
+    assert_eq!(player.app.table().name, "textbook");
     let tutor = &player.app.coach().tutor;
     assert_eq!((tutor.rule, tutor.plan), (Rule::ThreeCushion, false));
     assert_eq!((player.app.step_mm(), player.app.playback().speed(), player.app.wants_mouse()), (50.0, 2.0, false));
@@ -142,10 +142,10 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
 #[test]
 fn the_table_comes_back_with_a_step_back() {
     let player = Player::new().press("Down Down Down Right F2");
-    assert_eq!(player.app.table().name, "thesis");
+    assert_eq!(player.app.table().name, "textbook");
     let player = player.press("Left u u");
     assert_eq!((player.app.table().name.as_str(), player.app.layout()), ("match", &Layout::opening(&Table::default())));
-    assert_eq!(player.press("U").app.table().name, "thesis");
+    assert_eq!(player.press("U").app.table().name, "textbook");
 }
 
 #[test]

@@ -86,12 +86,12 @@ fn draw_is_told_from_follow_and_both_from_rolling() {
 
 #[test]
 fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
-    let bank = shown(TRUE_COLOUR, "0,0,0,180,4");
+    let bank = shown(TRUE_COLOUR, "0,0,3,-173,4");
     let contact = bank.app.shot().unwrap().contact;
-    assert_eq!(contact.map(|hit| hit.ball), Some(2), "back along the axis to the red ball");
+    assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
     for (width, height) in [(80, 24), (120, 40)] {
         let text = bank.text(width, height);
-        for words in ["left rail", "first, then", "red "] {
+        for words in ["left rail", "first, then", "yellow "] {
             assert!(text.contains(words), "{words}\n{text}");
         }
     }

@@ -194,7 +194,7 @@ pub fn record(n: u64) -> Record {
 
 pub fn examples(after: u64) -> Examples {
     let table = Table::default();
-    let cue = CueInputs::parse("-0.2,0.2,6,82.6,2.5").unwrap();
+    let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
     let shot = |reward| Example { layout: Layout::opening(&table), cue, reward };
     Examples { after, shots: vec![shot(0.0), shot(1.0), shot(1.0)] }
 }

@@ -5,7 +5,8 @@ use crate::{
     commands::{Failure, named::own_skill, output::tell},
     drills::{Exercise, Library, Session, Store},
     printing::OneLine,
-    storage::Places,
+    storage::{self, Places},
+    terminal::Settings,
 };
 
 /// The user's store and the library with the user's own positions.
@@ -17,7 +18,9 @@ pub struct Workspace {
 impl Workspace {
     /// Reads the library; files that cannot be read are told on the standard error.
     pub fn open() -> Result<Self, Failure> {
-        let store = Store::new(&Places::of_this_user());
+        let places = Places::of_this_user();
+        note(storage::notice(&places, &Settings::path()).map(str::to_owned).as_slice());
+        let store = Store::new(&places);
         let (library, notes) = store.library().map_err(Failure::failed)?;
         note(&notes);
         Ok(Self { store, library })

@@ -27,7 +27,7 @@ use crate::{
         Policy, PolicyError,
         evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
     },
-    physics::CueInputs,
+    physics::{CueInputs, has_room},
     printing,
     table::{Layout, Table},
 };
@@ -171,13 +171,14 @@ const POLICY: &str = "policy";
 /// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
 const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
 
-/// The first of `shots` shots in a random direction at a random speed that makes the point; the last one where none does.
+/// The first of `shots` shots in a random direction at a random speed that the cue has room for and that makes the point; the last
+/// one where none does.
 fn random_search(table: &Table, layout: &Layout, rule: Rule, shots: u32, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let mut cue = NO_SHOT;
     for _ in 0..shots {
         let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
         cue = CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed };
-        if scores(rule, table, layout, &cue) {
+        if has_room(table, layout, &cue) && scores(rule, table, layout, &cue) {
             break;
         }
     }

@@ -73,5 +73,26 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         }
         Category::Own => Vec::new(),
     });
+    checks.extend(tagged(exercise, &technique, &cue));
     Ok(checks.into_iter().filter_map(|(sentence, holds)| (!holds).then_some(sentence)).collect())
+}
+
+/// What the tags promise of the stroke and of its course, each with whether it holds.
+fn tagged(exercise: &Exercise, technique: &Technique, cue: &CueInputs) -> impl Iterator<Item = (&'static str, bool)> {
+    let cushions = technique.before.len() + technique.between.len();
+    let direct = matches!(exercise.category, Category::OneCushion | Category::Side);
+    let checks = [
+        ("draw", "with the tag draw the tip is more than 0.15 R below the centre", cue.b < -0.15),
+        ("follow", "with the tag follow the tip is more than 0.1 R above the centre", cue.b > 0.1),
+        ("running", "with the tag running the first cushion is met with running english", technique.english > 0.0),
+        ("reverse", "with the tag reverse the first cushion is met with reverse english", technique.english < 0.0),
+        ("cushion-first", "with the tag cushion-first a cushion comes before ball 1", !technique.before.is_empty()),
+        ("two-cushions", "with the tag two-cushions there are two cushions before ball 2", cushions == 2 || !direct),
+        ("three-cushions", "with the tag three-cushions there are three before ball 2", cushions == 3 || !direct),
+    ];
+    let tags = &exercise.tags;
+    checks
+        .into_iter()
+        .filter(|(tag, ..)| tags.iter().any(|one| one == tag))
+        .map(|(_, sentence, holds)| (sentence, holds))
 }

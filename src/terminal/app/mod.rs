@@ -245,6 +245,13 @@ impl App {
         self.coach.last(practice.cloned())
     }
 
+    /// Says what has changed since the user was here before.
+    #[must_use]
+    pub fn with_notice(mut self, notice: Option<&str>) -> Self {
+        self.toasts.push_first(notice.map(str::to_owned).as_slice());
+        self
+    }
+
     /// Says that something is wrong with the settings.
     #[must_use]
     pub fn with_complaints(mut self, file: &Path, complaints: &[Complaint]) -> Self {

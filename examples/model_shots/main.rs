@@ -1,0 +1,86 @@
+//! Looks for the model shots of the exercises of a folder anew, by simulation on each exercise's own table.
+//!
+//! `cargo run --release --example model_shots -- saves/` looks at every exercise whose shot does not show what its category
+//! teaches, or that players make less often than its par says; names behind the folder restrict it to these exercises. Where the
+//! balls stay where they are and the best shot falls short of the par, ball 1 and ball 2 are moved by up to 0.15 m. `par` and
+//! `grade` are written by the example `grade` afterwards.
+
+use std::{
+    env,
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use carom::{
+    drills::{Exercise, LibraryFile, Par},
+    storage::write_atomic,
+};
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use search::{Found, best, best_of_places, cost, worth};
+
+mod search;
+
+/// How far the mean of the three players' shares may fall below the par before the balls are moved.
+const SHORTFALL: f64 = 0.05;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = env::args().skip(1);
+    let folder = words.next().ok_or("say where the files are: model_shots saves/ [NAME ...]")?;
+    let names: Vec<String> = words.collect();
+    for path in files(Path::new(&folder))? {
+        let text = fs::read_to_string(&path)?;
+        let mut file = LibraryFile::parse(&text)?;
+        for exercise in &mut file.exercises {
+            if names.is_empty() || names.contains(&exercise.name) {
+                renew(exercise);
+            }
+        }
+        let renewed = file.to_text()?;
+        if renewed != text {
+            write_atomic(&path, renewed.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// The JSON files of a folder, by name.
+fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>, std::io::Error>>()?;
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    paths.sort();
+    Ok(paths)
+}
+
+/// Gives the exercise the best shot that was found, and says what became of it.
+fn renew(exercise: &mut Exercise) {
+    let wanted = exercise.par.map_or(0.0, mean) - exercise.shot.map_or(0.0, |shot| cost(&shot));
+    let present = exercise.shot.map_or(0.0, |shot| worth(exercise, &shot));
+    if present >= wanted - SHORTFALL / 5.0 {
+        return;
+    }
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(2026);
+    let mut found = best(exercise, &mut rng).filter(|found| found.worth > present);
+    if found.as_ref().map_or(present, |found| found.worth) < wanted - SHORTFALL {
+        let moved = best_of_places(exercise, wanted, &mut rng);
+        let before = found.as_ref().map_or(present, |found| found.worth);
+        found = moved.filter(|moved| moved.worth > before + SHORTFALL).or(found);
+    }
+    let name = &exercise.name;
+    match found {
+        Some(Found { layout, shot, worth }) => {
+            let places = if layout == exercise.layout { "" } else { ", balls moved" };
+            println!("{name}: {present:.3} -> {worth:.3} of {wanted:.3}{places}");
+            (exercise.layout, exercise.shot) = (layout, Some(shot));
+        }
+        None => println!("{name}: {present:.3} of {wanted:.3} stays"),
+    }
+}
+
+/// The mean of the three players' shares.
+fn mean(Par { beginner, club, expert }: Par) -> f64 {
+    (beginner + club + expert) / 3.0
+}

@@ -1,0 +1,250 @@
+//! The search for a shot that shows what an exercise teaches and that players make often.
+
+use std::f64::consts::PI;
+
+use carom::{
+    coach::{Skill, make_probability},
+    drills::{Category, Exercise, GATHERED, Technique, flaws},
+    game::scores,
+    learning::normal_pair,
+    physics::{CueInputs, with_room},
+    table::{Layout, Table},
+};
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// Strokes (tip place and speed) that are tried from a place in every direction.
+const STROKES: usize = 1500;
+/// How many of them on each of the moved places.
+const STROKES_MOVED: usize = 200;
+/// Moved places that are tried.
+const PLACES: usize = 80;
+/// Attempts a player by which shots are compared.
+const ATTEMPTS: usize = 300;
+/// Shots that are refined.
+const LEADERS: usize = 6;
+/// Speed up to which a shot costs nothing, m/s, and what each m/s more is worth in shares.
+const SOFT: f64 = 2.5;
+const POWER: f64 = 0.03;
+/// Steps of tip places to a ball radius, of directions to a degree, and of speeds to 1 m/s, in the files.
+const TIP: f64 = 20.0;
+const DEGREE: f64 = 10.0;
+const SPEED: f64 = 10.0;
+
+/// A shot that was found, and where the balls lie for it.
+pub struct Found {
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// The shot.
+    pub shot: CueInputs,
+    /// Mean share that beginner, club player and expert make.
+    pub worth: f64,
+}
+
+/// Mean share that beginner, club player and expert make of this shot, of [`ATTEMPTS`] each, less what its power costs; 0 where it does not show what the exercise
+/// teaches. In `gather`, what an expert gathers is the least of it.
+pub fn worth(exercise: &Exercise, shot: &CueInputs) -> f64 {
+    worth_of(exercise, shot, ATTEMPTS)
+}
+
+fn worth_of(exercise: &Exercise, shot: &CueInputs, attempts: usize) -> f64 {
+    let shown = Exercise { shot: Some(*shot), ..exercise.clone() };
+    let (Ok([]), Ok(table)) = (flaws(&shown).as_deref(), exercise.table()) else { return 0.0 };
+    let shares = [Skill::BEGINNER, Skill::CLUB, Skill::EXPERT]
+        .map(|skill| make_probability(skill, exercise.rule, &table, &exercise.layout, shot, attempts, 1).rate);
+    // Between shots that are made as often the softer one is to be learnt.
+    let mean = shares.iter().sum::<f64>() / 3.0 - cost(shot);
+    if exercise.category == Category::Gather {
+        // Three attempts of four are enough: the rest is worth what the point is.
+        mean.min(gathered(exercise, &table, shot, attempts / 2) / 0.75)
+    } else {
+        mean
+    }
+}
+
+/// What the power of a shot costs, in shares.
+pub fn cost(shot: &CueInputs) -> f64 {
+    POWER * (shot.speed - SOFT).max(0.0)
+}
+
+/// The share of an expert's attempts that make the point and gather the balls.
+fn gathered(exercise: &Exercise, table: &Table, shot: &CueInputs, attempts: usize) -> f64 {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+    let mut is_gathered = || {
+        let [[a, b], [theta, phi], [speed, _]] = std::array::from_fn(|_| normal_pair(&mut rng));
+        let stroke = Skill::EXPERT.stroke(table.radius, shot, &[a, b, theta, phi, speed]);
+        Technique::of(table, &exercise.layout, &stroke)
+            .is_ok_and(|technique| technique.tally.is_point(exercise.rule) && technique.spread <= GATHERED)
+    };
+    (0..attempts).filter(|_| is_gathered()).count() as f64 / attempts as f64
+}
+
+/// The best shot from where the balls lie.
+pub fn best(exercise: &Exercise, rng: &mut impl RngExt) -> Option<Found> {
+    let mut leaders = candidates(exercise, STROKES, rng);
+    leaders.truncate(LEADERS);
+    let refined = leaders.into_iter().map(|(_, shot)| refine(exercise, shot));
+    let (worth, shot) = refined.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(Found { layout: exercise.layout, shot, worth })
+}
+
+/// The best shot where ball 1 and ball 2 may lie elsewhere, but for how far they moved; the first that reaches `enough`.
+pub fn best_of_places(exercise: &Exercise, enough: f64, rng: &mut impl RngExt) -> Option<Found> {
+    let table = exercise.table().ok()?;
+    let mut leaders: Vec<(f64, Exercise)> = Vec::new();
+    for place in 0..PLACES {
+        // Small moves first.
+        let reach = 3 + 12 * place / PLACES;
+        let mut layout = exercise.layout;
+        for ball in &mut layout.balls[1..] {
+            let mut step = || f64::from(rng.random_range(0..=2 * reach as u32)) - reach as f64;
+            let mut moved = |at: f64| ((at * 100.0 + step()) * 10.0).round() / 1000.0;
+            (ball.x, ball.y) = (moved(ball.x), moved(ball.y));
+        }
+        let changed = Exercise { layout, ..exercise.clone() };
+        if layout.validate(&table).is_ok()
+            && let Some((worth, _)) = candidates(&changed, STROKES_MOVED, rng).first()
+        {
+            leaders.push((*worth, changed));
+        }
+    }
+    leaders.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut most: Option<Found> = None;
+    for (_, changed) in leaders.iter().take(LEADERS) {
+        let found = best(changed, rng);
+        if found.as_ref().map_or(0.0, |found| found.worth) > most.as_ref().map_or(0.0, |found| found.worth) {
+            most = found;
+        }
+        if most.as_ref().is_some_and(|found| found.worth >= enough) {
+            break;
+        }
+    }
+    most
+}
+
+/// Shots that show what the exercise teaches, the most often made first.
+fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec<(f64, CueInputs)> {
+    let Ok(table) = exercise.table() else { return Vec::new() };
+    let [cue_ball, first, _] = exercise.layout.balls;
+    let way = first - cue_ball;
+    // Cushions before ball 1 come from anywhere; else what meets it directly.
+    let banks = exercise
+        .tags
+        .iter()
+        .any(|tag| ["rail-first", "ticky", "umbrella", "bank", "cushion-first"].contains(&tag.as_str()));
+    let (half, step) =
+        if banks { (PI, 0.5_f64) } else { ((2.0 * table.radius / way.length()).min(1.0).asin() + 0.02, 0.2_f64) };
+    let middle = way.y.atan2(way.x).to_degrees();
+    let mut found = Vec::new();
+    for number in 0..strokes {
+        // Every other one is akin to the present stroke, which was chosen for what it teaches.
+        let present = exercise.shot.filter(|_| number % 2 == 0);
+        let stroke = match present {
+            Some(shot) => akin(&shot, rng),
+            None => random_stroke(exercise.category, rng),
+        };
+        let mut run: Vec<f64> = Vec::new();
+        let directions = (2.0 * half.to_degrees() / step) as usize;
+        for turn in 0..=directions {
+            let phi = middle - half.to_degrees() + step * turn as f64;
+            let makes = stands_free(exercise, &table, &CueInputs { phi: phi.to_radians(), ..stroke })
+                .is_some_and(|shot| scores(exercise.rule, &table, &exercise.layout, &shot));
+            if makes && turn < directions {
+                run.push(phi);
+            } else if !run.is_empty() {
+                let phi = (run[run.len() / 2] * DEGREE).round() / DEGREE;
+                let phi = (phi + 180.0).rem_euclid(360.0) - 180.0;
+                found.push((run.len(), CueInputs { phi: phi.to_radians(), ..stroke }));
+                run.clear();
+            }
+        }
+    }
+    found.sort_by_key(|(width, _)| std::cmp::Reverse(*width));
+    let shots = found.iter().filter_map(|(_, shot)| stands_free(exercise, &table, shot));
+    let mut judged: Vec<(f64, CueInputs)> =
+        shots.map(|shot| (worth_of(exercise, &shot, 40), shot)).filter(|(worth, _)| *worth > 0.0).take(60).collect();
+    judged.sort_by(|a, b| b.0.total_cmp(&a.0));
+    judged
+}
+
+/// The shot with the cue raised where it must be, to the next tenth of a degree; none where it has no room at 20 degrees.
+fn stands_free(exercise: &Exercise, table: &Table, shot: &CueInputs) -> Option<CueInputs> {
+    let raised = with_room(table, &exercise.layout, shot).ok()?;
+    let theta = (raised.theta.to_degrees() * DEGREE - 1e-9).ceil() / DEGREE;
+    (theta <= 20.0).then(|| CueInputs { theta: theta.to_radians(), ..raised })
+}
+
+/// A tip place and a speed of the kind that the category is about.
+fn random_stroke(category: Category, rng: &mut impl RngExt) -> CueInputs {
+    let mut step = |least: i32, most: i32, unit: f64| f64::from(rng.random_range(least..=most)) / unit;
+    let (a, b) = match category {
+        Category::FirstCaroms => (0.0, step(-4, 6, TIP)),
+        Category::Draw => (0.0, step(-9, -5, TIP)),
+        Category::Follow => (0.0, step(5, 8, TIP)),
+        Category::Side => (step(6, 8, TIP) * (step(0, 1, 0.5) - 1.0), step(-4, 6, TIP)),
+        Category::OneCushion | Category::Gather | Category::ThreeCushion | Category::Own => {
+            (step(-8, 8, TIP), step(-9, 7, TIP))
+        }
+    };
+    CueInputs { a, b, theta: 3.0_f64.to_radians(), phi: 0.0, speed: step(9, 56, SPEED) }
+}
+
+/// A tip place and a speed near those of this shot.
+fn akin(shot: &CueInputs, rng: &mut impl RngExt) -> CueInputs {
+    let mut near =
+        |value: f64, unit: f64, most: i32| ((value * unit).round() + f64::from(rng.random_range(-most..=most))) / unit;
+    let a = if shot.a == 0.0 { 0.0 } else { near(shot.a, TIP, 3) };
+    CueInputs {
+        a,
+        b: near(shot.b, TIP, 3),
+        speed: near(shot.speed, SPEED, 10).max(0.5),
+        theta: 3.0_f64.to_radians(),
+        phi: 0.0,
+    }
+}
+
+/// Climbs from this shot by single steps of what a file holds.
+fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
+    let mut worth = worth_of(exercise, &shot, ATTEMPTS);
+    let rounded = |value: f64, unit: f64| (value * unit).round() / unit;
+    loop {
+        let mut better = None;
+        for (a, b, phi, speed) in [
+            (1.0, 0.0, 0.0, 0.0),
+            (0.0, 1.0, 0.0, 0.0),
+            (0.0, 0.0, 1.0, 0.0),
+            (0.0, 0.0, 3.0, 0.0),
+            (0.0, 0.0, 0.0, 1.0),
+            (0.0, 0.0, 0.0, 3.0),
+            (1.0, 0.0, 3.0, 0.0),
+            (1.0, 0.0, -3.0, 0.0),
+        ] {
+            for sign in [-1.0, 1.0] {
+                let sideways = if matches!(exercise.category, Category::FirstCaroms | Category::Draw | Category::Follow)
+                {
+                    0.0
+                } else {
+                    a
+                };
+                let next = CueInputs {
+                    a: rounded(shot.a + sign * sideways / TIP, TIP),
+                    b: rounded(shot.b + sign * b / TIP, TIP),
+                    phi: rounded(shot.phi.to_degrees() + sign * phi / DEGREE, DEGREE).to_radians(),
+                    speed: rounded(shot.speed + sign * speed / SPEED, SPEED),
+                    ..shot
+                };
+                let Some(next) = exercise.table().ok().and_then(|table| stands_free(exercise, &table, &next)) else {
+                    continue;
+                };
+                let reached = worth_of(exercise, &next, ATTEMPTS);
+                if reached > worth + 1e-9 && better.as_ref().is_none_or(|(best, _)| reached > *best) {
+                    better = Some((reached, next));
+                }
+            }
+        }
+        match better {
+            Some((reached, next)) => (worth, shot) = (reached, next),
+            None => return (worth, shot),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! What is said once to whoever has saved things with an older version.
+
+use std::{fs, path::Path};
+
+use super::{Places, SMALL, read_text, write_atomic};
+
+/// Said where something was saved while "match" meant another table.
+const MATCH: &str = "\"match\" is now a table as filmed balls show it, and what you saved for \"match\" is played on it; the former one is \"textbook\"";
+
+/// How the file remembers that [`MATCH`] was said.
+const MATCH_TOLD: &str = "match";
+
+/// What this user has to be told once, if they have saved anything with an older version; from then on `None`. Where
+/// that cannot be written down, it is said again.
+pub fn notice(places: &Places, settings: &Path) -> Option<&'static str> {
+    let told = read_text(&places.notices, SMALL).unwrap_or_default();
+    if told.lines().any(|line| line == MATCH_TOLD) {
+        return None;
+    }
+    let Places { sessions, positions, last, .. } = places;
+    let holds_any = |folder: &Path| fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    let has_saved = holds_any(sessions) || holds_any(positions) || last.exists() || settings.exists();
+    let folder = places.notices.parent().map(fs::create_dir_all);
+    if folder.is_none_or(|made| made.is_ok()) {
+        // Where it fails, the sentence comes again: better twice than never.
+        let _ = write_atomic(&places.notices, format!("{told}{MATCH_TOLD}\n").as_bytes());
+    }
+    has_saved.then_some(MATCH)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_has_saved_something_is_told_once_and_a_newcomer_never() {
+        let folder = tempfile::tempdir().unwrap();
+        let settings = folder.path().join("config.toml");
+        for is_newcomer in [true, false] {
+            let places = Places::under(&folder.path().join(if is_newcomer { "new" } else { "old" }));
+            if !is_newcomer {
+                fs::create_dir_all(&places.sessions).unwrap();
+                assert!(!places.notices.exists());
+                fs::write(places.sessions.join("one.json"), "{}").unwrap();
+            }
+            assert_eq!(notice(&places, &settings).is_some(), !is_newcomer);
+            assert_eq!(notice(&places, &settings), None);
+        }
+        fs::write(&settings, "table = \"match\"\n").unwrap();
+        assert!(
+            notice(&Places::under(&folder.path().join("third")), &settings).is_some_and(|it| it.contains("textbook"))
+        );
+    }
+}
