@@ -39,7 +39,8 @@ fn the_list_of_filmed_shots() {
     assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films));
     check("list", &player);
     check("list_ascii", &list(ASCII).press("End"));
-    player.says("91 shots of a match, 21 points").press("?").says("fitted to the cue ball");
+    player.says("91 shots of a match, 21 points");
+    player.press("?").says("fitted to the cue ball");
 }
 
 #[test]

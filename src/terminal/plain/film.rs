@@ -3,7 +3,7 @@
 use super::speech;
 use crate::{
     study::filmed::FITTED,
-    table::{BALL_NAMES, BALLS},
+    table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
         film::{FilmScene, listed, table},
         words::fixed,
@@ -44,7 +44,7 @@ pub fn tell(number: u32) -> String {
             fixed(shot.filmed.speed(), 1),
             fixed(shot.filmed.lasts(), 1)
         ),
-        speech::places(table(), &shot.layout),
+        speech::places(table(), &shot.layout, CueBall::White),
         format!("The stroke was fitted on the first {FITTED} seconds; all that comes later is predicted."),
     ];
     let end = scene.replay.duration();

@@ -103,7 +103,7 @@ fn in_letters(scene: &Scene, buffer: &mut Buffer) {
         put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
     }
     for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
-        put(place, LETTERS[ball].to_ascii_lowercase(), theme.paths[ball]);
+        put(place, letters[ball].to_ascii_lowercase(), theme.paths[ball]);
     }
     for ball in scene.order() {
         let (x, y) = mapping.to_cell(scene.balls[ball]);
