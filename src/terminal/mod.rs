@@ -11,6 +11,7 @@ mod chord;
 mod coach;
 mod drills;
 mod errands;
+mod film;
 mod finder;
 mod geometry;
 mod history;
@@ -62,6 +63,7 @@ pub use app::{App, Effect, Mode, Overlay, Screen};
 pub use coach::{Advised, View};
 pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
 pub use errands::PracticeWorker;
+pub use film::FilmScene;
 pub use finder::{Command, Finder};
 pub use geometry::Mapping;
 pub use keymap::{

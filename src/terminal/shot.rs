@@ -81,8 +81,18 @@ impl Shot {
         solved: bool,
         source: impl Into<String>,
     ) -> Result<Self, ShotError> {
-        let recording = Recording::new(table, layout, &cue)?;
-        Ok(Self {
+        Ok(Self::of(table, Recording::new(table, layout, &cue)?, cue, solved, source))
+    }
+
+    /// The shot that was recorded; `cue` is the stroke to show with it.
+    pub fn of(
+        table: &Table,
+        recording: Recording,
+        cue: CueInputs,
+        solved: bool,
+        source: impl Into<String>,
+    ) -> Self {
+        Self {
             cue,
             impulse: *recording.impulse(),
             solved,
@@ -91,7 +101,7 @@ impl Shot {
             contact: first_hit(table, &recording),
             contacts: (1..BALLS).filter_map(|ball| first_contact(&recording, ball)).collect(),
             recording,
-        })
+        }
     }
 
     /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.

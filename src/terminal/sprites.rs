@@ -74,9 +74,14 @@ impl Sprite {
         self.each(canvas, mapping, place, ink, |_, _| true);
     }
 
+    /// Whether the outline differs from the ball.
+    pub fn has_hole(self) -> bool {
+        self.width.min(self.height) >= 3
+    }
+
     /// Draws the ball's outline: a ball that is not there yet. A picture that is too small for a hole is left out.
     pub fn stamp_ring(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
-        if self.width.min(self.height) < 3 {
+        if !self.has_hole() {
             return;
         }
         let inside = |x, y| [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| self.covers(x + dx, y + dy));

@@ -1,6 +1,6 @@
 //! Files that somebody else has written, or half of one: settings, practice, runs, policies.
 
-use std::{fs, path::Path, process::Command, sync::LazyLock};
+use std::{fs, process::Command, sync::LazyLock};
 
 use carom::{
     drills::Store,

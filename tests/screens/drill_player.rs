@@ -127,7 +127,8 @@ impl Player {
         self
     }
 
-    fn run(&mut self, errands: Vec<Errand>) {
+    /// Does errands, and what comes of them.
+    pub fn run(&mut self, errands: Vec<Errand>) {
         for errand in errands {
             let mut reports = Vec::new();
             match errand {

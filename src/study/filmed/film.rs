@@ -25,7 +25,8 @@ pub struct Sample {
 pub struct FilmedShot {
     /// Its number in the match.
     pub number: u32,
-    /// Which of the film's three balls comes first here, second and third.
+    /// Which of the film's three balls comes first here, second and third: the one that was struck, then the other
+    /// player's, then the red.
     pub order: [usize; BALLS],
     /// The balls' places over time; a ball that lies still has few samples.
     pub balls: [Vec<Sample>; BALLS],
@@ -89,14 +90,27 @@ impl FilmedShot {
             let sample = |[time, x, y]: [f64; 3]| Sample { time, place: DVec2::new(x, y) };
             ball.into_iter().map(sample).collect::<Vec<_>>()
         });
+        // A ball with few samples may have begun to move long before the sample that shows it.
+        let shown = |ball: &usize| first_moved(&tracks[*ball]).map(|moved| tracks[*ball][moved].time);
         let starts = [0, 1, 2].map(|ball: usize| start_of(&tracks[ball]));
-        let mut order = [0, 1, 2];
-        order.sort_by(|&a, &b| starts[a].total_cmp(&starts[b]));
-        let start = starts[order[0]];
-        if !start.is_finite() {
-            return Err("no ball moves");
-        }
+        let moved = (0..BALLS).filter_map(|ball| Some((ball, (shown(&ball)?, starts[ball]))));
+        let struck = moved.min_by(|(_, one), (_, other)| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        let Some((struck, (_, start))) = struck else { return Err("no ball moves") };
+        let order = [struck, usize::from(struck == 0), if struck == 2 { 1 } else { 2 }];
         Ok(Self { number, order, balls: order.map(|ball| tracks[ball].clone()), start })
+    }
+
+    /// Speed of the cue ball as soon as the film shows it, m/s.
+    pub fn speed(&self) -> f64 {
+        let moving: Vec<_> = self.balls[0].iter().filter(|sample| sample.time > self.start + 0.005).take(2).collect();
+        let [one, other] = moving[..] else { return 0.0 };
+        other.place.distance(one.place) / (other.time - one.time)
+    }
+
+    /// How long it is filmed after the stroke, s.
+    pub fn lasts(&self) -> f64 {
+        let ends = self.balls.iter().filter_map(|track| Some(track.last()?.time));
+        ends.fold(0.0, f64::max) - self.start
     }
 
     /// A ball's place at `time`, m: between two samples on the straight line.
@@ -111,10 +125,15 @@ impl FilmedShot {
     }
 }
 
+/// The first sample of a ball away from where it lay.
+pub(super) fn first_moved(track: &[Sample]) -> Option<usize> {
+    track.iter().position(|sample| sample.place.distance(track[0].place) > MOVED)
+}
+
 /// When a ball begins to move: where the way from its last sample at rest leads back to.
 fn start_of(track: &[Sample]) -> f64 {
     let rest = track[0].place;
-    track.iter().position(|sample| sample.place.distance(rest) > MOVED).map_or(f64::INFINITY, |moved| {
+    first_moved(track).map_or(f64::INFINITY, |moved| {
         let (last, now) = (track[moved - 1], track[moved]);
         // At the speed of the next stretch, if there is one; a ball that is hit does not creep.
         match track.get(moved + 1) {
@@ -140,7 +159,17 @@ mod tests {
             assert!((0.0..7.0).contains(&shot.start), "shot {} starts at {}", shot.number, shot.start);
             let moved = shot.place(0, shot.start + 0.1).distance(shot.balls[0][0].place);
             assert!(moved > 0.02, "shot {}: {moved}", shot.number);
+            assert_eq!(shot.order[2], 2, "shot {}: nobody strikes the red", shot.number);
         }
+    }
+
+    #[test]
+    fn a_ball_that_is_hardly_sampled_is_not_taken_for_the_one_that_was_struck() {
+        // In shot 48 the other player's ball is nudged at the end; the film has three samples of it.
+        let film = bundled();
+        let shot = film.iter().find(|shot| shot.number == 48).unwrap();
+        assert_eq!((shot.order, shot.balls[1].len()), ([0, 1, 2], 3));
+        assert!((3.0..4.5).contains(&shot.speed()) && shot.lasts() > 11.0, "{} m/s", shot.speed());
     }
 
     #[test]

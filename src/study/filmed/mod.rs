@@ -6,11 +6,13 @@
 
 mod chains;
 mod constants;
+mod contacts;
 mod film;
 mod judged;
 mod least_squares;
 mod lone;
 mod rail_hits;
+mod replay;
 mod report;
 mod systems;
 mod whole;
@@ -19,6 +21,7 @@ pub use constants::{Constant, Fitted, fit_constants};
 pub use film::{FilmError, FilmedShot, Sample, bundled, read};
 pub use judged::{Judged, judge};
 pub use lone::Motion;
+pub use replay::{Replay, ReplayError};
 pub use report::{csv, fit_text, models, paths, rows, text};
 pub use systems::Natural;
-pub use whole::{Whole, play};
+pub use whole::{FITTED, Whole, play};

@@ -12,7 +12,7 @@ use super::{
 use crate::table::{Layout, Table};
 
 /// How much of the cue ball's course is fitted, s.
-const FITTED: f64 = 2.0;
+pub const FITTED: f64 = 2.0;
 
 /// Times after the stroke at which the prediction is judged, s.
 pub const JUDGED: [f64; 3] = [3.0, 4.0, 5.0];

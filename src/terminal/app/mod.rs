@@ -282,6 +282,11 @@ impl App {
                 let balls = Balls { table, layout, rule: self.coach.tutor.rule };
                 return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
             }
+            Action::OpenFilms => {
+                let effect = self.open(Screen::Drills);
+                self.drills.open_films();
+                return effect;
+            }
             Action::Finder(action) => return self.find(action),
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;

@@ -6,7 +6,7 @@ use super::{App, Effect};
 use crate::terminal::{
     geometry::Mapping,
     keymap::{
-        Action, CoachAction, CoachWhen, DrillAction, DrillWhen, FinderAction, Place, SettingsAction, SettingsWhen,
+        Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, SettingsAction, SettingsWhen,
         TrainingAction, TrainingWhen, When,
     },
     screens::{Target, table_mapping, target},
@@ -100,6 +100,7 @@ impl App {
     /// Moves the mark of the list that is shown, by lines.
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let (when, action) = match self.place() {
+            Place::Drill(DrillPlace::Films) => (When::Drill(DrillWhen::Here), Action::Drill(DrillAction::Line(lines))),
             Place::Drill(_) => (When::Drill(DrillWhen::Marked), Action::Drill(DrillAction::Line(lines))),
             Place::Settings(_) => (When::Settings(SettingsWhen::Here), Action::Settings(SettingsAction::Line(lines))),
             _ => (When::Training(TrainingWhen::Marked), Action::Training(TrainingAction::Line(lines))),

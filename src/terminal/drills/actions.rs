@@ -12,7 +12,13 @@ impl DrillScreen {
         match action {
             Action::Back => self.back(),
             Action::Line(lines) if self.page() == Page::Record => self.scroll_records(lines),
+            Action::Line(lines) if self.page() == Page::Films => self.film.move_mark(lines),
             Action::Line(lines) => self.catalogue.move_mark(lines),
+            Action::Open if self.page() == Page::Films => return self.open_film(0),
+            Action::Filmed(shots) => return self.open_film(shots),
+            Action::PlayPause | Action::Event(_) | Action::Pace(_) if self.page() == Page::Film => {
+                self.film.watch(action);
+            }
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All => self.catalogue.show_all(),
@@ -54,6 +60,7 @@ impl DrillScreen {
             return;
         }
         self.pages.pop();
+        self.film.pause();
         if self.page() == Page::Library {
             self.leave_page();
         }
@@ -103,6 +110,15 @@ impl DrillScreen {
                 None
             }
         }
+    }
+
+    /// Opens the page of a filmed shot, so many after the marked one, and has its stroke fitted.
+    fn open_film(&mut self, shots: isize) -> Option<Effect> {
+        let filmed = self.film.begin(shots)?;
+        if self.page() != Page::Film {
+            self.pages.push(Page::Film);
+        }
+        Some(Effect::Drill(vec![Errand::Film(Box::new(filmed))]))
     }
 
     fn open_records(&mut self) -> Effect {

@@ -8,8 +8,9 @@ use crate::{
     game::Rule,
     physics::CueInputs,
     storage::Places,
+    study::filmed::FilmedShot,
     table::{Layout, Table},
-    terminal::shot::Shot,
+    terminal::{film::FilmScene, shot::Shot},
 };
 
 /// Something that is to be done.
@@ -31,6 +32,8 @@ pub enum Errand {
     Estimate(u64, Arc<[Session]>),
     /// Keep the player's skill.
     KeepSkill(Skill),
+    /// Fit the stroke of a filmed shot and play it.
+    Film(Box<FilmedShot>),
 }
 
 /// Where a stroke is asked for.
@@ -126,4 +129,6 @@ pub enum DrillReport {
     Estimated(u64, Result<(Option<Skill>, String), String>),
     /// Of [`Errand::KeepSkill`].
     SkillKept(Skill, Result<(), String>),
+    /// Of [`Errand::Film`]: with the shot's number in the match.
+    Filmed(u32, Result<Box<FilmScene>, String>),
 }

@@ -21,6 +21,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     app::Effect,
+    film::FilmScreen,
     keymap::{DrillPlace, DrillWhen},
     playback::Playback,
     status::Message,
@@ -53,6 +54,10 @@ pub enum Page {
     Result,
     /// A record.
     Record,
+    /// The list of filmed shots.
+    Films,
+    /// A filmed shot that is watched.
+    Film,
 }
 
 /// Who plays.
@@ -112,6 +117,8 @@ pub struct DrillScreen {
     pub turn: Option<Turn>,
     /// The page of records.
     pub records: Records,
+    /// The filmed shots.
+    pub film: FilmScreen,
     /// Who plays.
     pub player: Player,
     /// What is asked.
@@ -137,6 +144,7 @@ impl DrillScreen {
             book: Book::default(),
             turn: None,
             records: Records::default(),
+            film: FilmScreen::default(),
             player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
             question: None,
             message: None,
@@ -238,6 +246,8 @@ impl DrillScreen {
             Page::Exercise => DrillPlace::Exercise,
             Page::Result => DrillPlace::Result,
             Page::Record => DrillPlace::Record,
+            Page::Films => DrillPlace::Films,
+            Page::Film => DrillPlace::Film,
         }
     }
 
@@ -277,6 +287,7 @@ impl DrillScreen {
             DrillWhen::MarkedOwn => refuse(!self.catalogue.is_own(), "bundled exercises stay; only your own go"),
             DrillWhen::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillWhen::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
+            DrillWhen::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),
             DrillWhen::Estimated => refuse(self.records.skill().is_none(), "there is no estimate of your skill yet"),
             _ => match &self.turn {
                 Some(turn) => turn.refusal(when),
@@ -304,6 +315,15 @@ impl DrillScreen {
         self.turn.as_ref().map_or(self.player.skill, Turn::skill)
     }
 
+    /// Opens the list of filmed shots.
+    pub fn open_films(&mut self) {
+        self.film.pause();
+        if !matches!(self.page(), Page::Films) {
+            self.pages.retain(|page| !matches!(page, Page::Films | Page::Film));
+            self.pages.push(Page::Films);
+        }
+    }
+
     /// The clock of the shot that is watched.
     pub fn playback(&self) -> Option<&Playback> {
         Some(&self.turn.as_ref()?.watched()?.playback)
@@ -311,14 +331,20 @@ impl DrillScreen {
 
     /// Lets `seconds` pass for the shot.
     pub fn tick(&mut self, seconds: f64) {
-        if let Some(turn) = &mut self.turn {
+        if self.page() == Page::Film {
+            self.film.tick(seconds);
+        } else if let Some(turn) = &mut self.turn {
             turn.tick(seconds);
         }
     }
 
     /// Seconds until the next picture; `None` while nothing moves by itself.
     pub fn frame_interval(&self) -> Option<f64> {
-        let turn = self.turn.as_ref().filter(|_| self.page() == Page::Exercise)?;
-        turn.is_moving().then_some(1.0 / 30.0)
+        let is_moving = match self.page() {
+            Page::Exercise => self.turn.as_ref().is_some_and(Turn::is_moving),
+            Page::Film => self.film.playback.playing,
+            _ => false,
+        };
+        is_moving.then_some(1.0 / 30.0)
     }
 }

@@ -63,6 +63,11 @@ impl DrillScreen {
                 let estimate = found.map_or_else(missing, |(skill, sentence)| Estimate::Known(skill, sentence));
                 self.records.estimated(number, estimate);
             }
+            DrillReport::Filmed(number, played) => {
+                if let Err(sentence) = self.film.receive(number, played) {
+                    self.message = Some(Message::warning(sentence));
+                }
+            }
             DrillReport::SkillKept(skill, kept) => {
                 self.player.own = Some(skill);
                 self.player.choose(skill);

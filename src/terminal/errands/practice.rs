@@ -22,6 +22,7 @@ use crate::{
     table::Table,
     terminal::{
         drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught},
+        film::FilmScene,
         inbox::News,
         shot::Shot,
     },
@@ -81,6 +82,12 @@ impl PracticeWorker {
             Errand::KeepSkill(skill) => {
                 let kept = self.with_store(|store| store.keep_skill(skill));
                 reply(DrillReport::SkillKept(skill, kept));
+            }
+            Errand::Film(filmed) => {
+                let played = catch_unwind(AssertUnwindSafe(|| FilmScene::new(&filmed)));
+                let failed = || Err(format!("the program failed on shot {} of the film; choose another", filmed.number));
+                let played = played.unwrap_or_else(|_| failed()).map(Box::new);
+                reply(DrillReport::Filmed(filmed.number, played));
             }
             Errand::Estimate(number, sessions) => {
                 let found = catch_unwind(AssertUnwindSafe(|| estimated(&sessions)));

@@ -183,6 +183,7 @@ pub const COACH: &[Binding] = &[
     bind(Balls, W::Idle, &[letter('x', A::OtherBall)], None, "the opponent's turn: play with the other ball"),
     bind(Program, W::Anytime, &[(Chord::char('d'), Action::Open(Screen::Drills))], Some(("drills", 1)),
         "practise: exercises, exams, and your own positions"),
+    super::film::OPEN,
     bind(Balls, W::Anytime, &[(Chord::char('s'), Action::SavePosition)], None, "save the balls as a position to practise"),
     bind(Program, W::Anytime, &[(Chord::char('t'), Action::Open(Screen::Training))], Some(("train", 1)),
         "train agents and watch them learn"),

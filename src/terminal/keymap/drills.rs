@@ -5,7 +5,7 @@ use crossterm::event::KeyCode::{
 };
 
 use super::{
-    Action, Binding,
+    Action, Binding, film,
     Section::{self, Library, Position, Program, Record, Score, Stroke},
     When, entry,
 };
@@ -64,6 +64,8 @@ pub enum DrillAction {
     Event(isize),
     /// Plays faster where positive, else slower.
     Pace(isize),
+    /// Watches another filmed shot, a later one where positive.
+    Filmed(isize),
     /// Shows the shot that is taught, or hides it.
     Hint,
     /// Shifts the balls by half a ball at each repetition, or not.
@@ -127,6 +129,8 @@ pub enum DrillWhen {
     OfExercise,
     /// Where there is an estimate of the skill.
     Estimated,
+    /// Where a filmed shot is on the table.
+    Filmed,
 }
 
 /// What is on the screen.
@@ -142,6 +146,10 @@ pub enum DrillPlace {
     Result,
     /// A record.
     Record,
+    /// The list of filmed shots.
+    Films,
+    /// A filmed shot.
+    Film,
     /// A question.
     Question,
     /// Something that is typed.
@@ -150,8 +158,17 @@ pub enum DrillPlace {
 
 impl DrillPlace {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Library, Self::Search, Self::Exercise, Self::Result, Self::Record, Self::Question, Self::Text];
+    pub const ALL: [Self; 9] = [
+        Self::Library,
+        Self::Search,
+        Self::Exercise,
+        Self::Result,
+        Self::Record,
+        Self::Films,
+        Self::Film,
+        Self::Question,
+        Self::Text,
+    ];
 
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding] {
@@ -161,6 +178,8 @@ impl DrillPlace {
             Self::Exercise => EXERCISE,
             Self::Result => RESULT,
             Self::Record => RECORD,
+            Self::Films => film::FILMS,
+            Self::Film => film::FILM,
             Self::Question => QUESTION,
             Self::Text => TEXT,
         }
@@ -221,6 +240,7 @@ pub const LIBRARY: &[Binding] = &[
         ], None, "list one grade alone, 1 the easiest; once more lists all"),
     bind(Library, W::Marked, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it"),
+    film::OPEN_HERE,
     bind(Library, W::Here, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted"),
     bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of your positions; asks first"),
     BACK,

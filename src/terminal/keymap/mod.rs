@@ -3,6 +3,7 @@
 mod coach;
 mod document;
 mod drills;
+mod film;
 mod finder;
 mod section;
 mod settings;
@@ -49,6 +50,8 @@ pub enum Action {
     OpenMessages,
     /// Asks under which name the balls are to be saved.
     SavePosition,
+    /// Opens the list of filmed shots.
+    OpenFilms,
     /// Something on the coach's screen.
     Coach(CoachAction),
     /// Something on the training screen.
@@ -105,12 +108,14 @@ pub enum Place {
 
 impl Place {
     /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 11] = [
+    pub const PAGES: [(Self, &'static str); 13] = [
         (Self::Coach, "Coach"),
         (Self::Drill(DrillPlace::Library), "Drills: library"),
         (Self::Drill(DrillPlace::Exercise), "Drills: exercise"),
         (Self::Drill(DrillPlace::Result), "Drills: result of an exam"),
         (Self::Drill(DrillPlace::Record), "Drills: record"),
+        (Self::Drill(DrillPlace::Films), "Drills: filmed shots"),
+        (Self::Drill(DrillPlace::Film), "Drills: a filmed shot"),
         (Self::Runs, "Training: runs"),
         (Self::Form, "Training: new run"),
         (Self::Watch, "Training: a run"),

@@ -27,6 +27,8 @@ pub enum Section {
     Position,
     /// Keys of the page of records.
     Record,
+    /// Keys of the filmed shots.
+    Film,
     /// Keys of the settings.
     Settings,
     /// Keys of the page of keys.
@@ -37,7 +39,7 @@ pub enum Section {
 
 impl Section {
     /// All headings, in the help's order.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Balls,
         Self::Shot,
         Self::List,
@@ -50,6 +52,7 @@ impl Section {
         Self::Score,
         Self::Position,
         Self::Record,
+        Self::Film,
         Self::Settings,
         Self::OwnKeys,
         Self::Program,
@@ -70,6 +73,7 @@ impl Section {
             Self::Score => "The score",
             Self::Position => "The position",
             Self::Record => "The record",
+            Self::Film => "Filmed shots",
             Self::Settings => "The settings",
             Self::OwnKeys => "The keys",
             Self::Program => "The program",

@@ -85,6 +85,7 @@ const fn drills(action: DrillAction, section: Section) -> Option<&'static str> {
                 (Section::Record, -1) => Some("later sessions, by one line"),
                 (Section::Record, 10) => Some("earlier sessions, by ten lines"),
                 (Section::Record, -10) => Some("later sessions, by ten lines"),
+                (Section::Film, _) => mark!(lines, "shot"),
                 _ => mark!(lines, "exercise"),
             };
         }
@@ -122,6 +123,8 @@ const fn drills(action: DrillAction, section: Section) -> Option<&'static str> {
         A::Event(-1) => "step to the event before",
         A::Pace(1) => "play faster",
         A::Pace(-1) => "play slower",
+        A::Filmed(1) => "watch the next shot",
+        A::Filmed(-1) => "watch the shot before",
         A::Log(true) => "note a point at a real table; nothing is played here",
         A::Log(false) => "note a miss at a real table; nothing is played here",
         A::Count(1) => "a longer goal",

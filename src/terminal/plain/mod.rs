@@ -1,5 +1,6 @@
 //! The coach as a conversation: lines in, sentences out. For screen readers, dumb terminals and scripts.
 
+mod film;
 mod order;
 mod speech;
 
@@ -164,6 +165,8 @@ impl Conversation {
                 },
                 None => NO_SHOT.to_owned(),
             },
+            Order::Films => film::list(),
+            Order::Film(number) => film::tell(number),
             Order::Undo => {
                 if self.balls.undo() {
                     self.forget(self.places())
@@ -269,6 +272,22 @@ mod tests {
         }
         let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
         assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+    }
+
+    #[test]
+    fn a_filmed_shot_is_told_beside_its_simulation() {
+        let said = talk("film\nfilm 90\nfilm 91\nwhere");
+        for words in [
+            "There are 91 filmed shots",
+            "Shot 90 of the film: a point, ",
+            "fitted on the first 2 seconds",
+            "5 seconds: from the film, in centimetres: white ",
+            "all balls lie still: white ",
+            "There is no filmed shot 91",
+            "White lies at 2.59 diamonds along and 2.00 up, -500 and 0",
+        ] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
     }
 
     #[test]

@@ -41,6 +41,10 @@ pub enum Order {
     Tell,
     /// Balls as it leaves them.
     GoOn,
+    /// Which filmed shots there are.
+    Films,
+    /// The filmed shot of this number, beside its simulation.
+    Film(u32),
     /// The last change of the balls back.
     Undo,
     /// What may be said.
@@ -68,6 +72,8 @@ pub const HELP: &[(&str, &str)] = &[
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     ("skill club", "who plays: perfect, expert, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1"),
     ("plan off", "whether the coach has the next point in mind: on or off"),
+    ("film", "which filmed shots there are"),
+    ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),
     ("undo", "take the last change of the balls back"),
     ("quit", "end; so does the end of the input"),
 ];
@@ -89,6 +95,10 @@ impl FromStr for Order {
             ["random"] => Self::Random,
             ["cue", "ball", name] => Self::CueBall(name.parse().map_err(|error| format!("{error}"))?),
             ["undo"] => Self::Undo,
+            ["film"] => Self::Films,
+            ["film", number] => Self::Film(
+                number.parse().map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
+            ),
             ["help"] => Self::Help,
             ["quit"] => Self::Quit,
             ["plan", "on"] => Self::Plan(true),
@@ -145,6 +155,7 @@ mod tests {
             ("move red left -3", "-3"),
             ("rule snooker", "snooker"),
             ("skill god", "god"),
+            ("film first", "first"),
             ("cue ball red", "red"),
             ("opening far", "far"),
         ] {

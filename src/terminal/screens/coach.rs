@@ -43,6 +43,7 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
         // While the coach thinks each better shot would move them all.
         is_lean: planned.is_some() || app.spinner().is_some(),
         spots: &spots,
+        film: None,
         theme,
         look,
     };

@@ -12,7 +12,7 @@ use crate::{
     terminal::{
         app::{App, Overlay},
         chord::keys_text,
-        keymap::{Place, Section, When, bindings},
+        keymap::{DrillPlace, Place, Section, When, bindings},
         widgets::{draw_hints, draw_tabs, wrap},
     },
 };
@@ -68,10 +68,20 @@ const DRILL_NOTES: [&str; 5] = [
      disk before it is shown.",
 ];
 
+const FILM_NOTES: [&str; 3] = [
+    "Every second shot of a match, filmed at 50 pictures a second (tests/data/filmed has the places of the balls and where they \
+     come from). The full balls and the paths are the simulation's, the outlines, or small letters, the film's: where they agree, \
+     the ball hides its outline.",
+    "The stroke is fitted to the cue ball's first 2 s. All that comes later is predicted, and all that the object balls do.",
+    "The cue ball is drawn white, the other player's yellow. Whether a shot is a point, and how fast it is, is what the film \
+     shows. The tip is where a level cue would have met the ball to give it what was fitted.",
+];
+
 /// What the help says of the picture at `place`.
 fn notes(place: Place) -> Vec<String> {
     match place {
         Place::Coach => return COACH_NOTES.map(str::to_owned).to_vec(),
+        Place::Drill(DrillPlace::Films | DrillPlace::Film) => return FILM_NOTES.map(str::to_owned).to_vec(),
         Place::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
         Place::Settings(_) => return SETTINGS_NOTES.map(str::to_owned).to_vec(),
         _ => {}

@@ -38,6 +38,7 @@ pub fn target(app: &App, area: Rect, at: Position) -> Option<Target> {
         Place::Coach => coach::target(app, area, at),
         Place::Runs | Place::Compare => training::runs::target(app, page, at),
         Place::Drill(DrillPlace::Library | DrillPlace::Search) => drills::library::target(app, page, at),
+        Place::Drill(DrillPlace::Films) => drills::films::target(app, page, at),
         Place::Settings(SettingsPlace::Values | SettingsPlace::Keys) => settings::target(app, page, at),
         _ => None,
     }

@@ -36,6 +36,7 @@ pub fn draw(app: &App, turn: &Turn, header: Rect, area: Rect, buffer: &mut Buffe
         front: 0,
         is_lean: false,
         spots: &spots,
+        film: None,
         theme,
         look,
     };

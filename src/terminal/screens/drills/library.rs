@@ -191,6 +191,7 @@ fn draw_exercise(app: &App, exercise: &Exercise, area: Rect, buffer: &mut Buffer
         front: 0,
         is_lean: false,
         spots: &[],
+        film: None,
         theme,
         look,
     };

@@ -1,6 +1,8 @@
 //! The drill screens: the library, the exercise that is practised, the result of an exam, and the records.
 
 mod exercise;
+mod film;
+pub mod films;
 pub mod library;
 mod panels;
 mod panes;
@@ -36,6 +38,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) -> u16 {
         (Page::Exercise, Some(turn)) => exercise::draw(app, turn, row(area.y), page, buffer),
         (Page::Result, Some(turn)) => result::draw(app, turn, row(area.y), page, buffer),
         (Page::Record, _) => record::draw(app, row(area.y), page, buffer),
+        (Page::Films, _) => films::draw(app, row(area.y), page, buffer),
+        (Page::Film, _) => film::draw(app, row(area.y), page, buffer),
         _ => library::draw(app, row(area.y), page, buffer),
     };
     let (theme, look, status) = (app.theme(), app.look(), row(page.bottom()));

@@ -55,6 +55,7 @@ pub fn draw(app: &App, watch: &Watch, area: Rect, buffer: &mut Buffer) {
         front: 0,
         is_lean: false,
         spots: &[],
+        film: None,
         theme,
         look,
     };

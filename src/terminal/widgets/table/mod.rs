@@ -56,6 +56,9 @@ pub struct TableView<'a> {
     pub is_lean: bool,
     /// What else is drawn, below the paths and the balls, the first lowest.
     pub spots: &'a [Spot],
+    /// Where a film shows the balls at the same moment: outlines below the balls. The outlines of what lies ahead in the
+    /// shot are left out then.
+    pub film: Option<[DVec2; BALLS]>,
     /// The colours.
     pub theme: &'a Theme,
     /// What the terminal can show.

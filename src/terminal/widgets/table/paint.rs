@@ -67,6 +67,15 @@ fn in_blocks(scene: &Scene, buffer: &mut Buffer) {
     for ghost in scene.ghosts() {
         ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
     }
+    for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
+        // A picture that is too small for a hole is paler instead.
+        if scene.sprite.has_hole() {
+            ring(&mut canvas, place, theme.balls[ball]);
+        } else {
+            let ink = Ink { color: theme.paths[ball], weight: RING_WEIGHT };
+            scene.sprite.stamp(&mut canvas, mapping, place, ink);
+        }
+    }
     for ball in scene.order() {
         let ink = Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
         scene.sprite.stamp(&mut canvas, mapping, scene.balls[ball], ink);
@@ -92,6 +101,9 @@ fn in_letters(scene: &Scene, buffer: &mut Buffer) {
     });
     for ghost in scene.ghosts() {
         put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
+    }
+    for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
+        put(place, letters[ball].to_ascii_lowercase(), theme.paths[ball]);
     }
     for ball in scene.order() {
         let (x, y) = mapping.to_cell(scene.balls[ball]);

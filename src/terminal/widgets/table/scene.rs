@@ -83,7 +83,8 @@ impl Scene<'_> {
         let columns = if self.view.look.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
-        let is_free = |place: DVec2| ghosts.iter().all(|ghost| ghost.place.distance(place) > GHOST_CLEAR * self.clear);
+        let absent: Vec<DVec2> = ghosts.iter().map(|ghost| ghost.place).chain(self.view.film.into_iter().flatten()).collect();
+        let is_free = |place: DVec2| absent.iter().all(|other| other.distance(place) > GHOST_CLEAR * self.clear);
         let balls = if self.view.is_lean { 1 } else { BALLS };
         for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
             for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place) && is_free(dot.place)) {
@@ -95,7 +96,7 @@ impl Scene<'_> {
     /// Where balls will be: the cue ball at its first contact with each object ball, and all balls that move where they come
     /// to rest.
     pub fn ghosts(&self) -> Vec<Ghost> {
-        let Some(shot) = self.view.shot else { return Vec::new() };
+        let Some(shot) = self.view.shot.filter(|_| self.view.film.is_none()) else { return Vec::new() };
         // A ring that a picture would cut is no ring.
         let clear = self.clear.max(2.0 * self.reach());
         let is_clear = |place: DVec2, ball: usize| self.balls[ball].distance(place) > clear;
@@ -160,6 +161,7 @@ mod tests {
             front: 0,
             is_lean: false,
             spots: &[],
+            film: None,
             theme: &theme,
             look: Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true },
         };

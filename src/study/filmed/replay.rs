@@ -1,0 +1,121 @@
+//! A filmed shot beside the simulated one: both on one clock that begins with the stroke.
+
+use glam::DVec2;
+
+use super::{
+    film::FilmedShot,
+    whole::{self, Whole},
+};
+use crate::{
+    game::{Rule, Tally},
+    simulation::{Recording, ShotError},
+    table::{BALLS, Table},
+};
+
+/// Why a filmed shot cannot be played beside its film.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum ReplayError {
+    /// The film is too short to tell the stroke.
+    #[error("shot {0} of the film shows the cue ball too briefly to tell how it was struck; two samples are needed")]
+    Short(u32),
+    /// The simulator refuses what the film shows.
+    #[error("shot {number} of the film cannot be played: {error}")]
+    Refused {
+        /// Its number in the match.
+        number: u32,
+        /// What is wrong.
+        error: ShotError,
+    },
+}
+
+/// A filmed shot, and the simulated one whose stroke was fitted to the film's first [`super::FITTED`] seconds.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    /// The film.
+    pub filmed: FilmedShot,
+    /// How the stroke was fitted.
+    pub fitted: Whole,
+    /// What the simulation makes of it.
+    pub recording: Recording,
+}
+
+impl Replay {
+    /// Fits the stroke of a filmed shot on `table` and plays it.
+    ///
+    /// # Errors
+    /// A film that is too short, or shows what is impossible on this table.
+    pub fn new(table: &Table, filmed: &FilmedShot) -> Result<Self, ReplayError> {
+        let number = filmed.number;
+        let refuse = |error| ReplayError::Refused { number, error };
+        let layout = filmed.layout(table);
+        layout.validate(table).map_err(|error| refuse(error.into()))?;
+        let fitted = whole::play(table, filmed).ok_or(ReplayError::Short(number))?;
+        let impulse = fitted.motion.impulse(table.radius);
+        let recording = Recording::with_impulse(table, &layout, &impulse).map_err(refuse)?;
+        Ok(Self { filmed: filmed.clone(), fitted, recording })
+    }
+
+    /// Until all balls lie still, in the film and in the simulation, s after the stroke.
+    pub fn duration(&self) -> f64 {
+        let filmed = self.filmed.lasts() + self.filmed.start - self.fitted.start;
+        self.recording.duration().max(filmed)
+    }
+
+    /// Where the film shows the balls at `time`, s after the stroke; at its ends they lie still.
+    pub fn filmed_places(&self, time: f64) -> [DVec2; BALLS] {
+        std::array::from_fn(|ball| self.filmed.place(ball, self.fitted.start + time))
+    }
+
+    /// Whether the simulated shot is a point.
+    pub fn is_simulated_point(&self, rule: Rule) -> bool {
+        let mut tally = Tally::default();
+        self.recording.events().iter().for_each(|event| tally.note(event));
+        tally.is_point(rule)
+    }
+
+    /// How far each simulated ball is from the filmed one at `time`, m.
+    pub fn apart(&self, time: f64) -> [f64; BALLS] {
+        let (filmed, simulated) = (self.filmed_places(time), self.recording.positions(time));
+        std::array::from_fn(|ball| filmed[ball].distance(simulated[ball]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::filmed::{FITTED, film::bundled, whole::JUDGED};
+
+    fn shot(number: u32) -> FilmedShot {
+        bundled().into_iter().find(|shot| shot.number == number).unwrap()
+    }
+
+    #[test]
+    fn film_and_simulation_begin_together_and_part_as_the_study_says() {
+        let table = Table::default();
+        let replay = Replay::new(&table, &shot(2)).unwrap();
+        assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.002), "{:?}", replay.apart(0.0));
+        let fitted = (1..20).map(|n| replay.apart(FITTED * f64::from(n) / 20.0)[0]).fold(0.0, f64::max);
+        assert!(fitted < 0.03, "{fitted} m on the part that was fitted");
+        let late = replay.fitted.start - replay.filmed.start;
+        for (time, error) in JUDGED.into_iter().zip(replay.fitted.errors) {
+            let apart = replay.apart(time - late)[0];
+            assert!((apart - error).abs() < 1e-6, "{apart} m, {error} m at {time} s");
+        }
+        assert!(replay.duration() > 11.0);
+        let end = replay.filmed_places(replay.duration());
+        assert_eq!(end, replay.filmed_places(1e3), "they lie still");
+    }
+
+    #[test]
+    fn a_film_that_is_too_short_or_of_another_table_is_refused_with_its_number() {
+        let table = Table::default();
+        let whole = shot(2);
+        let mut short = whole.clone();
+        short.balls[0].truncate(2);
+        assert_eq!(Replay::new(&table, &short).unwrap_err(), ReplayError::Short(2));
+        let mut heap = whole;
+        heap.balls[1] = heap.balls[2].clone();
+        let message = Replay::new(&table, &heap).unwrap_err().to_string();
+        assert!(message.contains("shot 2 of the film cannot be played: yellow and red"), "{message}");
+    }
+}

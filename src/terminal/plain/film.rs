@@ -1,0 +1,62 @@
+//! Filmed shots in sentences: which there are, and how far the simulated balls are from the filmed ones.
+
+use super::speech;
+use crate::{
+    study::filmed::FITTED,
+    table::{BALL_NAMES, BALLS, CueBall},
+    terminal::{
+        film::{FilmScene, listed, table},
+        words::fixed,
+    },
+};
+
+/// Moments at which the distances are told, s after the stroke; the end comes after them.
+const TOLD: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
+
+/// Which filmed shots there are.
+pub fn list() -> String {
+    let numbers = |points: bool| -> String {
+        let found = listed().iter().filter(|listed| listed.is_point == points);
+        found.map(|listed| listed.filmed.number.to_string()).collect::<Vec<_>>().join(", ")
+    };
+    format!(
+        "There are {} filmed shots of a match at three cushions; film and a number tells one.\nPoints: {}.\nNo points: {}.",
+        listed().len(),
+        numbers(true),
+        numbers(false)
+    )
+}
+
+/// One of them, played beside the film.
+pub fn tell(number: u32) -> String {
+    let Some(shot) = listed().iter().find(|listed| listed.filmed.number == number) else {
+        return format!("There is no filmed shot {number}; film says which there are.");
+    };
+    let scene = match FilmScene::new(&shot.filmed) {
+        Ok(scene) => scene,
+        Err(sentence) => return sentence,
+    };
+    let outcome = |is_point| if is_point { "a point" } else { "no point" };
+    let mut lines = vec![
+        format!(
+            "Shot {number} of the film: {}, {} metres a second, {} seconds long.",
+            outcome(shot.is_point),
+            fixed(shot.filmed.speed(), 1),
+            fixed(shot.filmed.lasts(), 1)
+        ),
+        speech::places(table(), &shot.layout, CueBall::White),
+        format!("The stroke was fitted on the first {FITTED} seconds; all that comes later is predicted."),
+    ];
+    let end = scene.replay.duration();
+    let distances = |time: f64| {
+        let apart = scene.replay.apart(time);
+        let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(100.0 * apart[ball], 1)));
+        each.collect::<Vec<_>>().join(", ")
+    };
+    for time in TOLD.into_iter().filter(|time| *time < end) {
+        lines.push(format!("{time} seconds: from the film, in centimetres: {}.", distances(time)));
+    }
+    lines.push(format!("{} seconds: all balls lie still: {}.", fixed(end, 2), distances(end)));
+    lines.push(format!("The simulated shot is {}.", outcome(scene.is_point)));
+    lines.join("\n")
+}

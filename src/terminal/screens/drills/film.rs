@@ -1,0 +1,140 @@
+//! A filmed shot that is watched: simulated balls, the film's as outlines, and how far they are apart.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use super::{
+    films::{draw_film_header, outcome},
+    panes::Panes,
+    write_paragraphs,
+};
+use crate::{
+    study::filmed::FITTED,
+    table::{BALL_NAMES, BALLS},
+    terminal::{
+        app::App,
+        film::{FilmScene, Listed, table},
+        status::Message,
+        widgets::{TableView, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title},
+        words::fixed,
+    },
+};
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message {
+    let (theme, look, film) = (app.theme(), app.look(), &app.drills().film);
+    let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
+    let more = about(listed, look.pick(" · ", " - "));
+    draw_film_header(app, &format!("filmed shot {}", listed.filmed.number), &more, header, buffer);
+    let panes = Panes::new(table(), area);
+    let scene = film.scene();
+    let view = TableView {
+        table: table(),
+        layout: &listed.layout,
+        shot: scene.map(|scene| scene.shot.as_ref()),
+        time: film.playback.time,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &[],
+        film: scene.map(|scene| scene.replay.filmed_places(film.playback.time)),
+        theme,
+        look,
+    };
+    draw_table(&view, panes.table, buffer);
+    let time = film.playback.readout;
+    draw_stroke(app, scene, panes.stroke, buffer);
+    draw_tip(scene.and_then(|scene| scene.stroke.as_ref()), table(), panes.tip, theme, look, buffer);
+    match scene.and_then(|scene| scene.shot.spin(time, table().radius)) {
+        Some(spin) => draw_spin(&spin, panes.sight, theme, look, buffer),
+        None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, theme, look, buffer),
+    }
+    draw_distances(app, scene, time, panes.aim, buffer);
+    draw_events(scene.map(|scene| scene.shot.as_ref()), Some(time), panes.score, theme, look, buffer);
+    scene.map_or_else(
+        || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
+        |scene| standing(scene, listed, time),
+    )
+}
+
+/// What the film shows of a shot, in a few words.
+fn about(listed: &Listed, dot: &str) -> String {
+    let filmed = &listed.filmed;
+    [
+        outcome(listed).to_owned(),
+        format!("{} m/s", fixed(filmed.speed(), 1)),
+        format!("{} s", fixed(filmed.lasts(), 1)),
+    ]
+    .join(dot)
+}
+
+/// A distance in centimetres.
+fn centimetres(metres: f64) -> String {
+    format!("{} cm", fixed(100.0 * metres, 1))
+}
+
+/// How far the simulated cue ball is from the filmed one, and what that is worth.
+fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
+    let white = centimetres(scene.replay.apart(time)[0]);
+    if time >= scene.replay.duration() {
+        let simulated = if scene.is_point { "a point" } else { "no point" };
+        let agree = if scene.is_point == listed.is_point { "as in the film" } else { "other than in the film" };
+        return Message::plain(format!(
+            "all balls lie still, white {white} from where it rests in the film; simulated it is {simulated}, {agree}"
+        ));
+    }
+    let fitted = if time <= FITTED { "the stroke is fitted up to 2 s" } else { "predicted: the stroke was fitted up to 2 s" };
+    Message::plain(format!("white is {white} from the film at {} s; {fitted}", fixed(time, 1)))
+}
+
+/// Draws what the stroke gave the cue ball, by the fit.
+fn draw_stroke(app: &App, scene: Option<&FilmScene>, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let inner = draw_title(&Line::from(Span::styled("The stroke", theme.text())), area, theme, look, buffer);
+    let Some(scene) = scene else { return };
+    let tip = |radii: f64, [more, less]: [&str; 2]| {
+        let word = if radii > 0.0 { more } else { less };
+        format!("{} mm {word}", fixed(1e3 * table().radius * radii.abs(), 1))
+    };
+    let tips = match scene.stroke {
+        Some(cue) => [tip(cue.a, ["left", "right"]), tip(cue.b, ["up", "down"])],
+        None => ["by no level cue", ""].map(str::to_owned),
+    };
+    let [side, height] = tips;
+    let rows = [
+        ("ball", format!("{} m/s", fixed(scene.shot.impulse.velocity.length(), 2))),
+        ("side", side),
+        ("height", height),
+        ("fitted", format!("2 s to {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
+    ];
+    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let line =
+            Line::from(vec![Span::styled(format!("{name:<7}"), theme.faint()), Span::styled(value, theme.text())]);
+        buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+    }
+}
+
+/// Draws how far each simulated ball is from the filmed one, and which is which.
+fn draw_distances(app: &App, scene: Option<&FilmScene>, time: f64, area: Rect, buffer: &mut Buffer) {
+    let (theme, look) = (app.theme(), app.look());
+    let title = scene.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
+    let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
+    let Some(scene) = scene else { return };
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    let apart = scene.replay.apart(time);
+    let distances: Vec<String> = (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], centimetres(apart[n]))).collect();
+    let legend = if look.glyphs == crate::terminal::look::Glyphs::Letters {
+        "Capitals and paths are the simulation's, small letters the film's."
+    } else {
+        "Full balls and paths are the simulation's, outlines the film's."
+    };
+    let paragraphs = [
+        (distances.join(", "), theme.accent()),
+        (legend.to_owned(), theme.faint()),
+        ("The stroke was fitted on the first 2 s.".to_owned(), theme.faint()),
+    ];
+    write_paragraphs(&paragraphs, text, look, buffer);
+}
