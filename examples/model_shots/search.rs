@@ -55,8 +55,8 @@ fn worth_of(exercise: &Exercise, shot: &CueInputs, attempts: usize) -> f64 {
     // Between shots that are made as often the softer one is to be learnt.
     let mean = shares.iter().sum::<f64>() / 3.0 - cost(shot);
     if exercise.category == Category::Gather {
-        // Three attempts of four are enough: the rest is worth what the point is.
-        mean.min(gathered(exercise, &table, shot, attempts / 2) / 0.75)
+        // Nine attempts of ten are enough: the rest is worth what the point is.
+        mean.min(gathered(exercise, &table, shot, attempts / 2) / 0.9)
     } else {
         mean
     }

@@ -85,13 +85,7 @@ impl Shot {
     }
 
     /// The shot that was recorded; `cue` is the stroke to show with it.
-    pub fn of(
-        table: &Table,
-        recording: Recording,
-        cue: CueInputs,
-        solved: bool,
-        source: impl Into<String>,
-    ) -> Self {
+    pub fn of(table: &Table, recording: Recording, cue: CueInputs, solved: bool, source: impl Into<String>) -> Self {
         Self {
             cue,
             impulse: *recording.impulse(),

@@ -168,10 +168,10 @@ fn whatever_kills_it_two_seconds_are_lost_at_most() {
     // The second move comes at once after the first one, and then nothing that could be a reason to write it down.
     session.send("\x1b[1;2B");
     session.wait_for("y 82.5 mm");
-    session.send("\x1b[1;2B");
-    session.wait_for("y -17.5 mm");
+    session.send("\x1b[1;2C");
+    session.wait_for("x -610.0 mm");
     let start = Instant::now();
-    while !session.last().contains("[-0.71,-0.0175") {
+    while !session.last().contains("[-0.61,0.0824") {
         assert!(start.elapsed() < Duration::from_secs(4), "{}", session.last());
         session.count(Duration::from_millis(50));
     }

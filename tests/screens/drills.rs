@@ -85,12 +85,12 @@ fn a_stroke_is_set_with_keys() {
     check("aiming", &player);
     player.says("yellow 100 % full");
     let set = player.press("S-Left Left Left Left C-Right h h k K Up S-Up +");
-    for part in ["95.59°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "1.0° up"] {
+    for part in ["-84.41°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "1.0° up"] {
         set.says(part);
     }
     check("aiming_set", &set);
     let full = set.press("Tab 0");
-    full.says("90.00°").says("side   middle");
+    full.says("-90.00°").says("side   middle");
     check("aiming_no_colour", &Player::practising(NO_COLOUR).press("S-Left"));
     check("aiming_ascii", &Player::practising(ASCII).press("S-Right S-Right"));
     insta::assert_snapshot!("aiming_200x60", Player::practising(TRUE_COLOUR).text(200, 60));

@@ -86,7 +86,7 @@ fn a_new_run_is_filled_in_and_started() {
     let Some(Effect::Train(launch)) = player.effects.pop() else { panic!("Enter starts nothing") };
     let arguments: Vec<_> = launch.arguments.iter().map(|argument| argument.to_str().unwrap()).collect();
     let folder = launch.folder.to_str().unwrap();
-    let wanted = ["train", "--agent", "ddpg", "--reward", "one-cushion", "--table", "thesis", "--steps", "500007"];
+    let wanted = ["train", "--agent", "ddpg", "--reward", "one-cushion", "--table", "textbook", "--steps", "500007"];
     assert_eq!(arguments[..9], wanted);
     assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{NAME}"), "--run", folder]);
     assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-thesis-one-cushion-2"), "{folder}");

@@ -6,8 +6,8 @@ use super::{App, Effect};
 use crate::terminal::{
     geometry::Mapping,
     keymap::{
-        Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, SettingsAction, SettingsWhen,
-        TrainingAction, TrainingWhen, When,
+        Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, SettingsAction,
+        SettingsWhen, TrainingAction, TrainingWhen, When,
     },
     screens::{Target, table_mapping, target},
     widgets::ball_at,

@@ -85,7 +85,8 @@ impl PracticeWorker {
             }
             Errand::Film(filmed) => {
                 let played = catch_unwind(AssertUnwindSafe(|| FilmScene::new(&filmed)));
-                let failed = || Err(format!("the program failed on shot {} of the film; choose another", filmed.number));
+                let failed =
+                    || Err(format!("the program failed on shot {} of the film; choose another", filmed.number));
                 let played = played.unwrap_or_else(|_| failed()).map(Box::new);
                 reply(DrillReport::Filmed(filmed.number, played));
             }

@@ -5,9 +5,9 @@ use crossterm::event::KeyCode::{
 };
 
 use super::{
-    Action, Binding, film,
+    Action, Binding,
     Section::{self, Library, Position, Program, Record, Score, Stroke},
-    When, entry,
+    When, entry, film,
 };
 use crate::terminal::chord::Chord;
 

@@ -97,7 +97,9 @@ impl FromStr for Order {
             ["undo"] => Self::Undo,
             ["film"] => Self::Films,
             ["film", number] => Self::Film(
-                number.parse().map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
+                number
+                    .parse()
+                    .map_err(|_| format!("\"{number}\" is no shot of the film; film says which there are"))?,
             ),
             ["help"] => Self::Help,
             ["quit"] => Self::Quit,

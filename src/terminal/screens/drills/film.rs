@@ -63,12 +63,8 @@ pub fn draw(app: &App, header: Rect, area: Rect, buffer: &mut Buffer) -> Message
 /// What the film shows of a shot, in a few words.
 fn about(listed: &Listed, dot: &str) -> String {
     let filmed = &listed.filmed;
-    [
-        outcome(listed).to_owned(),
-        format!("{} m/s", fixed(filmed.speed(), 1)),
-        format!("{} s", fixed(filmed.lasts(), 1)),
-    ]
-    .join(dot)
+    [outcome(listed).to_owned(), format!("{} m/s", fixed(filmed.speed(), 1)), format!("{} s", fixed(filmed.lasts(), 1))]
+        .join(dot)
 }
 
 /// A distance in centimetres.
@@ -86,7 +82,8 @@ fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
             "all balls lie still, white {white} from where it rests in the film; simulated it is {simulated}, {agree}"
         ));
     }
-    let fitted = if time <= FITTED { "the stroke is fitted up to 2 s" } else { "predicted: the stroke was fitted up to 2 s" };
+    let fitted =
+        if time <= FITTED { "the stroke is fitted up to 2 s" } else { "predicted: the stroke was fitted up to 2 s" };
     Message::plain(format!("white is {white} from the film at {} s; {fitted}", fixed(time, 1)))
 }
 

@@ -83,7 +83,8 @@ impl Scene<'_> {
         let columns = if self.view.look.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
-        let absent: Vec<DVec2> = ghosts.iter().map(|ghost| ghost.place).chain(self.view.film.into_iter().flatten()).collect();
+        let absent: Vec<DVec2> =
+            ghosts.iter().map(|ghost| ghost.place).chain(self.view.film.into_iter().flatten()).collect();
         let is_free = |place: DVec2| absent.iter().all(|other| other.distance(place) > GHOST_CLEAR * self.clear);
         let balls = if self.view.is_lean { 1 } else { BALLS };
         for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
