@@ -49,15 +49,15 @@ fn a_filmed_shot_and_its_simulation_move_together() {
     assert_eq!(player.app.place(), Place::Drill(DrillPlace::Film));
     assert!(player.app.frame_interval().is_some(), "it plays at once");
     let early = player.wait(1.5);
-    early.says("the stroke is fitted up to 2 s");
+    early.says("within the fitted 2 s");
     assert!(white(&early) < 2.0, "{} cm on the part that was fitted", white(&early));
     let late = early.wait(4.0);
-    late.says("predicted: the stroke was fitted up to 2 s");
+    late.says("predicted from the first 2 s");
     let paused = late.press("Space");
     assert_eq!(paused.app.frame_interval(), None);
     check("watching", &paused);
     let end = paused.press("Space").wait(60.0);
-    end.says("all balls lie still, white ").says("simulated it is ");
+    end.says("all lie still, white ").says("simulated no point, filmed a point");
     assert_eq!(end.app.frame_interval(), None, "it rests at its end");
     check("end", &end);
 }

@@ -69,9 +69,9 @@ const DRILL_NOTES: [&str; 5] = [
 ];
 
 const FILM_NOTES: [&str; 3] = [
-    "Every second shot of a match, filmed at 50 pictures a second (tests/data/filmed has the places of the balls and where they \
-     come from). The full balls and the paths are the simulation's, the outlines, or small letters, the film's: where they agree, \
-     the ball hides its outline.",
+    "Every second shot of a match, filmed at 50 pictures a second; the places are those of github.com/erdo100/3cushiontool \
+     (Apache-2.0). The full balls and the paths are the simulation's, the outlines, or small letters, the film's: where they \
+     agree, the ball hides its outline.",
     "The stroke is fitted to the cue ball's first 2 s. All that comes later is predicted, and all that the object balls do.",
     "The cue ball is drawn white, the other player's yellow. Whether a shot is a point, and how fast it is, is what the film \
      shows. The tip is where a level cue would have met the ball to give it what was fitted.",

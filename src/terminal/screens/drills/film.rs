@@ -17,6 +17,7 @@ use crate::{
     terminal::{
         app::App,
         film::{FilmScene, Listed, table},
+        look::Glyphs,
         status::Message,
         widgets::{TableView, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title},
         words::fixed,
@@ -77,14 +78,13 @@ fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
     let white = centimetres(scene.replay.apart(time)[0]);
     if time >= scene.replay.duration() {
         let simulated = if scene.is_point { "a point" } else { "no point" };
-        let agree = if scene.is_point == listed.is_point { "as in the film" } else { "other than in the film" };
+        let filmed = if listed.is_point { "a point" } else { "no point" };
         return Message::plain(format!(
-            "all balls lie still, white {white} from where it rests in the film; simulated it is {simulated}, {agree}"
+            "all lie still, white {white} from the film; simulated {simulated}, filmed {filmed}"
         ));
     }
-    let fitted =
-        if time <= FITTED { "the stroke is fitted up to 2 s" } else { "predicted: the stroke was fitted up to 2 s" };
-    Message::plain(format!("white is {white} from the film at {} s; {fitted}", fixed(time, 1)))
+    let basis = if time <= FITTED { "within the fitted 2 s" } else { "predicted from the first 2 s" };
+    Message::plain(format!("white is {white} from the film at {} s, {basis}", fixed(time, 1)))
 }
 
 /// Draws what the stroke gave the cue ball, by the fit.
@@ -123,7 +123,7 @@ fn draw_distances(app: &App, scene: Option<&FilmScene>, time: f64, area: Rect, b
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let apart = scene.replay.apart(time);
     let distances: Vec<String> = (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], centimetres(apart[n]))).collect();
-    let legend = if look.glyphs == crate::terminal::look::Glyphs::Letters {
+    let legend = if look.glyphs == Glyphs::Letters {
         "Capitals and paths are the simulation's, small letters the film's."
     } else {
         "Full balls and paths are the simulation's, outlines the film's."
