@@ -57,7 +57,7 @@ fn a_filmed_shot_and_its_simulation_move_together() {
     assert_eq!(paused.app.frame_interval(), None);
     check("watching", &paused);
     let end = paused.press("Space").wait(60.0);
-    end.says("all lie still, white ").says("simulated no point, filmed a point");
+    end.says("at rest, white ").says("simulated no point, filmed a point");
     assert_eq!(end.app.frame_interval(), None, "it rests at its end");
     check("end", &end);
 }

@@ -79,9 +79,7 @@ fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
     if time >= scene.replay.duration() {
         let simulated = if scene.is_point { "a point" } else { "no point" };
         let filmed = if listed.is_point { "a point" } else { "no point" };
-        return Message::plain(format!(
-            "all lie still, white {white} from the film; simulated {simulated}, filmed {filmed}"
-        ));
+        return Message::plain(format!("at rest, white {white} from the film; simulated {simulated}, filmed {filmed}"));
     }
     let basis = if time <= FITTED { "within the fitted 2 s" } else { "predicted from the first 2 s" };
     Message::plain(format!("white is {white} from the film at {} s, {basis}", fixed(time, 1)))
