@@ -54,7 +54,8 @@ pub fn tell(number: u32) -> String {
         each.collect::<Vec<_>>().join(", ")
     };
     for time in TOLD.into_iter().filter(|time| *time < end) {
-        lines.push(format!("{time} seconds: from the film, in centimetres: {}.", distances(time)));
+        let unit = if time == 1.0 { "second" } else { "seconds" };
+        lines.push(format!("{time} {unit}: from the film, in centimetres: {}.", distances(time)));
     }
     lines.push(format!("{} seconds: all balls lie still: {}.", fixed(end, 2), distances(end)));
     lines.push(format!("The simulated shot is {}.", outcome(scene.is_point)));

@@ -281,6 +281,7 @@ mod tests {
             "There are 91 filmed shots",
             "Shot 90 of the film: a point, ",
             "fitted on the first 2 seconds",
+            "\n1 second: from the film",
             "5 seconds: from the film, in centimetres: white ",
             "all balls lie still: white ",
             "There is no filmed shot 91",
