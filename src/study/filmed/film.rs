@@ -113,12 +113,16 @@ impl FilmedShot {
         ends.fold(0.0, f64::max) - self.start
     }
 
-    /// A ball's place at `time`, m: between two samples on the straight line.
+    /// A ball's place at `time`, m: between two samples on the straight line; one that lies does not creep towards the first
+    /// sample that shows it on its way.
     pub fn place(&self, ball: usize, time: f64) -> DVec2 {
         let track = &self.balls[ball];
         let after = track.partition_point(|sample| sample.time <= time);
         match (after.checked_sub(1).map(|index| track[index]), track.get(after)) {
-            (Some(from), Some(to)) => from.place.lerp(to.place, (time - from.time) / (to.time - from.time)),
+            (Some(from), Some(to)) => {
+                let since = if first_moved(track) == Some(after) { start_of(track) } else { from.time };
+                from.place.lerp(to.place, ((time - since) / (to.time - since)).max(0.0))
+            }
             (Some(only), None) => only.place,
             (None, _) => track[0].place,
         }
@@ -160,6 +164,16 @@ mod tests {
             let moved = shot.place(0, shot.start + 0.1).distance(shot.balls[0][0].place);
             assert!(moved > 0.02, "shot {}: {moved}", shot.number);
             assert_eq!(shot.order[2], 2, "shot {}: nobody strikes the red", shot.number);
+        }
+    }
+
+    #[test]
+    fn a_ball_lies_still_until_it_is_struck() {
+        for shot in bundled() {
+            let rest = shot.balls[0][0].place;
+            assert!(shot.place(0, shot.start - 1e-9).distance(rest) < MOVED, "shot {}", shot.number);
+            let moving = shot.place(0, shot.start + 0.01).distance(rest);
+            assert!(moving > 0.005, "shot {}: {moving} m in 10 ms", shot.number);
         }
     }
 
