@@ -4,8 +4,12 @@
 //! and the one that keeps its length, and a band ends early enough that a roll from any speed to rest is right in both to
 //! a thousandth.
 
-/// Largest relative error of a whole roll's length and of its time.
-const ACCURACY: f64 = 3e-4;
+/// One over a band's share of its first speed `v` is this and this times `c1 v / a`: the relative error of a whole roll's
+/// length and of its time is then a thousandth at most.
+const SHARE: [f64; 2] = [1.4, 9.5];
+
+/// The last band begins where `c1 v` is this share of the least deceleration.
+const LAST: f64 = 0.0118;
 
 /// The law of a rolling ball's deceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,23 +29,37 @@ impl Rolling {
             return (least, 0.0);
         }
         // Bands that each take the share k of their first speed v make a roll too long, at the right time, by
-        // x/6 k²/(3 - 3k + k²) of its length, x = c1 v / a. Half of that is moved over to the time.
-        let fast = least + growth * speed;
-        let room = 12.0 * ACCURACY * fast / (growth * speed);
-        let share = if room < 1.0 {
-            let b = 1.5 * room;
-            3.0 * room / (b + (b * b + 3.0 * room * (1.0 - room)).sqrt())
+        // x/6 k²/(3 - 3k + k²) of its length, x = c1 v / a. Half of that is moved over to the time. This k keeps it in bounds.
+        let end = if self.is_last(speed) {
+            0.0
         } else {
-            1.0
+            let fast = least + growth * speed;
+            speed - speed * fast / (SHARE[0] * fast + SHARE[1] * growth * speed)
         };
-        let end = if share < 1.0 { (1.0 - share) * speed } else { 0.0 };
+        (self.between(speed, end), end)
+    }
+
+    /// The constant deceleration that stands for the law between two speeds, m/s².
+    #[inline]
+    pub fn between(&self, speed: f64, end: f64) -> f64 {
+        let Self { least, growth } = *self;
         let (width, middle) = (speed - end, 0.5 * (speed + end));
         let mean = least + growth * middle;
-        let half = 0.5 * growth * width / mean;
-        // ln(a1/a0)/(a1 - a0), as a series, is how long each m/s takes.
-        let slowness = (1.0 + half * half * (1.0 / 3.0 + 0.2 * half * half)) / mean;
-        let excess = growth * width * width / (12.0 * mean * middle);
-        ((1.0 + 0.5 * excess) / slowness, end)
+        // The mean deceleration over the time, to second order in the width, and half of what would keep the length.
+        let second = growth * width * width;
+        mean + second * (1.0 / (24.0 * middle) - growth / (12.0 * mean))
+    }
+
+    /// A length that no roll which begins with `speed` exceeds, m.
+    pub fn longest(&self, speed: f64) -> f64 {
+        // The exact length is 2 (x - ln(1 + x)) / x² of the first factor, x = c1 v / c0, which stays below the second.
+        0.5 * speed * speed / (self.least + 0.6 * self.growth * speed) * (1.0 + 2e-3)
+    }
+
+    /// Whether a roll that begins with `speed` comes to rest in its first band.
+    #[inline]
+    pub fn is_last(&self, speed: f64) -> bool {
+        self.growth * speed <= LAST * self.least
     }
 }
 
@@ -70,14 +88,16 @@ mod tests {
         for (least, growth) in [(0.040, 0.016), (0.05, 0.03), (0.07, 0.002)] {
             for step in 1..200 {
                 let speed = 0.04 * f64::from(step);
-                let (exact, bands, count) = roll(&Rolling { least, growth }, speed);
+                let rolling = Rolling { least, growth };
+                let (exact, bands, count) = roll(&rolling, speed);
                 for (exact, bands) in exact.into_iter().zip(bands) {
                     assert!(
                         (bands / exact - 1.0).abs() < 1.05e-3,
                         "{least} + {growth} v from {speed}: {bands}, {exact}"
                     );
                 }
-                assert!(count <= 14, "{count} bands from {speed} m/s");
+                assert!(rolling.longest(speed) > bands[0] && rolling.longest(speed) > exact[0]);
+                assert!(count <= 20, "{count} bands from {speed} m/s");
             }
         }
     }

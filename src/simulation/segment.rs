@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Constants;
-use crate::physics::{BallState, Motion, decayed_spin, slip};
+use crate::physics::{BallState, Motion, decayed_spin, roll_on_slope, slide_on_slope, slip};
 
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -86,7 +86,12 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            segment.half_acceleration = u * (-0.5 * constants.sliding / speed) + 0.5 * constants.tilt;
+            if constants.tilt != DVec2::ZERO {
+                let slide = slide_on_slope(constants.sliding, constants.tilt, state.velocity, u);
+                segment.half_acceleration = slide.half_acceleration;
+                return (segment, slide.lasts);
+            }
+            segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
             (segment, speed * constants.slide_time)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
@@ -101,16 +106,17 @@ impl Segment {
         let speed = self.velocity.length();
         self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
         self.motion = Motion::Rolling;
+        if constants.tilt != DVec2::ZERO {
+            let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
+            self.half_acceleration = roll.half_acceleration;
+            return (self, roll.lasts);
+        }
         let (deceleration, end) = constants.rolling.band(speed);
         self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
-        if constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0 {
+        if constants.rolling.growth == 0.0 {
             return (self, speed * constants.roll_time);
         }
-        // A slope pulls a rolling ball with five sevenths of its acceleration, and helps or hinders the band's end.
-        let pull = 5.0 / 7.0 * constants.tilt;
-        self.half_acceleration += 0.5 * pull;
-        let lasts = (speed - end) * speed / (deceleration * speed - pull.dot(self.velocity));
-        (self, lasts)
+        (self, (speed - end) / deceleration)
     }
 
     /// Whether a rolling ball comes to rest at the end of this course, and does not go on in the next band of its
@@ -123,6 +129,9 @@ impl Segment {
 
     /// Velocity at the end of a roll's band, m/s: zero where it is less than what counts as rest.
     fn velocity_at_end(&self, constants: &Constants, lasts: f64) -> DVec2 {
+        if constants.tilt != DVec2::ZERO {
+            return roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity;
+        }
         let velocity = self.velocity_after(lasts);
         if velocity.length_squared() < constants.tolerance.still * constants.tolerance.still {
             DVec2::ZERO
@@ -138,7 +147,7 @@ impl Segment {
         let spin = DVec3::new(0.0, 0.0, wz);
         let start = self.start + duration;
         if self.motion == Motion::Sliding {
-            // What the slip leaves is known without its duration, which keeps the rounding small.
+            // What the slip leaves is known without its duration, which keeps the rounding small. A slope adds its part.
             let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0)
                 + (5.0 / 7.0 * duration) * constants.tilt;
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
@@ -147,7 +156,11 @@ impl Segment {
             let velocity = self.velocity_at_end(constants, duration);
             Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
-            let position = self.position + 0.5 * duration * self.velocity;
+            let position = if constants.tilt == DVec2::ZERO {
+                self.position + 0.5 * duration * self.velocity
+            } else {
+                self.position_after(duration)
+            };
             (Self { start, spin, ..Self::at_rest(position) }, f64::INFINITY)
         }
     }
@@ -232,7 +245,7 @@ mod tests {
 
     #[test]
     fn a_rolling_ball_stops_after_v_squared_over_two_a() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let velocity = DVec2::new(0.3, 0.4);
         let spin = rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, duration) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });

@@ -97,29 +97,24 @@ impl<R: Real> Numbers<R> {
 
     /// Deceleration of a ball that begins to roll with `speed`, m/s², and the speed down to which it holds.
     ///
-    /// A band takes the share `k` of its first speed for which a roll that keeps its time would be 6e-4 too long,
-    /// `c1 v/(6 a) k²/(3 - 3k + k²) = 6e-4`, and brakes so that half of that goes into the time.
+    /// The law is that of `physics::rolling`: the last band begins where `c1 v` is 0.0118 `c0`, any other takes the share
+    /// `a / (1.4 a + 9.5 c1 v)` of its first speed.
     pub fn band(&self, speed: R) -> (R, R) {
         let (least, growth) = (R::ratio(5.0, 7.0) * self.roll, self.roll_growth);
         if growth <= R::zero() {
             return (least, R::zero());
         }
-        let (half, one, three) = (R::of(0.5), R::of(1.0), R::of(3.0));
-        let room = R::of(12.0) * R::of(3e-4) * (least + growth * speed) / (growth * speed);
-        // (1 - room) k² + 3 room k - 3 room = 0.
-        let end = if room < one {
-            let b = R::of(1.5) * room;
-            speed * (one - three * room / (b + (b * b + three * room * (one - room)).sqrt()))
-        } else {
+        let pull = growth * speed;
+        let end = if pull <= R::of(0.0118) * least {
             R::zero()
+        } else {
+            let fast = least + pull;
+            speed - speed * fast / (R::of(1.4) * fast + R::of(9.5) * pull)
         };
-        let (lost, middle) = ((speed - end), half * (speed + end));
+        let (width, middle) = (speed - end, R::of(0.5) * (speed + end));
         let mean = least + growth * middle;
-        let half_share = half * growth * lost / mean;
-        let square = half_share * half_share;
-        let slowness = (one + square * (R::ratio(1.0, 3.0) + R::of(0.2) * square)) / mean;
-        let too_long = growth * lost * lost / (R::of(12.0) * mean * middle);
-        ((one + half * too_long) / slowness, end)
+        let second = growth * width * width;
+        (mean + second * (R::of(1.0) / (R::of(24.0) * middle) - growth / (R::of(12.0) * mean)), end)
     }
 }
 

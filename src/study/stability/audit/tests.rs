@@ -140,7 +140,7 @@ fn dead_impact(table: &Table, rests: bool) -> Taken {
 
 #[test]
 fn an_impact_takes_everything_only_where_the_bounces_that_are_left_out_have_their_time() {
-    let table = Table::default();
+    let table = Table::preset("textbook").unwrap();
     let e = table.rail_restitution;
     let Taken { unexplained, bounces } = dead_impact(&table, false);
     assert!((unexplained - 0.5e-6 * e * e).abs() < 1e-15 && bounces.is_none());
