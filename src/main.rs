@@ -1,23 +1,27 @@
 //! The program: parses the command line, runs it, and turns failures into a sentence and an exit code.
 
+// What may not be used stands in clippy.toml.
+#![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]
+
 use std::{io::Write, process::ExitCode};
 
-use carom::commands::Cli;
-use clap::Parser;
+use carom::{commands::Cli, printing};
 
 // A quarter of a small network's update is malloc and free; mimalloc alone makes training 1.3 to 3 times faster.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    match Cli::parse().run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            if !failure.is_silent() {
-                // The terminal may be gone with the failure: then there is nobody to tell.
-                let _ = writeln!(std::io::stderr(), "carom: {failure}");
-            }
-            ExitCode::from(failure.code())
-        }
+    let failure = match Cli::read() {
+        Err(refused) => return refused,
+        Ok(cli) => match cli.run() {
+            Ok(()) => return ExitCode::SUCCESS,
+            Err(failure) => failure,
+        },
+    };
+    if !failure.is_silent() {
+        // The terminal may be gone with the failure: then there is nobody to tell.
+        let _ = writeln!(printing::stderr(), "carom: {failure}");
     }
+    ExitCode::from(failure.code())
 }

@@ -1,12 +1,16 @@
 //! The accuracy study through the real binary: what it must find, without any goal for time.
 
+#[path = "shared.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod shared;
+
 use std::path::Path;
 
 use assert_cmd::Command;
 use serde_json::Value;
 
 fn carom(arguments: &[&str]) -> std::process::Output {
-    Command::cargo_bin("carom").unwrap().args(arguments).output().unwrap()
+    Command::cargo_bin("carom").unwrap().envs(shared::home()).args(arguments).output().unwrap()
 }
 
 fn lines(output: &std::process::Output) -> Vec<Value> {

@@ -1,10 +1,15 @@
 //! `carom bench` through the real binary.
 
+#[path = "shared.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod shared;
+
 use assert_cmd::Command;
 use serde_json::Value;
 
 fn bench(args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("carom").unwrap();
+    command.envs(shared::home());
     command.arg("bench").args(args);
     command
 }

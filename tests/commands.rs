@@ -1,10 +1,15 @@
 //! The command line through the real binary: answers, JSON, batches, and what happens to bad input.
 
+#[path = "shared.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod shared;
+
 use assert_cmd::Command;
 use serde_json::Value;
 
 fn carom(args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("carom").unwrap();
+    command.envs(shared::home());
     command.args(args);
     command
 }

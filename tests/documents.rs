@@ -1,9 +1,14 @@
 //! Tables, settings, shell completions and manual pages through the real binary.
 
+#[path = "shared.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod shared;
+
 use assert_cmd::Command;
 
 fn carom(args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("carom").unwrap();
+    command.envs(shared::home());
     command.args(args);
     command
 }

@@ -1,9 +1,14 @@
 //! `carom reproduce` through the real binary.
 
+#[path = "shared.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod shared;
+
 use assert_cmd::Command;
 
 fn reproduce(args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("carom").unwrap();
+    command.envs(shared::home());
     command.arg("reproduce").args(args);
     command
 }
@@ -39,12 +44,14 @@ fn an_unknown_figure_is_refused_with_those_that_there_are() {
 #[test]
 fn an_interrupt_ends_it_with_the_number_of_figures_that_are_complete() {
     let folder = tempfile::tempdir().unwrap();
-    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("carom"))
+    let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("carom"))
+        .envs(shared::home())
         .args(["reproduce", "--figure", "29", "--episodes", "100000000", "--out"])
         .arg(folder.path())
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
+    let mut child = shared::Kept(child);
     // It says that it trains as soon as it listens to signals.
     let mut said = std::io::BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();

@@ -25,7 +25,7 @@ pub const MAX_ELEVATION: f64 = PI / 6.0;
 const USUAL_ELEVATION: f64 = 0.12;
 
 /// Tips are tried up to this share of the miscue limit's radius, so that rounding never oversteps it.
-const TIP_SHARE: f64 = 0.98;
+pub const TIP_SHARE: f64 = 0.98;
 
 /// The thesis' way out where the policy's shot misses (its 5.1): the same direction and speed, another tip position and
 /// elevation.

@@ -5,12 +5,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Source, Suggestion,
-    candidates::{anything, variation},
+    candidates::{TIP_SHARE, anything, variation},
     trial::{Course, ENDLESS, PATIENCE, Task},
 };
 use crate::{
     game::{Rule, Tally},
     physics::CueInputs,
+    table::Layout,
 };
 
 /// Variations tried of each of the policy's favourites.
@@ -69,12 +70,23 @@ impl<'a> Attempt<'a> {
         while !self.is_over() {
             self.play(anything(table, layout, &mut rng), Source::Search);
         }
-        // With no time at all and no policy, nothing was tried: a plain stroke at the first ball is the attempt.
-        let plain = || {
-            let phi = (layout.balls[1] - layout.balls[0]).to_angle();
-            Suggestion { cue: CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi, speed: 2.0 }, source: Source::Search }
-        };
-        Found { solutions: self.solutions, attempt: self.best.map_or_else(plain, |(_, shot)| shot) }
+        // With no time at all and no policy, nothing was tried.
+        let attempt = self.best.map(|(_, shot)| shot);
+        let attempt = attempt.unwrap_or_else(|| Suggestion { cue: self.plain(), source: Source::Search });
+        Found { solutions: self.solutions, attempt }
+    }
+
+    /// A plain stroke at the first ball; where the cue has no room for it, the one nearest in direction and with the lowest tip
+    /// for which it has.
+    fn plain(&self) -> CueInputs {
+        let Layout { balls: [cue_ball, first, _] } = self.task.layout;
+        let plain = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: (first - cue_ball).to_angle(), speed: 2.0 };
+        let highest = TIP_SHARE * self.task.table.miscue_limit.sqrt();
+        let turns = (0..=180).flat_map(|degrees| [degrees, -degrees]).map(|degrees| f64::from(degrees).to_radians());
+        let others = turns.flat_map(|turn| {
+            [0.0, 0.5, 1.0].map(|share| CueInputs { b: share * highest, phi: plain.phi + turn, ..plain })
+        });
+        others.into_iter().find_map(|cue| self.task.playable(&cue)).unwrap_or(plain)
     }
 
     /// Whether a shot has been found, or time is up.
@@ -84,6 +96,7 @@ impl<'a> Attempt<'a> {
 
     fn play(&mut self, cue: CueInputs, source: Source) {
         self.task.clock.count(1);
+        let Some(cue) = self.task.playable(&cue) else { return };
         let patience = match source {
             Source::Policy => ENDLESS,
             _ if self.task.clock.simulations().is_multiple_of(FOLLOWED) => PATIENCE,
@@ -92,7 +105,7 @@ impl<'a> Attempt<'a> {
         // A shot that took too long has at least been thought of.
         let course = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
-        if course.tally.is_point(self.task.rule) {
+        if self.task.point().is_made(&course.tally) {
             self.solutions.push((suggestion, course));
         } else {
             let merit = merit(&course.tally, self.task.rule);

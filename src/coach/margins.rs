@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::{
-    game::{Referee, Rule, Tally},
-    physics::{CueInputs, strike},
+    game::{Point, Referee, Rule, Tally},
+    physics::{CueInputs, has_room, strike},
     simulation::{Event, Observer, Patience, watch},
     table::{Layout, Table},
 };
@@ -97,13 +97,13 @@ pub struct Margin {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// No stroke: the tip slips off, the cue is below the cloth or stands still.
+    /// No stroke: the tip slips off, the cue has no room, is below the cloth or stands still.
     NoStroke,
     /// No object ball is met.
     NoBall,
     /// One is.
     OneBall,
-    /// Both are, with too few cushions before the second.
+    /// Both are, with too few cushions before the second, or as a game opens with the wrong ball first.
     TooFewCushions,
     /// A point.
     Point,
@@ -136,7 +136,7 @@ pub fn margins(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
             nearest_miss(
                 input,
                 |by| makes(&input.shifted(table, cue, sign * by)),
-                |by| is_stroke(table, &input.shifted(table, cue, sign * by)) || input.is_tip(),
+                |by| is_stroke(table, layout, &input.shifted(table, cue, sign * by)) || input.is_tip(),
             )
         };
         Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
@@ -201,7 +201,7 @@ pub fn map(
 
 /// What comes of a stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.
 pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
-    if !is_stroke(table, cue) {
+    if !is_stroke(table, layout, cue) {
         return Outcome::NoStroke;
     }
     let mut patient = Patient { referee: Referee::default(), patience: Patience(PATIENCE) };
@@ -209,7 +209,7 @@ pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
     let Tally { met: [one, other], .. } = patient.referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,
-        (true, true) if patient.referee.tally.is_point(rule) => Outcome::Point,
+        (true, true) if Point::of(rule, table, layout).is_made(&patient.referee.tally) => Outcome::Point,
         (true, true) => Outcome::TooFewCushions,
         _ => Outcome::OneBall,
     }
@@ -218,8 +218,8 @@ pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
 /// Steps of resting contacts that are followed: a map has a thousand shots, and one of them can take seconds.
 const PATIENCE: u32 = 200;
 
-fn is_stroke(table: &Table, cue: &CueInputs) -> bool {
-    cue.validate().is_ok() && cue.validate_tip(table.miscue_limit).is_ok()
+fn is_stroke(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+    cue.validate().is_ok() && cue.validate_tip(table.miscue_limit).is_ok() && has_room(table, layout, cue)
 }
 
 /// A referee who gives up in the end.

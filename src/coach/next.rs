@@ -64,7 +64,7 @@ pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
     }
     let mut whole = Whole { tally: Tally::default(), patience: Patience(task.patience), task, given_up: false };
     let end = simulate(task.table, task.layout, &strike(task.table, stroke), &mut whole);
-    (whole.tally.is_point(task.rule) && !whole.given_up).then(|| end.layout())
+    (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout())
 }
 
 /// Watches a shot to its end, or until it takes too long.

@@ -76,12 +76,13 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// `cue` as a candidate, if it makes the point; of two that make it as often, the softer and more level one is better, by
-    /// `weight`.
+    /// `cue` as a candidate, raised where it must be, if it makes the point; of two that make it as often, the softer and more
+    /// level one is better, by `weight`.
     pub fn new(task: &Task, cue: CueInputs, source: Source, weight: f64) -> Option<Self> {
+        let cue = task.playable(&cue)?;
         let course = task.play(&cue)?;
         task.clock.count(1);
-        course.tally.is_point(task.rule).then(|| Self::of(Suggestion { cue, source }, &course, weight))
+        task.point().is_made(&course.tally).then(|| Self::of(Suggestion { cue, source }, &course, weight))
     }
 
     /// A shot that makes the point in this course.

@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_player_who_errs_makes_what_the_make_probability_says_and_scatters_around_the_meant_end() {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("-0.2,0.2,6,82.6,2.5").unwrap();
         let rule = Rule::StraightRail;

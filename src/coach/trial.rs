@@ -2,10 +2,10 @@
 
 use std::{ops::ControlFlow, time::Instant};
 
-use super::{Skill, clock::Clock, errors::Errors};
+use super::{Skill, candidates::MAX_ELEVATION, clock::Clock, errors::Errors};
 use crate::{
-    game::{Referee, Rule, Tally},
-    physics::{CueInputs, strike},
+    game::{Point, Referee, Rule, Tally},
+    physics::{CueInputs, has_room, strike, with_room},
     simulation::{Event, EventKind, Observer, Patience, watch},
     table::{Layout, Table},
 };
@@ -46,6 +46,21 @@ pub const PATIENCE: u32 = 100;
 pub const ENDLESS: u32 = u32::MAX;
 
 impl Task<'_> {
+    /// The stroke as a player can play it here: the cue is raised where a rail or a ball is in its way. `None` where that takes
+    /// more than [`MAX_ELEVATION`], or no elevation does.
+    #[inline]
+    pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
+        if has_room(self.table, self.layout, cue) {
+            return Some(*cue);
+        }
+        with_room(self.table, self.layout, cue).ok().filter(|raised| raised.theta <= MAX_ELEVATION)
+    }
+
+    /// What makes a shot from here a point.
+    pub fn point(&self) -> Point {
+        Point::of(self.rule, self.table, self.layout)
+    }
+
     /// Plays one stroke; `None` where time ran out before it was decided.
     pub fn play(&self, cue: &CueInputs) -> Option<Course> {
         let mut hurried = Hurried {
@@ -65,7 +80,7 @@ impl Task<'_> {
         if stroke.is_miscue(self.table) {
             return Some(false);
         }
-        self.play(stroke).map(|course| course.tally.is_point(self.rule))
+        self.play(stroke).map(|course| self.point().is_made(&course.tally))
     }
 
     /// The attempts at `cue` with these errors, one after the other until time runs out: how many make the point, and how

@@ -1,7 +1,7 @@
 //! `carom accuracy`: error against run time, measured by the program itself.
 
 use std::{
-    io::{IsTerminal, Write},
+    io::Write,
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
 };
@@ -9,10 +9,11 @@ use std::{
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::{Failure, input::table_named};
+use super::{Failure, input::table_named, output::tell};
 use crate::{
+    printing,
     storage::write_atomic,
-    study::{self, Method, Plan, Study, random_shots, stability},
+    study::{self, Method, Plan, Study, filmed, random_shots, stability},
     table::{JUDGED, Table},
 };
 
@@ -37,6 +38,12 @@ pub struct Args {
     /// stiff or extreme case on each table, or a tenth of them with --quick. --shots sets the random ones.
     #[arg(long, conflicts_with = "table")]
     stability: bool,
+    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film.
+    #[arg(long, conflicts_with_all = ["stability", "shots", "quick"])]
+    filmed: bool,
+    /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
+    #[arg(long, requires = "filmed")]
+    fit: bool,
     /// Write accuracy.csv, error-vs-time.svg and error-vs-condition.svg into this folder.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -66,6 +73,9 @@ impl Size {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if args.filmed {
+        return if args.fit { fit_film(args) } else { replay_film(args) };
+    }
     if args.stability {
         let plan = if args.quick { stability::Plan::QUICK } else { stability::Plan::REPORT };
         let random = args.shots.map_or(plan.random, u64::from);
@@ -86,7 +96,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
         for row in &references {
             write_json(&mut out, row)?;
@@ -104,10 +114,59 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     out.flush()?;
     drop(out);
     if args.quick {
-        eprintln!("The stability table takes minutes: leave --quick out, or use --stability.");
+        tell("The stability table takes minutes: leave --quick out, or use --stability.");
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
+}
+
+/// What models of the table reach on the film.
+fn replay_film(args: &Args) -> Result<(), Failure> {
+    let film = filmed::bundled();
+    let models = match &args.table {
+        Some(name) => table_named(name).map(|table| vec![(table.name.clone(), table)])?,
+        None => filmed::models(),
+    };
+    let rows = filmed::rows(&models, &film, |name| tell(format_args!("playing the film on {name} ...")));
+    if let Some(folder) = &args.out {
+        write_file(folder, "filmed.csv", &filmed::csv(&rows))?;
+        if let Some((_, table)) = models.last() {
+            write_file(folder, "filmed.svg", &filmed::paths(table, &film))?;
+        }
+    }
+    let mut out = printing::stdout();
+    if args.json {
+        rows.iter().try_for_each(|row| write_json(&mut out, row))?;
+    } else {
+        out.write_all(filmed::text(&rows).as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Constants that come nearest to the film: all of it, and each half judged on the other.
+fn fit_film(args: &Args) -> Result<(), Failure> {
+    let film = filmed::bundled();
+    let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), table_named)?;
+    let model = table.rail.model;
+    let half =
+        |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());
+    let (even, odd): (Vec<_>, Vec<_>) = (half(0).collect(), half(1).collect());
+    let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
+    let mut out = printing::stdout();
+    for (used, fit_on, judge_on) in parts {
+        tell(format_args!("fitting {used} ..."));
+        let fitted = filmed::fit_constants(&table, model, fit_on);
+        let name = format!("fitted to {used}");
+        let row = filmed::judge(&name, &fitted.table, judge_on);
+        if args.json {
+            write_json(&mut out, &fitted)?;
+            write_json(&mut out, &row)?;
+        } else {
+            let judged = if std::ptr::eq(fit_on, judge_on) { "the same shots" } else { "the shots that were not used" };
+            writeln!(out, "{}Judged on {judged}:\n{}", filmed::fit_text(&fitted, used), filmed::text(&[row]))?;
+        }
+    }
+    Ok(())
 }
 
 /// The stability table, which tells of each stiff or extreme case how many shots fail and why.
@@ -117,7 +176,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     if let Some(folder) = &args.out {
         write_file(folder, "stability.md", &stability::page(&plan, &rows))?;
     }
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
         for row in &rows {
             write_json(&mut out, row)?;
@@ -129,7 +188,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 }
 
 fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<()> {
-    serde_json::to_writer(&mut *out, value)?;
+    printing::json(out, value)?;
     writeln!(out)
 }
 
@@ -144,7 +203,7 @@ fn measure(table: Table, size: &Size, seed: u64) -> Study {
 
 /// On the standard error, and only where somebody watches.
 fn progress_bar(shots: usize, table: &str) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
+    if !printing::is_watched() {
         return ProgressBar::hidden();
     }
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} shots, {eta} left");
@@ -167,6 +226,6 @@ fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     let path = folder.join(name);
     write_atomic(&path, text.as_bytes())
         .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
-    eprintln!("wrote {}", path.display());
+    tell(format_args!("wrote {}", path.display()));
     Ok(())
 }

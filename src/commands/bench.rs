@@ -1,15 +1,15 @@
 //! `carom bench`: what this machine does in a second.
 
-use std::{
-    io::{self, Write},
-    time::Duration,
-};
+use std::{io::Write, time::Duration};
 
 use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::Failure;
-use crate::study::throughput::{Figure, Machine, measure};
+use crate::{
+    printing,
+    study::throughput::{Figure, Machine, measure},
+};
 
 /// Measure this machine: shots, recommendations and network updates a second. Takes about ten seconds.
 #[derive(Debug, clap::Args)]
@@ -43,7 +43,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ))
     })?;
     let machine = Machine::this();
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if !args.json {
         writeln!(out, "{}, {} threads, {}", machine.cpu, machine.threads, machine.os)?;
     }
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         let report =
             Report { version: env!("CARGO_PKG_VERSION"), machine: &machine, seconds: args.seconds, figures: &figures };
-        serde_json::to_writer(&mut out, &report).map_err(io::Error::from)?;
+        printing::json(&mut out, &report)?;
         writeln!(out)?;
     }
     Ok(())

@@ -1,9 +1,9 @@
 //! `carom config`: what can be set once and for all, how it is set now, and whether the file is right.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use super::{Failure, output::tell};
-use crate::terminal::Settings;
+use crate::{printing, terminal::Settings};
 
 /// Show every setting with what it means and accepts, as a file to begin with.
 #[derive(Debug, clap::Args)]
@@ -18,7 +18,7 @@ pub struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let path = Settings::path();
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if args.path {
         return Ok(writeln!(out, "{}", path.display())?);
     }

@@ -1,11 +1,12 @@
 //! `carom completions` and `carom man`: what shells and `man` know of the command line, from its own description.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use clap::CommandFactory;
 use clap_complete::Shell;
 
 use super::{Cli, Failure};
+use crate::printing;
 
 /// Print the completions for a shell.
 #[derive(Debug, clap::Args)]
@@ -26,7 +27,7 @@ pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "carom", &mut script);
     // Not into the pipe itself: a reader that has gone would be a panic there.
-    Ok(io::stdout().lock().write_all(&script)?)
+    Ok(printing::stdout().write_all(&script)?)
 }
 
 pub(super) fn man(args: &Man) -> Result<(), Failure> {
@@ -43,5 +44,5 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     }
     let mut page = Vec::new();
     clap_mangen::Man::new(command.clone()).render(&mut page)?;
-    Ok(io::stdout().lock().write_all(&page)?)
+    Ok(printing::stdout().write_all(&page)?)
 }

@@ -3,16 +3,20 @@
 use std::{
     collections::HashMap,
     fs::File,
-    io::{self, BufRead, BufReader, Write},
+    io::{self, BufRead, BufReader, Read, Write},
     path::Path,
 };
 
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{
+    Serialize,
+    de::{DeserializeOwned, IgnoredAny},
+};
 
-use super::Failure;
+use super::{Failure, output::tell};
 use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
+    printing, storage,
     table::{Layout, Table, TableError},
 };
 
@@ -20,8 +24,8 @@ use crate::{
 pub fn table_named(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(TableError::Unknown(_)) if Path::new(name).exists() => {
-            let text =
-                std::fs::read_to_string(name).map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
+            let text = storage::read_text(name.as_ref(), storage::SMALL)
+                .map_err(|error| Failure::failed(format_args!("{name}: {error}")))?;
             Table::from_toml(&text).map_err(Failure::wrong_input)
         }
         table => table.map_err(Failure::wrong_input),
@@ -32,10 +36,10 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
 pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
     let Origin { reward, table: trained_on, .. } = policy.origin();
     if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
-        eprintln!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing");
+        tell(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
     }
     if *trained_on != table.name {
-        eprintln!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name);
+        tell(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
     }
 }
 
@@ -70,36 +74,71 @@ struct Refusal {
     error: String,
 }
 
+/// What a question may hold.
+pub trait Keys {
+    /// The names that mean something.
+    const KEYS: &'static [&'static str];
+}
+
+/// Names that a question may hold besides: of files that hold the answers too.
+const ANSWERS: [&str; 8] = ["id", "cue", "rule", "duration", "condition", "events", "contacts", "final"];
+
+/// Longest line, bytes; a question has some hundred.
+const LONGEST_LINE: u64 = 1 << 20;
+
+/// The question in a line.
+fn question<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
+    // serde counts lines within the line: only its column helps.
+    let reason = |error: serde_json::Error| error.to_string().replace(" at line 1", ",");
+    let question = serde_json::from_slice(line).map_err(reason)?;
+    #[expect(clippy::zero_sized_map_values, reason = "serde reads a set from no object")]
+    let keys: HashMap<String, IgnoredAny> = serde_json::from_slice(line).map_err(reason)?;
+    match keys.keys().find(|key| !Q::KEYS.contains(&key.as_str()) && !ANSWERS.contains(&key.as_str())) {
+        Some(key) => Err(format!("\"{key}\" is not known; accepted are {}", Q::KEYS.join(", "))),
+        None => Ok(question),
+    }
+}
+
+/// The next line, without its end; none at the end of the input.
+fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
+    line.clear();
+    let read = reader.by_ref().take(LONGEST_LINE).read_until(b'\n', line)? as u64;
+    if read == LONGEST_LINE && !line.ends_with(b"\n") {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, format!("a line has more than {LONGEST_LINE} bytes")));
+    }
+    Ok(read > 0)
+}
+
 /// Answers every line of JSON Lines in `file` (`-` is the standard input) on the standard output, in order. A line that
 /// is refused gets an `error` and the rest go on; the command then ends as wrong input.
-pub fn answer_lines<Q: DeserializeOwned, A: Serialize>(
+pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     file: &str,
     mut answer: impl FnMut(Q) -> Result<A, Failure>,
 ) -> Result<(), Failure> {
-    let reader: Box<dyn BufRead> = if file == "-" {
+    let mut reader: Box<dyn BufRead> = if file == "-" {
         Box::new(io::stdin().lock())
     } else {
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
         Box::new(BufReader::new(File::open(file).map_err(unreadable)?))
     };
-    let mut out = io::BufWriter::new(io::stdout().lock());
+    let mut out = io::BufWriter::new(printing::stdout());
     let (mut lines, mut refused) = (0_usize, 0_usize);
-    for (index, line) in reader.split(b'\n').enumerate() {
-        let line = line.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
+    let (mut line, mut index) = (Vec::new(), 0_usize);
+    let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
+    while next_line(&mut reader, &mut line).map_err(unreadable)? {
+        index += 1;
         if line.trim_ascii().is_empty() {
             continue;
         }
         lines += 1;
-        let question = serde_json::from_slice(&line).map_err(|error| {
-            // serde counts lines within the line: only its column helps.
-            let reason = error.to_string().replace(" at line 1", ",");
-            Failure::wrong_input(format_args!("line {} is not a valid JSON question: {reason}", index + 1))
+        let question = question(&line).map_err(|reason| {
+            Failure::wrong_input(format_args!("line {index} is not a valid JSON question: {reason}"))
         });
         match question.and_then(&mut answer) {
-            Ok(answer) => serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?,
+            Ok(answer) => printing::json(&mut out, &answer)?,
             Err(failure) => {
                 refused += 1;
-                serde_json::to_writer(&mut out, &Refusal { error: failure.to_string() }).map_err(io::Error::from)?;
+                printing::json(&mut out, &Refusal { error: failure.to_string() })?;
             }
         }
         writeln!(out)?;

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod bounded;
 mod config;
 mod documents;
 mod drill;
@@ -18,11 +19,18 @@ mod table;
 mod train;
 mod watch;
 
+use std::{error::Error, io::Write, process::ExitCode};
+
 use clap::{Parser, Subcommand};
 
 pub use failure::Failure;
+use output::tell;
 
-use crate::terminal::{Settings, TerminalError};
+use crate::{
+    printing::{self, is_hidden},
+    storage::refuse_large_files,
+    terminal::{Settings, TerminalError},
+};
 
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
@@ -57,6 +65,28 @@ enum Command {
 }
 
 impl Cli {
+    /// What the command line says.
+    ///
+    /// # Errors
+    /// Where it is wrong or asks for help: all is said then, and this is the exit code.
+    pub fn read() -> Result<Self, ExitCode> {
+        Self::try_parse().map_err(|answer| {
+            // A value that is right and whose file cannot be read is no wrong input.
+            if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
+                && failure.code() != 2
+            {
+                tell(format_args!("carom: {failure}"));
+                return ExitCode::from(failure.code());
+            }
+            let is_safe = std::env::args_os().all(|argument| !argument.to_string_lossy().chars().any(is_hidden));
+            // clap repeats what it was given as it is, between the codes of its own bold words.
+            let said = if is_safe { answer.print() } else { write!(printing::stderr(), "{}", answer.render()) };
+            // Nobody may be left to tell.
+            let _ = said;
+            ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2))
+        })
+    }
+
     /// The terminal program, with the user's settings.
     fn open(self) -> Result<(), Failure> {
         let path = Settings::path();
@@ -64,7 +94,7 @@ impl Cli {
         let table = input::table_named(self.table.as_ref().unwrap_or(&settings.table))?;
         if self.plain {
             for complaint in &complaints {
-                output::tell(format_args!("{}: {complaint}", path.display()));
+                tell(format_args!("{}: {complaint}", path.display()));
             }
             return crate::terminal::talk(table, &settings).map_err(failure);
         }
@@ -76,6 +106,7 @@ impl Cli {
     /// # Errors
     /// A [`Failure`] with its sentence and exit code.
     pub fn run(self) -> Result<(), Failure> {
+        refuse_large_files().map_err(Failure::failed)?;
         match self.command {
             None => self.open(),
             Some(Command::Simulate(args)) => simulate::run(&args),

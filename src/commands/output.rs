@@ -8,25 +8,28 @@ use std::{
 use serde::Serialize;
 
 use super::Failure;
-use crate::physics::Impulse;
+use crate::{
+    physics::Impulse,
+    printing::{self, OneLine},
+};
 
 /// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
 /// nobody to tell any more, that is all.
 pub fn tell(sentence: impl Display) {
-    let _ = writeln!(io::stderr(), "{sentence}");
+    let _ = writeln!(printing::stderr(), "{sentence}");
 }
 
 /// Asks whoever sits at the terminal.
 pub fn prompt(words: &str) {
     if io::stdin().is_terminal() {
         // Nobody reads a prompt that cannot be written.
-        let _ = io::stderr().write_all(words.as_bytes());
+        let _ = printing::stderr().write_all(words.as_bytes());
     }
 }
 
-/// A line on the standard output.
+/// A line on the standard output; a text of several is shown as one.
 pub fn line(text: impl Display) -> Result<(), Failure> {
-    Ok(writeln!(io::stdout(), "{text}")?)
+    Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
 }
 
 /// The equivalent ball impulse for people to read.
@@ -39,13 +42,14 @@ pub fn impulse_words(impulse: &Impulse) -> String {
 
 /// A line of JSON on the standard output.
 pub fn json_line(value: &impl Serialize) -> io::Result<()> {
-    let mut out = io::stdout().lock();
-    serde_json::to_writer(&mut out, value)?;
+    let mut out = printing::stdout();
+    printing::json(&mut out, value)?;
     writeln!(out)
 }
 
-/// Rows of cells as lines; the columns in `numbers` stand to the right.
+/// Rows of cells as lines, whatever the cells hold; the columns in `numbers` stand to the right.
 pub fn columns<const COLUMNS: usize>(rows: &[[String; COLUMNS]], numbers: &[usize]) -> Vec<String> {
+    let rows: Vec<_> = rows.iter().map(|row| row.each_ref().map(|cell| OneLine(cell).to_string())).collect();
     let widths: [usize; COLUMNS] =
         std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
     let line = |row: &[String; COLUMNS]| {

@@ -2,12 +2,12 @@
 
 use super::{
     Failure,
-    drill::{PlayOptions, Workspace, play, strokes},
+    drill::{PlayOptions, Strokes, Workspace, play, strokes},
 };
 use crate::{
     drills::{Exercise, Goal},
     game::Rule,
-    table::{Layout, Table},
+    table::{CueBall, Layout, Side, Table},
 };
 
 /// What a game is called among exercises.
@@ -15,7 +15,8 @@ const GAME: &str = "game";
 
 /// Play innings from the opening position.
 ///
-/// A miss ends an inning, and the next begins where the balls lie. Strokes are read line by line from the standard input:
+/// A miss ends an inning, and the next begins where the balls lie; with --both or --against-coach it is the other side's, which plays
+/// with the other ball. Strokes are read line by line from the standard input:
 /// "a,b,theta,phi,V", or the word coach. At the end average and high run are told.
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -32,9 +33,22 @@ pub struct Args {
     /// left corner ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
     #[arg(long, allow_hyphen_values = true)]
     layout: Option<String>,
+    /// The side of the opponent's ball at which the cue ball stands at first, on tables where the player may choose: left or
+    /// right.
+    #[arg(long, default_value = "left", conflicts_with = "layout")]
+    side: Side,
     /// The table: "match", "textbook" or "thesis".
     #[arg(long, default_value = "match")]
     table: String,
+    /// The ball that you play with: white or yellow.
+    #[arg(long, default_value = "white")]
+    ball: CueBall,
+    /// Play a match of two: after a miss the other side goes on with the other ball, from where the balls lie.
+    #[arg(long)]
+    both: bool,
+    /// The same, and the coach plays the other side.
+    #[arg(long, conflicts_with = "coach")]
+    against_coach: bool,
     /// Have the coach play.
     #[arg(long)]
     coach: bool,
@@ -45,12 +59,17 @@ pub struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
     let layout = match &args.layout {
-        None => Layout::opening(&table),
+        None => Layout::opening_on(&table, args.side),
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
     let game = Exercise::own(GAME, args.rule, &table.name, layout);
-    let session = args.options.session(Goal::Game { innings: args.innings }, vec![game]);
+    let is_match = args.both || args.against_coach;
+    let innings = args.innings;
+    let goal = if is_match { Goal::Match { innings } } else { Goal::Game { innings } };
+    let mut session = args.options.session(goal, vec![game]);
+    session.cue_ball = args.ball;
     let workspace = Workspace::open()?;
-    play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
+    let strokes = if args.against_coach { Strokes::AgainstCoach } else { strokes(args.coach) };
+    play(&workspace.store, session, &args.options, strokes, args.strokes as usize)
 }

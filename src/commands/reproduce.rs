@@ -1,7 +1,7 @@
 //! `carom reproduce`: the thesis' learning curves.
 
 use std::{
-    io::{self, IsTerminal, Write},
+    io::Write,
     path::PathBuf,
     sync::{
         Arc,
@@ -16,8 +16,9 @@ use signal_hook::{
     flag,
 };
 
-use super::{Failure, input::table_named};
+use super::{Failure, input::table_named, output::tell};
 use crate::{
+    printing,
     storage::write_atomic,
     study::reproduction::{Drawn, FIGURES, Figure, Measure, Session, SessionError, csv, picture, summary},
 };
@@ -93,14 +94,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Writes a figure's files and says where its curves ended.
-fn write(args: &Args, drawn: &Drawn) -> io::Result<()> {
+fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
     let curves: Vec<_> = drawn.curves.iter().collect();
     let name = drawn.figure.file_name();
     // Random play earns a reward; it has no Q and no loss.
     let random = (drawn.figure.measure == Measure::MeanReward).then_some(drawn.random);
     write_atomic(&args.out.join(format!("{name}.csv")), csv(drawn).as_bytes())?;
     write_atomic(&args.out.join(format!("{name}.svg")), picture(&drawn.figure, &curves, random).as_bytes())?;
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     for line in summary(drawn) {
         // A reader that has gone away must not end the training.
         let _ = writeln!(out, "{line}");
@@ -109,8 +110,8 @@ fn write(args: &Args, drawn: &Drawn) -> io::Result<()> {
 }
 
 fn progress(shots: u64) -> ProgressBar {
-    if !io::stderr().is_terminal() {
-        eprintln!("training for {shots} shots");
+    if !printing::is_watched() {
+        tell(format_args!("training for {shots} shots"));
         return ProgressBar::hidden();
     }
     let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left";

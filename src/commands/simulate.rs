@@ -2,15 +2,17 @@
 
 use std::io::{self, Write};
 
+use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Failure,
-    input::{ByTable, Scene, answer_lines},
-    output::impulse_words,
+    Failure, bounded,
+    input::{ByTable, Keys, Scene, answer_lines},
+    output::{impulse_words, tell},
 };
 use crate::{
-    physics::CueInputs,
+    physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
+    printing,
     simulation::{Event, Recording},
     study::{Stepped, Steps},
     table::{Layout, Table},
@@ -30,7 +32,7 @@ pub struct Args {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// JSON Lines of shots with `preset`, `layout` and `cue`; "-" reads the standard input.
+    /// JSON Lines of shots with `preset`, `layout` and `cue`, or `impulse` (velocity, spin of the cue ball) in its place; "-" reads the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "shot")]
     batch: Option<String>,
     /// How time goes on: from event to event, or in the fixed steps of thesis 3.1, to see what they miss.
@@ -58,18 +60,113 @@ enum Method {
 struct Question {
     preset: String,
     layout: Layout,
-    cue: CueInputs,
+    cue: Option<CueInputs>,
+    impulse: Option<GivenImpulse>,
+}
+
+impl Keys for Question {
+    const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse"];
+}
+
+/// A motion of the cue ball in the place of a stroke, as a film shows it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GivenImpulse {
+    /// Along x, y and, if a third is given, upwards, m/s.
+    velocity: Vec<f64>,
+    /// About x, y and the vertical, rad/s.
+    spin: [f64; 3],
+}
+
+impl GivenImpulse {
+    fn impulse(&self) -> Result<Impulse, Failure> {
+        match self.velocity[..] {
+            [x, y] => Ok(Impulse { velocity: DVec2::new(x, y), spin: DVec3::from_array(self.spin) }),
+            [x, y, up] if up == 0.0 => Ok(Impulse { velocity: DVec2::new(x, y), spin: DVec3::from_array(self.spin) }),
+            [_, _, up] => Err(Failure::wrong_input(format_args!(
+                "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth"
+            ))),
+            _ => Err(Failure::wrong_input(format_args!(
+                "impulse.velocity has {} numbers; accepted are [x, y] and [x, y, 0]",
+                self.velocity.len()
+            ))),
+        }
+    }
+}
+
+impl Question {
+    fn answer(&self, table: &Table, steps: Option<Steps>) -> Result<Answer, Failure> {
+        match (&self.cue, &self.impulse) {
+            (Some(cue), None) => {
+                Ok(Answer::of(&play(table, &self.layout, cue, steps)?, CueRoom::of(table, &self.layout, cue)))
+            }
+            (None, Some(_)) if steps.is_some() => {
+                Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
+            }
+            (None, Some(given)) => {
+                Ok(Answer::of(&(bounded::play_impulse(table, &self.layout, &given.impulse()?)?, None), None))
+            }
+            _ => Err(Failure::wrong_input("a line needs either cue or impulse")),
+        }
+    }
+}
+
+/// An event, and where a ball was that met a cushion.
+#[derive(Serialize)]
+struct PlacedEvent {
+    #[serde(flatten)]
+    event: Event,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<DVec2>,
 }
 
 /// The answer in JSON.
 #[derive(Serialize)]
 struct Answer {
-    events: Vec<Event>,
+    events: Vec<PlacedEvent>,
     #[serde(rename = "final")]
     end: Layout,
     duration: f64,
+    /// On a table that says how much room the cue needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cue_room: Option<CueRoom>,
     #[serde(flatten)]
     steps: Option<StepsAnswer>,
+}
+
+/// How low the cue can be held.
+#[derive(Debug, Serialize)]
+struct CueRoom {
+    /// Whether it can be held as the stroke has it.
+    has_room: bool,
+    /// The least elevation, degrees; null where there is none that would do.
+    least_theta_deg: Option<f64>,
+    /// What it passes over, or what is in the way.
+    over: Option<String>,
+}
+
+impl CueRoom {
+    fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Self> {
+        table.room?;
+        let (least, over) = match least_elevation(table, layout, cue) {
+            Ok(LeastElevation { theta, over }) => (Some(theta), over),
+            Err(NoRoom { obstacle }) => (None, Some(obstacle)),
+        };
+        Some(Self {
+            has_room: has_room(table, layout, cue),
+            least_theta_deg: least.map(f64::to_degrees),
+            over: over.map(|obstacle| obstacle.to_string()),
+        })
+    }
+
+    /// What a player who wants to play the stroke has to know; nothing where the cue has room.
+    fn note(&self) -> Option<String> {
+        let over = self.over.as_deref().filter(|_| !self.has_room)?;
+        Some(match self.least_theta_deg {
+            Some(least) => format!("the cue cannot be held so low: below {least:.2} degrees {over} is in the way"),
+            None => format!("the cue has no room at any elevation: {over} is in the way"),
+        })
+    }
 }
 
 /// What the fixed-step method has to own up to.
@@ -82,9 +179,17 @@ struct StepsAnswer {
 }
 
 impl Answer {
-    fn of((recording, stepped): &Played) -> Self {
+    fn of((recording, stepped): &Played, cue_room: Option<CueRoom>) -> Self {
         Self {
-            events: recording.events().to_vec(),
+            cue_room,
+            events: recording
+                .events()
+                .iter()
+                .map(|&event| {
+                    let at = event.kind.rail().map(|_| recording.state(event.kind.balls().0, event.time).position);
+                    PlacedEvent { event, at }
+                })
+                .collect(),
             end: recording.final_layout(),
             duration: recording.duration(),
             steps: stepped.map(|Stepped { steps, deepest_overlap, at_rest, .. }| StepsAnswer {
@@ -104,7 +209,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
         return answer_lines(file, |question: Question| {
-            Ok(Answer::of(&play(tables.get(&question.preset)?, &question.layout, &question.cue, steps)?))
+            let table = tables.get(&question.preset)?;
+            question.answer(table, steps)
         });
     }
     let (table, layout) = args.scene.read()?;
@@ -112,16 +218,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
     let played = play(&table, &layout, &cue, steps)?;
     if cue.validate_tip(table.miscue_limit).is_err() {
-        eprintln!(
+        tell(format_args!(
             "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
             cue.tip_offset_squared(),
             table.name,
             table.miscue_limit
-        );
+        ));
     }
-    let mut out = io::stdout().lock();
+    let cue_room = CueRoom::of(&table, &layout, &cue);
+    if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
+        tell(format_args!("note: {note}"));
+    }
+    let mut out = printing::stdout();
     if args.json {
-        serde_json::to_writer(&mut out, &Answer::of(&played)).map_err(io::Error::from)?;
+        printing::json(&mut out, &Answer::of(&played, cue_room))?;
         writeln!(out)?;
     } else {
         describe(&mut out, &played)?;
@@ -144,10 +254,12 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
     match steps {
-        None => Recording::new(table, layout, cue).map(|recording| (recording, None)),
-        Some(steps) => steps.record(table, layout, cue).map(|(recording, stepped)| (recording, Some(stepped))),
+        None => Ok((bounded::play(table, layout, cue)?, None)),
+        Some(steps) => {
+            let (recording, stepped) = bounded::play_in_steps(table, layout, cue, steps)?;
+            Ok((recording, Some(stepped)))
+        }
     }
-    .map_err(Failure::wrong_input)
 }
 
 /// The shot for people to read.

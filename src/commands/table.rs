@@ -1,14 +1,14 @@
 //! `carom table`: the tables that there are, and whether a file describes one.
 
-use std::{
-    io::{self, Write},
-    path::PathBuf,
-};
+use std::{io::Write, path::PathBuf};
 
 use clap::Subcommand;
 
 use super::{Failure, input::table_named};
-use crate::table::{PRESETS, Table};
+use crate::{
+    printing, storage,
+    table::{PRESETS, Table},
+};
 
 /// List and show tables, and check a file that describes one.
 #[derive(Debug, clap::Args)]
@@ -38,7 +38,7 @@ enum Order {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     match args.order.as_ref().unwrap_or(&Order::List) {
         Order::List => {
             for name in PRESETS {
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         Order::Check { file } => {
-            let text = std::fs::read_to_string(file)
+            let text = storage::read_text(file, storage::SMALL)
                 .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
             let table = Table::from_toml(&text)
                 .map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))?;
@@ -83,6 +83,6 @@ fn line(table: &Table) -> String {
 }
 
 fn json(out: &mut impl Write, table: &Table) -> Result<(), Failure> {
-    serde_json::to_writer(&mut *out, table).map_err(io::Error::from)?;
+    printing::json(out, table)?;
     Ok(writeln!(out)?)
 }

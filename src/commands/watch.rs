@@ -29,6 +29,7 @@ use crate::{
         metrics::Record,
         standing::Phase,
     },
+    printing::{self, OneLine},
     terminal,
 };
 
@@ -88,7 +89,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         written?;
         if let Some(update) = update {
             for notice in update.notices.iter().flatten() {
-                tell(format_args!("note: {notice}"));
+                tell(format_args!("note: {}", OneLine(notice)));
             }
             followed.apply(update);
         }
@@ -99,7 +100,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         // A measurement is told by its line.
         if is_settled && condition != Condition::Is(Phase::Measuring) && !condition.is_like(before) {
             before = condition;
-            tell(followed.sentence());
+            tell(OneLine(followed.sentence()));
         }
         if over.is_some() && is_settled {
             break;
@@ -116,9 +117,9 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
 
 /// A line of metrics: all of them as JSON, those with a measurement for people.
 fn print(record: &Record, json: bool) -> io::Result<()> {
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if json {
-        serde_json::to_writer(&mut out, record)?;
+        printing::json(&mut out, record)?;
         return writeln!(out);
     }
     match line(record) {

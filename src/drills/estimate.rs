@@ -150,7 +150,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
                 continue;
             };
             // The exercise's own shot is for its own layout; the coach's says something only where the player saw it.
-            let own = exercise.shot.filter(|_| attempt.layout.is_none());
+            let own = exercise.taught().filter(|_| attempt.layout.is_none());
             let shown = attempt.advised.filter(|_| attempt.helped);
             let layout = attempt.layout.unwrap_or(exercise.layout);
             let Some(cue) = shown.or(own).filter(|_| layout.validate(&table).is_ok()) else {
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn too_little_is_said_to_be_too_little() {
         let mut one = exercise("one");
-        let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 2.0, speed: 0.1 };
+        let away = CueInputs { a: 0.0, b: 0.0, theta: 0.5, phi: 2.0, speed: 0.1 };
         let session = |one: &Exercise, attempts: usize| {
             let mut session = Session::new(Goal::Free, Venue::Table, vec![one.clone()], Skill::EXPERT, 0);
             session.attempts = vec![Attempt::new("one", false); attempts];

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     game::Rule,
     learning::policy::kept::{LONGEST_NAME, is_name},
-    physics::{CueError, CueInputs},
+    physics::{CueError, CueInputs, ImpulseError, has_room},
     simulation::ShotError,
     table::{Layout, LayoutError, Table, TableError},
 };
@@ -154,6 +154,9 @@ pub enum ExerciseError {
     /// Its shot is impossible.
     #[error(transparent)]
     Shot(#[from] CueError),
+    /// The motion that it gives the cue ball is impossible.
+    #[error(transparent)]
+    Motion(#[from] ImpulseError),
 }
 
 impl From<ShotError> for ExerciseError {
@@ -161,6 +164,7 @@ impl From<ShotError> for ExerciseError {
         match error {
             ShotError::Layout(error) => Self::Layout(error),
             ShotError::Cue(error) => Self::Shot(error),
+            ShotError::Impulse(error) => Self::Motion(error),
         }
     }
 }
@@ -191,6 +195,12 @@ impl Exercise {
         let table = Table::preset(&self.table)?;
         self.layout.validate(&table)?;
         Ok(table)
+    }
+
+    /// The shot that it teaches; `None` where it has none, or the cue has no room for it.
+    pub fn taught(&self) -> Option<CueInputs> {
+        let table = self.table().ok()?;
+        self.shot.filter(|shot| has_room(&table, &self.layout, shot))
     }
 
     /// Checks all that others rely on: the name, the words, the table, the layout and the shot.

@@ -13,15 +13,15 @@ pub const SEED: u64 = 2026;
 pub const GRADES: [f64; 4] = [0.995, 0.97, 0.88, 0.65];
 
 impl Par {
-    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player; `None` where it has no shot. The shares
-    /// are rounded to a thousandth.
+    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player; `None` where it has no shot that the cue has
+    /// room for. The shares are rounded to a thousandth.
     ///
     /// # Errors
     /// Where the exercise cannot be played.
     pub fn measure(exercise: &Exercise) -> Result<Option<Self>, ExerciseError> {
         exercise.validate()?;
         let table = exercise.table()?;
-        let Some(shot) = exercise.shot else { return Ok(None) };
+        let Some(shot) = exercise.taught() else { return Ok(None) };
         let share = |skill| {
             let made = make_probability(skill, exercise.rule, &table, &exercise.layout, &shot, ATTEMPTS, SEED);
             (made.rate * 1e3).round() / 1e3

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
     coach::errors,
-    game::{Rule, Tally},
-    physics::{CueError, CueInputs, strike},
+    game::{Point, Rule, Tally},
+    physics::{CueError, CueInputs, NoRoom, strike, with_room},
     simulation::{Event, Observer, simulate},
     table::{Layout, Table},
 };
@@ -27,6 +27,9 @@ pub enum PlayError {
     /// The stroke cannot be played.
     #[error(transparent)]
     Cue(#[from] CueError),
+    /// There is no room for the cue.
+    #[error(transparent)]
+    Room(#[from] NoRoom),
 }
 
 /// What came of a stroke.
@@ -36,6 +39,8 @@ pub struct Played {
     pub stroke: CueInputs,
     /// Whether the tip slipped off the ball: then no ball moves, and there is no point.
     pub miscue: bool,
+    /// What was asked of it.
+    pub point: Point,
     /// What the cue ball did.
     pub tally: Tally,
     /// Whether it made the point.
@@ -51,7 +56,8 @@ impl Played {
         let miscue = stroke.is_miscue(table);
         let end =
             if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
-        Self { stroke, miscue, tally: watcher.0, made: watcher.0.is_point(rule), end }
+        let point = Point::of(rule, table, layout);
+        Self { stroke, miscue, point, tally: watcher.0, made: point.is_made(&watcher.0), end }
     }
 }
 
@@ -75,6 +81,12 @@ pub fn check(table: &Table, cue: &CueInputs) -> Result<(), CueError> {
     cue.validate_tip(table.miscue_limit)
 }
 
+/// The stroke as it is meant once the cue lies over the rails and balls behind it.
+fn raised(table: &Table, layout: &Layout, meant: &CueInputs) -> Result<CueInputs, PlayError> {
+    check(table, meant)?;
+    Ok(with_room(table, layout, meant)?)
+}
+
 impl Session {
     /// Where the balls lie for the next attempt and on which table; `None` when it is over.
     ///
@@ -87,7 +99,8 @@ impl Session {
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);
                 // The simulator repeats itself to the last bit.
-                last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end)
+                let end = last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end);
+                if self.is_match() && !last.made { end.for_the_opponent() } else { end }
             }
             _ if self.shifted => shifted(&exercise.layout, &table, self.seed, self.attempts.len() as u32),
             _ => exercise.layout,
@@ -95,13 +108,14 @@ impl Session {
         Ok(Some((table, layout)))
     }
 
-    /// Plays the next attempt: what the player means, with the player's errors. The same session plays the same.
+    /// Plays the next attempt: what the player means, with the player's errors. The same session plays the same. A cue that is
+    /// meant lower than a rail or a ball behind it lets it be is raised, as it would be at a real table.
     ///
     /// # Errors
-    /// Where the session is over or the stroke is impossible; nothing is then noted.
+    /// Where the session is over, the stroke is impossible or the cue has no room for it; nothing is then noted.
     pub fn play(&mut self, meant: CueInputs, helped: bool) -> Result<Played, PlayError> {
         let (table, layout) = self.position()?.ok_or(PlayError::Over)?;
-        check(&table, &meant)?;
+        let meant = raised(&table, &layout, &meant)?;
         let exercise = self.exercise().ok_or(PlayError::Over)?;
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
@@ -152,5 +166,26 @@ impl Attempt {
             advised: None,
             advised_chance: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::Room;
+    use glam::DVec2;
+
+    #[test]
+    fn a_rail_raises_the_cue_that_is_meant_level_and_a_cue_without_room_is_refused() {
+        let table = Table { room: Some(Room::default()), ..Table::default() };
+        let layout = Layout::new([DVec2::new(0.0, -table.half_width()), DVec2::new(-0.5, 0.3), DVec2::new(0.6, 0.1)]);
+        let meant = |b| CueInputs { a: 0.0, b, theta: 0.0, phi: std::f64::consts::FRAC_PI_2, speed: 2.0 };
+        let raised = |table: &Table, b| super::raised(table, &layout, &meant(b));
+        let up = raised(&table, 0.395).unwrap();
+        assert!(up.theta > 0.1_f64.to_radians() && CueInputs { theta: 0.0, ..up } == meant(0.395), "{up:?}");
+        let said = raised(&table, 0.1).unwrap_err().to_string();
+        assert!(said.contains("no room") && said.contains("the bottom rail"), "{said}");
+        assert_eq!(raised(&Table { room: None, ..table.clone() }, 0.1).unwrap(), meant(0.1));
+        assert!(matches!(raised(&table, 0.9), Err(PlayError::Cue(_))));
     }
 }

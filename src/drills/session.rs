@@ -5,7 +5,12 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use serde::{Deserialize, Serialize};
 
 use super::{Exercise, Record};
-use crate::{coach::Skill, learning::moment, physics::CueInputs, table::Layout};
+use crate::{
+    coach::Skill,
+    learning::moment,
+    physics::CueInputs,
+    table::{CueBall, Layout},
+};
 
 /// When a session is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,6 +25,12 @@ pub enum Goal {
     /// After so many innings, 0 for no end; each stroke is played from where the one before left the balls.
     Game {
         /// Innings, each of which ends with a miss.
+        innings: u32,
+    },
+    /// A game of two, white and yellow, who take turns: a miss ends an inning, and the other goes on from where the balls lie
+    /// with the other ball. After so many innings of each, 0 for no end.
+    Match {
+        /// Innings of each side.
         innings: u32,
     },
 }
@@ -93,6 +104,9 @@ pub struct Session {
     /// Whether nobody knows in which order makes and misses came: then they tell nothing of runs and innings.
     #[serde(default, skip_serializing_if = "is_false")]
     pub unordered: bool,
+    /// The ball that is the cue ball at first.
+    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    pub cue_ball: CueBall,
     /// Seed of the errors and of the shifts.
     pub seed: u64,
     /// One exercise, or those of an exam. That of a game says its rule, its table and where the balls lie at first.
@@ -118,6 +132,7 @@ impl Session {
             skill,
             shifted: false,
             unordered: false,
+            cue_ball: CueBall::White,
             seed,
             exercises,
             attempts: Vec::new(),
@@ -131,6 +146,7 @@ impl Session {
             Goal::Run(points) => self.record().high_run >= points,
             Goal::Exam => self.attempts.len() >= self.exercises.len(),
             Goal::Game { innings } => innings > 0 && self.misses() >= innings as usize,
+            Goal::Match { innings } => innings > 0 && self.misses() >= 2 * innings as usize,
         }
     }
 
@@ -142,7 +158,30 @@ impl Session {
 
     /// Whether it is a game: then its attempts are no repetitions of an exercise.
     pub const fn is_game(&self) -> bool {
-        matches!(self.goal, Goal::Game { .. })
+        matches!(self.goal, Goal::Game { .. } | Goal::Match { .. })
+    }
+
+    /// Whether two sides take turns.
+    pub const fn is_match(&self) -> bool {
+        matches!(self.goal, Goal::Match { .. })
+    }
+
+    /// The cue ball of attempt `number`, or where that is still to be made, of the next: in a match it changes with each miss.
+    pub fn cue_ball_of(&self, number: usize) -> CueBall {
+        let misses = self.attempts.iter().take(number).filter(|attempt| !attempt.made).count();
+        if self.is_match() && misses % 2 == 1 { self.cue_ball.other() } else { self.cue_ball }
+    }
+
+    /// The cue ball of the next attempt.
+    pub fn cue_ball_now(&self) -> CueBall {
+        self.cue_ball_of(self.attempts.len())
+    }
+
+    /// The score of one side of a match.
+    pub fn side(&self, cue_ball: CueBall) -> Record {
+        let numbers = (0..self.attempts.len()).filter(|number| self.cue_ball_of(*number) == cue_ball);
+        let attempts = numbers.map(|number| self.attempts[number].clone()).collect();
+        Record::of_session(&Self { attempts, ..self.clone() })
     }
 
     /// The exercise of an attempt, as it was in this session.
@@ -213,6 +252,42 @@ pub mod tests {
         let game = Goal::Game { innings: 2 };
         assert!(!session(game, "xxx-x").is_over() && session(game, "xxx-x-").is_over());
         assert!(!session(Goal::Game { innings: 0 }, "-----").is_over());
+    }
+
+    #[test]
+    fn in_a_match_the_cue_ball_changes_with_each_miss_and_each_side_has_its_own_score() {
+        // White makes two and misses, yellow misses, white makes one and misses, yellow makes two.
+        let results = "xx--x-xx";
+        let mut played = session(Goal::Match { innings: 3 }, results);
+        let balls: String = (0..8).map(|number| &played.cue_ball_of(number).name()[..1]).collect();
+        assert_eq!(balls, "wwwywwyy");
+        assert_eq!((played.cue_ball_now(), played.is_over()), (CueBall::Yellow, false));
+        let [white, yellow] = [CueBall::White, CueBall::Yellow].map(|ball| played.side(ball));
+        assert_eq!((white.made, white.innings, white.high_run), (3, 2, 2));
+        assert_eq!((yellow.made, yellow.innings, yellow.high_run), (2, 2, 2));
+        // Who begins with yellow has the other colours throughout.
+        played.cue_ball = CueBall::Yellow;
+        assert_eq!((played.cue_ball_of(0), played.side(CueBall::Yellow)), (CueBall::Yellow, white));
+        assert!(
+            session(Goal::Match { innings: 1 }, "x--").is_over()
+                && !session(Goal::Match { innings: 1 }, "x-").is_over()
+        );
+        // Alone one keeps one's ball.
+        let alone = session(Goal::Game { innings: 3 }, "--x");
+        assert_eq!(alone.cue_ball_now(), CueBall::White);
+    }
+
+    #[test]
+    fn a_match_goes_on_from_where_the_balls_lie_with_the_other_one_as_the_cue_ball() {
+        let mut session = Session::new(Goal::Match { innings: 5 }, Venue::Program, vec![exercise("x")], Skill::CLUB, 3);
+        let miss = CueInputs { a: 0.0, b: 0.2, theta: 0.05, phi: 2.5, speed: 0.4 };
+        let (table, before) = session.position().unwrap().unwrap();
+        let played = session.play(miss, false).unwrap();
+        assert!(!played.made);
+        let (_, after) = session.position().unwrap().unwrap();
+        assert_eq!(after, played.end.for_the_opponent());
+        assert_eq!((before.balls[1], before.balls[2]), (after.balls[0], after.balls[2]), "nobody has touched them");
+        after.validate(&table).unwrap();
     }
 
     #[test]

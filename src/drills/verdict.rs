@@ -2,9 +2,9 @@
 
 use super::{Played, difference};
 use crate::{
-    game::{Rule, Tally},
+    game::{Point, Rule, Tally},
     physics::CueInputs,
-    table::{BALL_NAMES, Table},
+    table::{CueBall, Table},
 };
 
 /// Differences that nobody can see or do: degrees of aim, mm of the tip, degrees of the cue, m/s.
@@ -20,18 +20,20 @@ fn cushions(count: u32) -> String {
     }
 }
 
-/// Whether a shot made the point, and what was missing if it did not.
-pub fn verdict(rule: Rule, tally: &Tally) -> String {
+/// Whether a shot made the point, and what was missing if it did not, for who plays with `cue_ball`.
+pub fn verdict(point: Point, tally: &Tally, cue_ball: CueBall) -> String {
+    let (rule, names) = (point.rule, cue_ball.names());
     let missing = match tally.met {
         [false, false] => "no ball was met".to_owned(),
         [met, _] if !tally.met_both() => {
-            let [met, missed] = if met { [1, 2] } else { [2, 1] }.map(|ball| BALL_NAMES[ball]);
+            let [met, missed] = if met { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
             format!("{met} was met, {missed} was not")
         }
         _ if !tally.is_point(rule) => {
             let [made, wanted] = [tally.cushions_before_second, rule.cushions()];
             format!("{} before the second ball, {wanted} needed", cushions(made))
         }
+        _ if !point.is_made(tally) => format!("{} was met first, a game opens with {}", names[1], names[2]),
         _ if rule == Rule::StraightRail => return "made".to_owned(),
         _ => return format!("made, after {}", cushions(tally.cushions_before_second)),
     };
@@ -39,9 +41,12 @@ pub fn verdict(rule: Rule, tally: &Tally) -> String {
 }
 
 impl Played {
-    /// Whether it made the point, and what was missing if it did not.
-    pub fn verdict(&self, rule: Rule) -> String {
-        if self.miscue { "missed: the tip slipped off the ball".to_owned() } else { verdict(rule, &self.tally) }
+    /// Whether it made the point, and what was missing if it did not, for who plays with `cue_ball`.
+    pub fn verdict(&self, cue_ball: CueBall) -> String {
+        if self.miscue {
+            return "missed: the tip slipped off the ball".to_owned();
+        }
+        verdict(self.point, &self.tally, cue_ball)
     }
 }
 
@@ -76,9 +81,9 @@ mod tests {
 
     #[test]
     fn a_miss_says_what_was_missing() {
-        let said = |met, cushions_before_second, rule| {
-            let tally = Tally { met, cushions: 4, cushions_before_first: 0, cushions_before_second };
-            verdict(rule, &tally)
+        let said = |met, cushions_before_second, rule: Rule| {
+            let tally = Tally { met, cushions: 4, cushions_before_second, ..Tally::default() };
+            verdict(rule.into(), &tally, CueBall::White)
         };
         assert_eq!(said([false, false], 0, Rule::StraightRail), "missed: no ball was met");
         assert_eq!(said([false, true], 0, Rule::ThreeCushion), "missed: red was met, yellow was not");
@@ -86,6 +91,13 @@ mod tests {
         assert_eq!(short, "missed: 2 cushions before the second ball, 3 needed");
         assert_eq!(said([true, true], 2, Rule::StraightRail), "made");
         assert_eq!(said([true, true], 1, Rule::OneCushion), "made, after 1 cushion");
+        let opening = Point { rule: Rule::ThreeCushion, red_first: true };
+        let off_red = Tally { met: [true; 2], red_first: true, cushions_before_second: 3, ..Tally::default() };
+        assert_eq!(verdict(opening, &off_red, CueBall::White), "made, after 3 cushions");
+        let wrong = verdict(opening, &Tally { red_first: false, ..off_red }, CueBall::White);
+        assert_eq!(wrong, "missed: yellow was met first, a game opens with red");
+        let one = Tally { met: [true, false], ..Tally::default() };
+        assert_eq!(verdict(opening, &one, CueBall::Yellow), "missed: white was met, red was not");
     }
 
     #[test]

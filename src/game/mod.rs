@@ -1,7 +1,9 @@
 //! What counts: the rules of carom, the difficulty of a shot, and the thesis' rewards.
 
+mod point;
 mod reward;
 mod rules;
 
+pub use point::Point;
 pub use reward::{Reward, UnknownReward};
 pub use rules::{Referee, Rule, Tally, UnknownRule, scores};

@@ -4,6 +4,7 @@ use std::{fmt, ops::ControlFlow, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
+use super::Point;
 use crate::{
     physics::{CueInputs, strike},
     simulation::{Event, EventKind, Observer, watch},
@@ -72,6 +73,8 @@ impl FromStr for Rule {
 pub struct Tally {
     /// Whether it has met each object ball (balls 1 and 2).
     pub met: [bool; 2],
+    /// Whether ball 2, the red one, was the first that it met.
+    pub red_first: bool,
     /// Cushions that it has hit.
     pub cushions: u32,
     /// Cushions that it had hit when it met its first object ball.
@@ -86,6 +89,9 @@ impl Tally {
         match event.kind {
             EventKind::BallRail(0, _) => self.cushions += 1,
             EventKind::BallBall(0, ball) if !self.met[ball - 1] => {
+                if !self.met_any() {
+                    self.red_first = ball == 2;
+                }
                 self.met[ball - 1] = true;
                 if self.met_both() {
                     self.cushions_before_second = self.cushions;
@@ -107,7 +113,8 @@ impl Tally {
         self.met[0] & self.met[1]
     }
 
-    /// Whether this is a point; it can still become one until both object balls are met.
+    /// Whether this is a point by the rule, whichever ball came first; it can still become one until both object balls are met.
+    /// [`super::Point`] knows what else an opening asks for.
     pub fn is_point(&self, rule: Rule) -> bool {
         self.met_both() && self.cushions_before_second >= rule.cushions()
     }
@@ -133,7 +140,7 @@ impl Observer for Referee {
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let mut referee = Referee::default();
     watch(table, layout, &strike(table, cue), &mut referee);
-    referee.tally.is_point(rule)
+    Point::of(rule, table, layout).is_made(&referee.tally)
 }
 
 #[cfg(test)]

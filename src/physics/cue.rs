@@ -8,6 +8,12 @@ use crate::table::Table;
 /// Fastest cue that is accepted, m/s. The fastest human break shots stay below 20 m/s.
 const MAX_SPEED: f64 = 100.0;
 
+/// Fastest ball that is accepted, m/s: a light ball leaves the fastest cue at twice that cue's speed.
+const MAX_BALL_SPEED: f64 = 2.0 * MAX_SPEED;
+
+/// Fastest spin that is accepted, rad/s: about what a tip at the edge of a 30 mm ball gives it at that speed.
+const MAX_SPIN: f64 = 20_000.0;
+
 /// The five inputs of a stroke (thesis Figures 4 and 5).
 ///
 /// In JSON the angles are in degrees and called `theta_deg` and `phi_deg`.
@@ -79,6 +85,29 @@ pub enum CueError {
     Text(String),
 }
 
+/// Why a motion of the cue ball is refused.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum ImpulseError {
+    /// The velocity is not a number, or too large.
+    #[error("velocity = [{x}, {y}] m/s is not accepted; accepted are finite numbers and at most {MAX_BALL_SPEED} m/s")]
+    Velocity {
+        /// Its part along x, m/s.
+        x: f64,
+        /// Its part along y, m/s.
+        y: f64,
+    },
+    /// The spin is not a number, or too large.
+    #[error("spin = [{x}, {y}, {z}] rad/s is not accepted; accepted are finite numbers and at most {MAX_SPIN} rad/s")]
+    Spin {
+        /// Its part about x, rad/s.
+        x: f64,
+        /// Its part about y, rad/s.
+        y: f64,
+        /// Its part about the vertical, rad/s.
+        z: f64,
+    },
+}
+
 impl CueInputs {
     /// Checks that the tip meets the ball (thesis equation 46) and that every input is in its range.
     ///
@@ -139,6 +168,24 @@ pub struct Impulse {
     pub spin: DVec3,
 }
 
+impl Impulse {
+    /// Checks that both are numbers and not out of all proportion. A ball at rest is accepted: it stays where it lies.
+    ///
+    /// # Errors
+    /// The first problem found.
+    pub fn validate(&self) -> Result<(), ImpulseError> {
+        let Self { velocity, spin } = *self;
+        // Written so that NaN is refused.
+        if !(velocity.length() <= MAX_BALL_SPEED) {
+            return Err(ImpulseError::Velocity { x: velocity.x, y: velocity.y });
+        }
+        if !(spin.length() <= MAX_SPIN) {
+            return Err(ImpulseError::Spin { x: spin.x, y: spin.y, z: spin.z });
+        }
+        Ok(())
+    }
+}
+
 /// Angle by which the cue ball leaves the cue's direction when it is struck at side `a`, rad, counter-clockwise: a tip on
 /// the left sends it off to the right. Zero on a table whose cue has no end mass.
 ///
@@ -174,6 +221,22 @@ pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     }
 }
 
+/// The stroke with a level cue that gives the cue ball this motion, the inverse of [`strike`]; `None` where none does: the
+/// ball does not move, or the tip would have to meet it beside its outline. Spin about the ball's way, which a level cue
+/// does not give, is left out.
+pub fn level_stroke(table: &Table, impulse: &Impulse) -> Option<CueInputs> {
+    let Impulse { velocity, spin } = *impulse;
+    let speed = velocity.length();
+    let ahead = velocity.try_normalize()?;
+    // (15) and (16) at theta = 0: w R is 5/2 of the speed and the tip's place.
+    let tip = table.radius / (2.5 * speed);
+    let (a, b) = (-tip * spin.z, tip * spin.truncate().dot(ahead.perp()));
+    let offset = a * a + b * b;
+    let cue_speed = 0.5 * speed * (1.0 + table.ball_mass / table.cue_mass + 2.5 * offset);
+    let phi = velocity.to_angle() - squirt(table, a);
+    (offset <= 1.0).then_some(CueInputs { a, b, theta: 0.0, phi, speed: cue_speed })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -197,6 +260,35 @@ mod tests {
         assert!(cue("0,0,0,inf,1").contains("phi"));
         assert!(cue("0,0,0,0,0").contains("V = 0"));
         assert!(CueInputs::parse("1,2,3").unwrap_err().to_string().contains("1,2,3"));
+    }
+
+    #[test]
+    fn a_level_stroke_is_found_again_from_the_motion_that_it_gives() {
+        for table in [Table::default(), Table::preset("thesis").unwrap()] {
+            for stroke in ["0,0,0,0,1", "0.3,-0.2,0,140,3", "-0.4,0.4,0,-80,0.2"] {
+                let cue = CueInputs::parse(stroke).unwrap();
+                let found = level_stroke(&table, &strike(&table, &cue)).unwrap();
+                let [wanted, found] = [cue, found].map(|cue| [cue.a, cue.b, cue.theta, cue.phi, cue.speed]);
+                assert!(wanted.iter().zip(found).all(|(one, other)| (one - other).abs() < 1e-12), "{found:?}");
+            }
+        }
+        let motion = |speed: f64, side| Impulse { velocity: DVec2::X * speed, spin: DVec3::Z * side };
+        assert_eq!(level_stroke(&Table::default(), &motion(0.0, 10.0)), None);
+        assert_eq!(level_stroke(&Table::default(), &motion(0.1, 10.0)), None, "a = -1.2");
+    }
+
+    #[test]
+    fn a_motion_that_no_ball_has_is_refused_with_its_numbers() {
+        let impulse = |velocity, spin| Impulse { velocity, spin };
+        let still = impulse(DVec2::ZERO, DVec3::ZERO);
+        assert_eq!(still.validate(), Ok(()));
+        let refused = |impulse: Impulse| impulse.validate().unwrap_err().to_string();
+        assert!(refused(Impulse { velocity: DVec2::new(f64::NAN, 1.0), ..still }).contains("velocity = [NaN, 1]"));
+        assert!(refused(Impulse { velocity: DVec2::new(0.0, 200.1), ..still }).contains("at most 200 m/s"));
+        assert!(refused(Impulse { spin: DVec3::new(0.0, f64::INFINITY, 0.0), ..still }).contains("spin = [0, inf, 0]"));
+        // What the fastest stroke gives is accepted: side at the edge of the ball.
+        let hardest = CueInputs { a: 1.0, b: 0.0, theta: 0.0, phi: 0.0, speed: MAX_SPEED };
+        assert_eq!(strike(&Table::default(), &hardest).validate(), Ok(()));
     }
 
     #[test]

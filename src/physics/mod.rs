@@ -2,6 +2,7 @@
 
 mod contact;
 mod cue;
+mod cue_room;
 mod impact;
 mod motion;
 mod rolling;
@@ -10,8 +11,11 @@ mod slope;
 pub use contact::{
     ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
 };
-pub use cue::{CueError, CueInputs, Impulse, squirt, strike};
-pub use impact::{BallImpact, Cushion, ImpactLaw, collide_balls, collide_rail, collide_together};
+pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
+#[cfg(test)]
+pub use cue_room::tests::collides;
+pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
+pub use impact::{BallImpact, Cushion, Cushions, ImpactLaw, collide_balls, collide_rail, collide_together};
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };

@@ -52,8 +52,10 @@ impl Rolling {
 
     /// A length that no roll which begins with `speed` exceeds, m.
     pub fn longest(&self, speed: f64) -> f64 {
-        // The exact length is 2 (x - ln(1 + x)) / x² of the first factor, x = c1 v / c0, which stays below the second.
-        0.5 * speed * speed / (self.least + 0.6 * self.growth * speed) * (1.0 + 2e-3)
+        // The exact length is 2 (x - ln(1 + x)) / x² of the first factor, x = c1 v / c0, and ln(1 + x) exceeds its Padé
+        // approximant 3x (2 + x) / (6 + 6x + x²). Bands are right to a thousandth.
+        let x = self.growth * speed / self.least;
+        0.5 * speed * speed / self.least * (6.0 + 2.0 * x) / (6.0 + x * (6.0 + x)) * (1.0 + 2e-3)
     }
 
     /// Whether a roll that begins with `speed` comes to rest in its first band.

@@ -42,7 +42,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// Plays on as long as ball `index` moves alone, from the event at `now` on; `now` becomes the time of the last event.
     pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
         let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
-        let constants = &self.constants.clone();
+        let constants = &{ self.constants };
         let mut course = Course::of(&self.balls[index]);
         loop {
             let Course { segment, lasts, rail_after, rail } = &course;
@@ -52,7 +52,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 let n = rail.normal();
                 let mut state = segment.state_after(constants, *rail_after);
                 state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
-                constants.cushion(*rail).resolve(constants.radius, n, &mut state);
+                self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
                 // What might be part of a chatter.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce {
                     break;
@@ -60,7 +60,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 (after, lasts_after) = Segment::free(constants, next, &state);
                 kind = Some(EventKind::BallRail(index, *rail));
             } else {
-                if segment.motion == Motion::Rolling && segment.rolls_to_rest(constants, *lasts) {
+                if segment.motion == Motion::Rolling
+                    && (segment.rolls_to_rest(constants)
+                        || (S::LAST_ROLLS && !O::ENDS && self.rolls_out(index, segment)))
+                {
                     break;
                 }
                 (after, lasts_after) = segment.successor(constants, *lasts);

@@ -13,15 +13,16 @@ use super::{
     contacts::{PAIRS, nearly_touching},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, resolve, slip},
-    table::{BALLS, Rail, Table},
+    physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
+    table::{BALLS, Table},
 };
 
 /// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.
 const MADE_BY_BOUNCES: f64 = 4.0;
 
-/// The bounces of one contact shake others, and the slip of the balls, by this many times their speed at most.
-const SHAKEN: f64 = 10.0;
+/// The bounces of one contact move others that are coupled to it, and the slips of the balls, by this many times their
+/// speed at most.
+const COUPLING: f64 = 10.0;
 
 /// Slow bounces of one contact that are told one by one; those that follow belong to its chatter.
 const TOLD: u32 = 8;
@@ -91,11 +92,11 @@ impl Chatters {
     }
 }
 
-/// A contact that bounces with some speed, and all others that its bounces shake.
-fn shaken(constants: &Constants, balls: &[BallState; BALLS], contact: &Contact, speed: f64) -> Contacts {
-    let slow = SHAKEN * speed.abs();
+/// A contact that bounces with some speed, and all others that its bounces are coupled to.
+fn coupled(constants: &Constants, balls: &[BallState; BALLS], contact: &Contact, speed: f64) -> Contacts {
+    let slow = COUPLING * speed.abs();
     let high =
-        (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.given_up);
+        (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.coupled_gap);
     let mut contacts = nearly_touching(constants, balls, high, |opening| opening.abs() <= slow);
     // It has met, whatever rounding says of its gap.
     contacts.retain(|_, other| other != contact);
@@ -109,6 +110,7 @@ fn shaken(constants: &Constants, balls: &[BallState; BALLS], contact: &Contact, 
 pub fn settles(
     table: &Table,
     constants: &Constants,
+    law: &ImpactLaw,
     contact: &Contact,
     balls: &[BallState; BALLS],
     shrinking: f64,
@@ -120,13 +122,13 @@ pub fn settles(
         alone.push(*contact);
         return Some(alone);
     }
-    // What the bounces shake loose holds on average, and slips that they make are none.
-    let mut contacts = shaken(constants, balls, contact, speed);
+    // What the bounces open holds on average, and slips that they make are none.
+    let mut contacts = coupled(constants, balls, contact, speed);
     contacts.retain(|_, other| other.shares_a_ball(contact));
     let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
     let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
     let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
-    let index = resolved.contacts.as_slice().iter().position(|pushing| pushing == contact)?;
+    let index = resolved.contacts.as_slice().iter().position(|pressing| pressing == contact)?;
     let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
     let pull = bodies * resolved.forces.normal[index];
     // The friction that turns soonest: that of the ball whose slip ends first.
@@ -145,19 +147,15 @@ pub fn settles(
     }
     // A slip that the bounces make turns with each of them: what they do is of their own size.
     let alone = contacts.as_slice().len() == 1;
-    if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slow_crowd } {
+    if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
-    let restitution = if contact.second.is_some() {
-        constants.balls.restitution
-    } else {
-        constants.cushion(Rail::with_normal(contact.cushion_normal)).restitution
-    };
+    let restitution = law.restitution(contact);
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let chatter = 2.0 * speed / (pull * (1.0 - restitution));
     let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
-    // Contacts that shake each other need not bounce ever more softly: all that is known is how softly they do.
-    let negligible = if alone { tolerance.negligible } else { tolerance.negligible_crowd };
+    // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
+    let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
     (chatter <= slide && 0.5 * moment <= negligible * slide * slide).then_some(resolved.contacts)
 }
 

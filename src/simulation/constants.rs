@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::tolerance::Tolerance;
 use crate::{
-    physics::{BallImpact, Cushion, Rolling, rolling_deceleration, sliding_deceleration, spin_deceleration},
-    table::{Rail, Table},
+    physics::{Rolling, rolling_deceleration, sliding_deceleration, spin_deceleration},
+    table::Table,
 };
 
 /// A table's numbers in the form in which the engine uses them; divisions are done here, once a shot.
@@ -27,14 +27,12 @@ pub struct Constants {
     pub rolling: Rolling,
     /// Time that a ball needs to lose each m/s of its speed where that is constant (thesis equation 26), s²/m.
     pub roll_time: f64,
+    /// Whether the table is level and a rolling ball slows down evenly, as in the thesis.
+    pub even: bool,
     /// Acceleration of a table that is not level, m/s².
     pub tilt: DVec2,
     /// `5 mu_sp g / 2R`, rad/s².
     pub spinning: f64,
-    /// The law of two balls' impacts.
-    pub balls: BallImpact,
-    /// The four cushions, in the order of [`Rail::ALL`].
-    pub cushions: [Cushion; 4],
     /// What counts as nothing.
     pub tolerance: Tolerance,
 }
@@ -52,17 +50,10 @@ impl Constants {
             slide_time: 1.0 / (3.5 * sliding),
             rolling: Rolling { least: rolling, growth: table.rolling_growth },
             roll_time: 1.0 / rolling,
+            even: table.tilt == DVec2::ZERO && table.rolling_growth == 0.0,
             tilt: table.tilt,
             spinning: spin_deceleration(table),
-            balls: BallImpact::of(table),
-            cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)),
             tolerance: Tolerance::of(table),
         }
-    }
-
-    /// The cushion of a rail.
-    #[inline(always)]
-    pub fn cushion(&self, rail: Rail) -> &Cushion {
-        &self.cushions[rail as usize]
     }
 }

@@ -16,7 +16,7 @@ use crate::physics::Motion;
 #[inline(always)]
 pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     // On a slope a roll bends.
-    if segment.motion == Motion::Rolling && constants.tilt == DVec2::ZERO {
+    if segment.motion == Motion::Rolling && (constants.even || constants.tilt == DVec2::ZERO) {
         return cushion_ahead_of_rolling::<S>(constants, segment, horizon);
     }
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
@@ -69,7 +69,7 @@ fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment
     let straight = lesser(to_y, to_x);
     let rail = rail_of(v.x > 0.0, v.y > 0.0, to_y < to_x);
     // `straight = t - t² / 2 stop`, since the speed would be used up then: at the horizon, unless the band ends first.
-    let banded = constants.rolling.growth != 0.0;
+    let banded = !constants.even;
     let stop = if banded { -0.5 * v.length_squared() / v.dot(segment.half_acceleration) } else { horizon };
     let share = 1.0 - 2.0 * straight / stop;
     let time = 2.0 * straight / (1.0 + share.sqrt());

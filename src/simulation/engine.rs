@@ -8,17 +8,19 @@ use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     chatter::Chatters,
     contact_mode::ContactMode,
+    foresight::PAIRS_OF,
+    meetings::Triangle,
     resting::Resting,
     savings::{All, Savings},
 };
 use crate::{
-    physics::{BallState, Impulse, Motion},
+    physics::{BallState, ImpactLaw, Impulse, Motion},
     table::{BALLS, Layout, Table},
 };
 
 /// Steps of contacts and bounces of chatters after which a shot is brought to its end. This is a guard, not physics: what
 /// takes part in another contact stands still from then on. The stability table counts the shots that come to it.
-const MOST_STEPS: u32 = 1500;
+pub(super) const MOST_STEPS: u32 = 1500;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +100,7 @@ impl Meeting {
 pub(super) struct Engine<'a, S, O> {
     pub(super) table: &'a Table,
     pub(super) constants: Constants,
+    pub(super) law: ImpactLaw,
     pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
     pub(super) pairs: [Meeting; 3],
@@ -123,6 +126,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         Self {
             table,
             constants: Constants::of(table),
+            law: ImpactLaw::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),
             pairs: [Meeting::unseen(0.0, false); 3],
@@ -175,8 +179,28 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         source < BALLS
             && self.balls[source].segment.motion == Motion::Rolling
             && self.balls[source].rail_after == f64::INFINITY
-            && self.balls[source].segment.rolls_to_rest(&self.constants, self.balls[source].lasts)
+            && (self.balls[source].segment.rolls_to_rest(&self.constants)
+                || self.rolls_out(source, &self.balls[source].segment))
             && (0..self.times.len()).all(|other| other == source || self.times[other] == f64::INFINITY)
+    }
+
+    /// Whether a ball that rolls on through the bands of its deceleration surely meets nothing on its way: all others lie
+    /// still, off its line.
+    #[inline(never)]
+    pub(super) fn rolls_out(&self, index: usize, segment: &Segment) -> bool {
+        if self.constants.tilt != DVec2::ZERO {
+            return false;
+        }
+        let speed = segment.velocity.length();
+        let way = segment.velocity * (self.constants.rolling.longest(speed) / speed);
+        let end = segment.position + way;
+        let line = Triangle::new(segment.position, way, DVec2::ZERO, 1.0);
+        let apart = self.constants.diameter + self.constants.tolerance.surely_apart;
+        end.abs().cmplt(self.constants.reach).all()
+            && PAIRS_OF[index].iter().all(|&(_, other)| {
+                let other = &self.balls[other].segment;
+                other.motion == Motion::Stationary && line.clears(other.position, apart)
+            })
     }
 
     /// The end of sliding or rolling.

@@ -25,9 +25,17 @@ pub struct Step {
     pub end: Phase,
     /// Estimated error: the largest of metres, m/s and R times rad/s.
     pub error: f64,
-    /// Rounds of extrapolation that were needed; few of them mean that a longer step would do.
-    pub rounds: usize,
+    /// Length of the step that would get on fastest, if the solution stays as smooth as it is.
+    pub best_length: f64,
 }
+
+/// Slopes that have to be worked out in all rounds up to each.
+const WORK: [f64; ROUNDS] = [2.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0];
+
+/// The error of a step of the proposed length, as a share of the tolerance, and how much longer than the last it can be.
+const CAUTION: f64 = 0.25;
+const MOST_GROWTH: f64 = 4.0;
+const LEAST_GROWTH: f64 = 0.1;
 
 /// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`; all of
 /// them if none does. Only the `members` move.
@@ -43,7 +51,8 @@ pub fn extrapolate(
     let plus = |base: &Phase, slope: &Phase, factor: f64| plus(base, slope, factor, members);
     // The last row of the Aitken-Neville table.
     let mut row: [Phase; ROUNDS] = [*begin; ROUNDS];
-    let mut best = Step { end: *begin, error: f64::INFINITY, rounds: ROUNDS };
+    let mut best = Step { end: *begin, error: f64::INFINITY, best_length: LEAST_GROWTH * length };
+    let mut least_work = f64::INFINITY;
     for round in 0..ROUNDS {
         let count = 2 * (round + 1);
         let h = length / count as f64;
@@ -63,10 +72,22 @@ pub fn extrapolate(
             row[column - 1] = newer;
             newer = plus(&newer, &plus(&newer, &older, -1.0), weight);
         }
-        let error = if round == 0 { f64::INFINITY } else { distance(&newer, &row[round - 1], members, radius) };
+        if round > 0 {
+            // An error of this round falls with the power 2 round + 1 of the length.
+            best.error = distance(&newer, &row[round - 1], members, radius);
+            let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
+            let growth = room.powf(1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
+            let work = WORK[round] / growth;
+            if work < least_work {
+                // Where another round would have paid, too, it is tried next time.
+                let more =
+                    if work < 0.9 * least_work && round + 1 < ROUNDS { WORK[round + 1] / WORK[round] } else { 1.0 };
+                (least_work, best.best_length) = (work, (growth * more).min(MOST_GROWTH) * length);
+            }
+        }
         row[round] = newer;
-        best = Step { end: newer, error, rounds: round + 1 };
-        if error <= tolerance {
+        best.end = newer;
+        if best.error <= tolerance {
             break;
         }
     }
@@ -114,6 +135,6 @@ mod tests {
         let step = extrapolate(&begin, &slope(&begin), slope, [false, true, true], 0.5, 1.0, 1e-14);
         assert!((step.end.balls[1].position.x - 0.5_f64.cos()).abs() < 1e-14, "{step:?}");
         assert!((step.end.balls[2].velocity.x + 0.5_f64.sin()).abs() < 1e-14);
-        assert!(step.rounds < ROUNDS && (step.end.time - 0.5).abs() < 1e-15);
+        assert!(step.error <= 1e-14 && step.best_length > 0.1 && (step.end.time - 0.5).abs() < 1e-15);
     }
 }

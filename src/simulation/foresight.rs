@@ -103,6 +103,14 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
+    /// Predicts what balls will meet that go on pressing each other as before.
+    pub(super) fn look_ahead_of_pressed(&mut self, now: f64, members: [bool; BALLS]) {
+        if !S::KEPT_PREDICTIONS {
+            self.predict_all_again(members);
+        }
+        self.predict_pairs(now, members, false);
+    }
+
     fn predict_pairs(&mut self, now: f64, changed: [bool; BALLS], may_rest: bool) {
         for (index, &(first, second)) in PAIRS.iter().enumerate() {
             if changed[first] || changed[second] {

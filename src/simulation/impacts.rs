@@ -11,7 +11,7 @@ use super::{
     savings::Savings,
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, MAX_CONTACTS, collide_together, stop_by_impulses},
+    physics::{ActiveSet, BallState, Contact, Contacts, MAX_CONTACTS, collide_together, stop_by_impulses},
     table::BALLS,
 };
 
@@ -40,7 +40,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
         let c = &self.constants;
         let before = state;
-        c.cushion(rail).resolve(c.radius, n, &mut state);
+        self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
         let mut told = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
@@ -85,7 +85,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let (mut a, mut b) = (state_of(first), state_of(second));
         let before = (a, b);
         let c = self.constants;
-        c.balls.resolve(c.radius, &mut a, &mut b);
+        self.law.balls.resolve(c.radius, &mut a, &mut b);
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
         let mut told = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
@@ -145,8 +145,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 ball.position += (-n.abs().dot(c.reach) - ball.position.dot(n)) * n;
             }
         }
-        let law = ImpactLaw { balls: c.balls, cushions: c.cushions };
-        let law = if collapsed { law.inelastic() } else { law };
+        let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
         let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
         let mut told = [false; MAX_CONTACTS];
         for (index, contact) in contacts.as_slice().iter().enumerate() {
@@ -224,7 +223,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         bounced: &[(usize, BallState)],
     ) -> Option<Contacts> {
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
-        settles(self.table, &self.constants, contact, &self.states_with(now, freed, bounced), shrinking)
+        settles(self.table, &self.constants, &self.law, contact, &self.states_with(now, freed, bounced), shrinking)
     }
 
     /// All balls now, some of them as given.
@@ -260,7 +259,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let c = self.constants;
         let contacts = rests.as_slice();
         close(&c, &mut states, contacts);
-        let law = ImpactLaw { balls: c.balls, cushions: c.cushions }.inelastic();
+        let law = self.law.inelastic();
         for _ in 0..MOST_ROUNDS {
             if !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening) {
                 break;

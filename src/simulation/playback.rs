@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Constants, End, Event, Observer, Segment, simulate};
 use crate::{
-    physics::{BallState, CueError, CueInputs, Impulse, Motion, strike},
+    physics::{BallState, CueError, CueInputs, Impulse, ImpulseError, Motion, strike},
     table::{BALLS, Layout, LayoutError, Table},
 };
 
@@ -19,6 +19,9 @@ pub enum ShotError {
     /// The stroke is impossible.
     #[error(transparent)]
     Cue(#[from] CueError),
+    /// The motion that the cue ball is to have is impossible.
+    #[error(transparent)]
+    Impulse(#[from] ImpulseError),
 }
 
 /// One shot from the stroke until the last ball stands still.
@@ -36,11 +39,30 @@ impl Recording {
     /// # Errors
     /// What is wrong with the layout or the stroke.
     pub fn new(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
-        let constants = Constants::of(table);
-        let impulse = Impulse { velocity: DVec2::ZERO, spin: DVec3::ZERO };
-        let mut recording = Self { constants, impulse, kept: Recorder::with_room(), duration: 0.0 };
-        recording.play_next(table, layout, cue)?;
+        layout.validate(table)?;
+        cue.validate()?;
+        let mut recording = Self::empty(table);
+        recording.play(table, layout, strike(table, cue));
         Ok(recording)
+    }
+
+    /// Checks and plays a shot in which the cue ball has this motion just after the stroke, as a film shows it, whatever
+    /// stroke has given it.
+    ///
+    /// # Errors
+    /// What is wrong with the layout or the motion.
+    pub fn with_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Self, ShotError> {
+        layout.validate(table)?;
+        impulse.validate()?;
+        let mut recording = Self::empty(table);
+        recording.play(table, layout, *impulse);
+        Ok(recording)
+    }
+
+    /// Before anything is played.
+    fn empty(table: &Table) -> Self {
+        let impulse = Impulse { velocity: DVec2::ZERO, spin: DVec3::ZERO };
+        Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 }
     }
 
     /// Checks and plays another shot in the place of this one. It takes the memory that this one has: whoever plays many
@@ -51,12 +73,17 @@ impl Recording {
     pub fn play_next(&mut self, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<(), ShotError> {
         layout.validate(table)?;
         cue.validate()?;
+        self.play(table, layout, strike(table, cue));
+        Ok(())
+    }
+
+    /// Plays what was found possible.
+    fn play(&mut self, table: &Table, layout: &Layout, impulse: Impulse) {
         self.kept.clear();
         self.constants = Constants::of(table);
-        self.impulse = strike(table, cue);
-        let end = simulate(table, layout, &self.impulse, &mut self.kept);
+        self.impulse = impulse;
+        let end = simulate(table, layout, &impulse, &mut self.kept);
         self.end_with(&end);
-        Ok(())
     }
 
     /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
@@ -73,8 +100,7 @@ impl Recording {
         layout.validate(table)?;
         cue.validate()?;
         let impulse = strike(table, cue);
-        let mut recording =
-            Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 };
+        let mut recording = Self { impulse, ..Self::empty(table) };
         let (end, more) = play(&impulse, &mut recording.kept);
         recording.end_with(&end);
         Ok((recording, more))
@@ -176,5 +202,41 @@ impl Observer for Recorder {
         if end > segment.start {
             self.segments[ball].push(segment.clone());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_motion_that_a_stroke_gives_plays_as_the_stroke_does_bit_for_bit() {
+        let table = Table::default();
+        let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
+        let cue = CueInputs::parse("0.2,0.3,4,1,4").unwrap();
+        let struck = Recording::new(&table, &layout, &cue).unwrap();
+        let moved = Recording::with_impulse(&table, &layout, struck.impulse()).unwrap();
+        assert!(struck.events().len() > 5);
+        assert_eq!(moved.events(), struck.events());
+        assert_eq!((moved.duration(), moved.final_layout()), (struck.duration(), struck.final_layout()));
+    }
+
+    #[test]
+    fn a_ball_that_only_spins_is_played_and_an_impossible_motion_or_layout_is_refused() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let impulse = |velocity, spin| Impulse { velocity, spin };
+        let play = |layout: &Layout, impulse: &Impulse| Recording::with_impulse(&table, layout, impulse);
+        let still = play(&layout, &impulse(DVec2::ZERO, DVec3::ZERO)).unwrap();
+        assert_eq!((still.duration(), still.events().len(), still.final_layout()), (0.0, 0, layout));
+        let spinning = play(&layout, &impulse(DVec2::ZERO, DVec3::new(0.0, 0.0, 30.0))).unwrap();
+        assert_eq!(spinning.final_layout(), layout, "on the spot");
+        assert_eq!(spinning.state(0, 0.0).spin.z, 30.0);
+        let draw = play(&layout, &impulse(DVec2::ZERO, DVec3::new(0.0, 60.0, 0.0))).unwrap();
+        assert!(draw.final_layout().balls[0].x > layout.balls[0].x + 0.01, "spin about y carries it along x");
+        let wild = play(&layout, &impulse(DVec2::new(f64::NAN, 0.0), DVec3::ZERO));
+        assert!(matches!(wild, Err(ShotError::Impulse(_))), "{wild:?}");
+        let nowhere = Layout::new([DVec2::ZERO; BALLS]);
+        assert!(matches!(play(&nowhere, &impulse(DVec2::X, DVec3::ZERO)), Err(ShotError::Layout(_))));
     }
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     contact_mode::ContactMode,
-    engine::Engine,
+    engine::{Engine, MOST_STEPS},
     resting::{Outcome, Resting},
     savings::Savings,
     segment::still,
@@ -20,6 +20,16 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
+        if self.steps <= MOST_STEPS && resting.go_on(self.table) {
+            self.contact_step()?;
+            let members = resting.members;
+            self.resting = Some(resting);
+            for index in (0..BALLS).filter(|&index| members[index]) {
+                self.rest(index, now);
+            }
+            self.look_ahead_of_pressed(now, members);
+            return ControlFlow::Continue(());
+        }
         let mut members: Vec<&mut BallState> =
             resting.end.iter_mut().zip(resting.members).filter_map(|(ball, member)| member.then_some(ball)).collect();
         still(self.constants.tolerance.still, self.constants.radius, &mut members);

@@ -21,7 +21,7 @@ pub fn lawful(
     constants: &Constants,
     balls: &State,
     contacts: &Contacts,
-    pushing: f64,
+    least_push: f64,
     previous: Option<&Resting>,
 ) -> Option<(State, Resolved)> {
     let tolerance = &constants.tolerance;
@@ -50,7 +50,7 @@ pub fn lawful(
         // Where forces are not unique they go on as they were.
         let same = |previous: &&Resting| previous.contacts.as_slice() == touching;
         let similar = previous.filter(same).map(|previous| &previous.last);
-        let resolved = resolve(table, &begin, contacts, &set, pushing, similar)?;
+        let resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
             resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
@@ -82,7 +82,7 @@ pub fn lawful(
 /// Pressing that cannot matter before the slips end that make it, m/s²: it moves nothing by as much as a speed that counts
 /// for none, or is no more than the rounding of the slips' directions, which are the less known the smaller a slip is beside
 /// the speeds that it is the difference of.
-pub fn idle_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
+pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
     let idle = |ball: &BallState| {
         let slip = slip(constants.radius, ball.velocity, ball.spin).length();
         if slip <= constants.tolerance.ending_slip {

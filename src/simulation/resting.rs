@@ -5,15 +5,13 @@
 //! the next. Where a slip ends its direction is singular in time; with time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip
 //! ends like an exponential and everything stays smooth.
 
-use std::cmp::Ordering;
-
 use glam::DVec2;
 
 use super::{
     Constants, Rail,
-    contacts::touching,
+    contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    regime::{idle_pressing, lawful, settle, without_ending_slips},
+    regime::{lawful, settle, transient_pressing, without_ending_slips},
     segment::Curve,
     tolerance::Tolerance,
 };
@@ -26,7 +24,7 @@ use crate::{
 const SHORTEST_STEP: f64 = 1e-13;
 
 /// A slip may fall to this power of `e` in a step: to a tenth.
-const FALL: f64 = 2.3;
+const FALL: f64 = 1.3;
 
 /// How far a course may stray from the polynomial of degree five as which it is handed on, m. In a step of `h` seconds along
 /// which a slip turns in `turn` seconds under accelerations `a` it strays by about `a h⁶/(2000 turn⁴)`.
@@ -44,9 +42,6 @@ const PATIENCE: f64 = 4.0;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
-
-/// Steps that needed more rounds of extrapolation than this are followed by shorter ones, those with fewer by longer.
-const GOOD_ROUNDS: usize = 5;
 
 /// The slip that ends first, which sets the pace of the rescaled time.
 #[derive(Clone, Copy, Debug)]
@@ -78,12 +73,14 @@ pub struct Resting {
     first: Forces,
     pub(super) last: Forces,
     shared: bool,
-    /// Step that is tried next, s.
+    /// Whether all that holds at the end is what held at the beginning.
+    goes_on: bool,
+    /// Step that is tried, s; behind the step the one to try next.
     pub next_step: f64,
     constants: Constants,
 }
 
-/// A step that is tried, of a `span` of rescaled time, and the forces at its end in the regime of its beginning.
+/// What is reached after a `span` of rescaled time, and the forces there in the regime of the step's beginning.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
     span: f64,
@@ -112,8 +109,8 @@ impl Resting {
     ) -> Outcome {
         let tolerance = constants.tolerance;
         let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * tolerance.slowest_bounce);
-        let pushing = tolerance.slack + idle_pressing(constants, balls, &contacts);
-        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, pushing, previous) else {
+        let least_push = tolerance.slack + transient_pressing(constants, balls, &contacts);
+        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
             return without_ending_slips(table, constants, balls, &contacts);
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
@@ -129,6 +126,7 @@ impl Resting {
             first: forces,
             last: forces,
             shared,
+            goes_on: false,
             next_step,
             constants: *constants,
         };
@@ -136,91 +134,177 @@ impl Resting {
         Outcome::Rests(Box::new(resting))
     }
 
+    /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
+    pub fn go_on(&mut self, table: &Table) -> bool {
+        if self.goes_on {
+            (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
+            self.advance(table);
+            return true;
+        }
+        false
+    }
+
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let longest = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
         let exact = self.constants.tolerance.step;
-        // What is not a number is no small error.
-        let is_exact = |trial: &Trial| trial.step.error <= exact || trial.span <= SHORTEST_STEP;
-        let mut span = longest;
-        let trial = loop {
-            let mut trial = self.attempt(table, span);
-            if is_exact(&trial) {
-                let growth = match trial.step.rounds.cmp(&GOOD_ROUNDS) {
-                    Ordering::Less => 4.0,
-                    Ordering::Equal => 1.2,
-                    Ordering::Greater => 0.7,
-                };
-                // Never so short that a long series of steps could not grow out of it.
-                self.next_step = (growth * trial.step.end.time).max(1e3 * SHORTEST_STEP);
+        let begin = Trial {
+            span: 0.0,
+            step: Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 },
+            forces: self.first,
+        };
+        let mut span = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
+        let (trial, broken) = loop {
+            let trial = self.attempt(table, &begin, span);
+            if trial.step.error <= exact || span <= SHORTEST_STEP {
                 let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
-                if doubtful && !self.holds(table, &trial) {
-                    trial = self.until_a_law_breaks(table, &trial);
-                }
-                if is_exact(&trial) {
-                    break trial;
-                }
+                let broken = doubtful && !self.holds(table, &trial);
+                break (if broken { self.until_a_law_breaks(table, &begin, &trial) } else { trial }, broken);
             }
-            span *= 0.4;
+            span = trial.step.best_length.min(0.7 * span).max(SHORTEST_STEP);
         };
         if trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.
-            (self.step, self.end) = (SHORTEST_STEP, self.begin);
+            (self.step, self.end, self.goes_on) = (SHORTEST_STEP, self.begin, false);
             return;
         }
-        self.step = trial.step.end.time;
-        self.last = trial.forces;
-        self.end = self.settled(table, trial.step.end.balls);
+        let mut end = trial.step.end;
+        let goes_on = !broken && !self.shared && self.set.lasts();
+        let ends = if goes_on { self.slips_end_after(table, &end.balls, &trial.forces) } else { None };
+        if let Some(time) = ends {
+            for (ball, state) in end.balls.iter_mut().enumerate().filter(|(ball, _)| self.members[*ball]) {
+                let linear = trial.forces.linear[ball];
+                state.position += time * (state.velocity + 0.5 * time * linear);
+                state.velocity += time * linear;
+                state.spin += time * trial.forces.angular[ball];
+            }
+            end.time += time;
+        }
+        (self.step, self.last, self.goes_on) = (end.time, trial.forces, goes_on && ends.is_none());
+        let changes = broken || ends.is_some();
+        let rate = self.time_rate(table.radius, &end.balls);
+        self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
+        self.end = if self.goes_on {
+            close(&self.constants, &mut end.balls, self.contacts.as_slice());
+            end.balls
+        } else {
+            self.settled(table, end.balls)
+        };
     }
 
-    fn attempt(&self, table: &Table, span: f64) -> Trial {
-        let step = self.integrate(table, span);
-        Trial { span, step, forces: self.forces(table, &step.end.balls) }
+    /// How soon the slips end that do so next, s, if their ends are so near that the forces do not change any more.
+    fn slips_end_after(&self, table: &Table, balls: &State, forces: &Forces) -> Option<f64> {
+        let mut soonest = f64::INFINITY;
+        self.slips(table.radius, balls, forces, |_, _, slip, rate| {
+            let falls = -slip.length_squared() / rate.dot(slip);
+            if falls > 0.0 {
+                soonest = soonest.min(falls);
+            }
+        });
+        let tolerance = &self.constants.tolerance;
+        let mut error = 0.0_f64;
+        self.slips(table.radius, balls, forces, |_, _, slip, rate| {
+            // What does not end with the first turns a little until then.
+            if (slip + soonest * rate).length() > tolerance.slip {
+                error = error.max(self.constants.sliding * soonest * soonest * rate.length() / slip.length());
+            }
+        });
+        (error <= tolerance.negligible && soonest * self.constants.sliding <= tolerance.yielding).then_some(soonest)
+    }
+
+    /// Hands over every slip of this regime and its rate.
+    fn slips(
+        &self,
+        radius: f64,
+        balls: &State,
+        forces: &Forces,
+        mut each: impl FnMut(fn(usize, f64) -> Pace, usize, DVec2, DVec2),
+    ) {
+        let rates: State = std::array::from_fn(|ball| BallState {
+            position: balls[ball].position,
+            velocity: forces.linear[ball],
+            spin: forces.angular[ball],
+        });
+        let slips = |friction: Friction| matches!(friction, Friction::Slips(_));
+        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
+            let (state, rate) = (&balls[ball], &rates[ball]);
+            let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
+            if slips(self.set.cloth[ball]) {
+                each(Pace::Cloth, ball, slip(state), slip(rate));
+            } else if slips(self.set.roll[ball]) {
+                each(Pace::Roll, ball, state.velocity, rate.velocity);
+            }
+        }
+        for (index, contact) in self.contacts.as_slice().iter().enumerate() {
+            if slips(self.set.contact[index]) {
+                each(Pace::Contact, index, contact.slip(radius, balls), contact.slip(radius, &rates));
+            }
+        }
+    }
+
+    /// What is reached after `span`, by a step that begins at `from`.
+    fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
+        let begin = &from.step.end;
+        let mut last = from.forces;
+        let slope = |phase: &Phase| {
+            last = self.forces(table, &phase.balls, &last);
+            self.slope(table.radius, &phase.balls, &last)
+        };
+        let first = self.slope(table.radius, &begin.balls, &from.forces);
+        let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
+        let step = extrapolate(begin, &first, slope, self.members, length, table.radius, tolerance);
+        Trial { span, step, forces: self.forces(table, &step.end.balls, &from.forces) }
     }
 
     /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
-    fn until_a_law_breaks(&self, table: &Table, whole: &Trial) -> Trial {
+    fn until_a_law_breaks(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         if whole.forces.slack < -self.constants.tolerance.slack {
-            let shorter = self.until_the_slack_ends(table, whole);
+            let shorter = self.until_the_slack_ends(table, begin, whole);
             if !self.shared || !self.holds(table, &shorter) {
                 return shorter;
             }
         }
-        self.while_it_holds(table, whole)
+        self.while_it_holds(table, begin, whole)
     }
 
-    /// Finds the zero of the slack, by false position with the Illinois rule.
-    fn until_the_slack_ends(&self, table: &Table, whole: &Trial) -> Trial {
+    /// Finds the zero of the slack, by false position with the Illinois rule, and by halves where one end stays. Each guess
+    /// begins at the last place before.
+    fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let allowed = self.constants.tolerance.slack;
-        let mut after = *whole;
-        let (mut low, mut low_value) = (0.0, (self.first.slack + allowed).max(0.0));
-        let mut high_value = after.forces.slack + allowed;
+        let (mut before, mut after) = (*begin, *whole);
+        let (mut low_value, mut high_value) = ((self.first.slack + allowed).max(0.0), after.forces.slack + allowed);
+        let mut same_side = 0_i32;
         for _ in 0..MAX_GUESSES {
-            if high_value >= -allowed || after.span - low <= SHORTEST_STEP {
+            if high_value >= -allowed || after.span - before.span <= SHORTEST_STEP {
                 break;
             }
-            let share = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
-            let middle = self.attempt(table, low + share * (after.span - low));
+            let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
+            let share = if same_side.abs() > 2 { 0.5 } else { secant };
+            let middle = self.attempt(table, &before, before.span + share * (after.span - before.span));
             let value = middle.forces.slack + allowed;
             if value < 0.0 {
                 (after, high_value) = (middle, value);
-                low_value *= 0.5;
+                same_side = same_side.max(0) + 1;
+                if same_side > 1 {
+                    low_value *= 0.5;
+                }
             } else {
-                (low, low_value) = (middle.span, value);
-                high_value *= 0.5;
+                (before, low_value) = (middle, value);
+                same_side = same_side.min(0) - 1;
+                if same_side < -1 {
+                    high_value *= 0.5;
+                }
             }
         }
         after
     }
 
     /// The same where what is held is held more than once, so that only trying tells how long it holds.
-    fn while_it_holds(&self, table: &Table, whole: &Trial) -> Trial {
-        let mut after = *whole;
-        let mut low = 0.0;
-        while after.span - low > SHORTEST_STEP.max(1e-9 * after.span) {
-            let middle = self.attempt(table, 0.5 * (low + after.span));
+    fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
+        let (mut before, mut after) = (*begin, *whole);
+        while after.span - before.span > SHORTEST_STEP.max(1e-9 * after.span) {
+            let middle = self.attempt(table, &before, 0.5 * (before.span + after.span));
             if self.holds(table, &middle) {
-                low = middle.span;
+                before = middle;
             } else {
                 after = middle;
             }
@@ -245,37 +329,27 @@ impl Resting {
 
     /// Longest step whose course a polynomial can follow, in rescaled time; sets the pace.
     fn longest_step(&mut self, radius: f64) -> f64 {
+        self.pace = Pace::Time;
         let sliding = self.constants.sliding;
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut pace) = (f64::INFINITY, Pace::Time);
-        let mut limit = |friction: Friction, size: DVec2, rate: DVec2, paced: fn(usize, f64) -> Pace, index| {
-            let length = size.length();
-            if !matches!(friction, Friction::Slips(_)) || length <= self.constants.tolerance.slip {
+        self.slips(radius, &self.begin, &self.first, |paced, index, slip, rate| {
+            let length = slip.length();
+            if length <= self.constants.tolerance.slip {
                 return;
             }
             let turn = length / rate.length();
             longest = longest.min((2000.0 * STRAY / sliding * turn.powi(4)).powf(1.0 / 6.0));
-            let falls = -length * length / rate.dot(size);
+            let falls = -length * length / rate.dot(slip);
             if falls > 0.0 && falls < soonest {
                 (soonest, pace) = (falls, paced(index, length));
             }
-        };
-        let rates: State = std::array::from_fn(|ball| BallState {
-            position: self.begin[ball].position,
-            velocity: self.first.linear[ball],
-            spin: self.first.angular[ball],
         });
-        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            let (state, rate) = (&self.begin[ball], &rates[ball]);
-            let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
-            limit(self.set.cloth[ball], slip(state), slip(rate), Pace::Cloth, ball);
-            if self.set.cloth[ball] == Friction::Sticks {
-                limit(self.set.roll[ball], state.velocity, rate.velocity, Pace::Roll, ball);
-            }
-        }
-        for (index, contact) in self.contacts.as_slice().iter().enumerate() {
-            let (slip, rate) = (contact.slip(radius, &self.begin), contact.slip(radius, &rates));
-            limit(self.set.contact[index], slip, rate, Pace::Contact, index);
+        // Two balls turn about each other, and the forces between them with them.
+        for contact in self.contacts.as_slice().iter().filter(|contact| contact.second.is_some()) {
+            let across = contact.relative_speed(&self.begin);
+            let (turn, force) = (2.0 * radius / across, sliding + across * across / radius);
+            longest = longest.min((2000.0 * STRAY / force * turn.powi(4)).powf(1.0 / 6.0));
         }
         // A slip that is far from its end needs no other time.
         if longest < 0.1 * soonest {
@@ -308,7 +382,7 @@ impl Resting {
         }
         let trial = self.until(table, time);
         (self.step, self.last) = (time, trial.forces);
-        self.end = self.settled(table, trial.step.end.balls);
+        (self.end, self.goes_on) = (self.settled(table, trial.step.end.balls), false);
         if time > 0.0 {
             // What comes next is likely to be interrupted as soon.
             self.next_step = PATIENCE * time;
@@ -317,7 +391,9 @@ impl Resting {
 
     /// The step that ends after `time` seconds.
     fn until(&self, table: &Table, time: f64) -> Trial {
-        let mut trial = self.attempt(table, time);
+        let begin = Phase { balls: self.begin, time: 0.0 };
+        let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
+        let mut trial = self.attempt(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
         if !matches!(self.pace, Pace::Time) {
             // Newton's steps: how fast time runs is known.
             for _ in 0..MAX_GUESSES {
@@ -325,7 +401,8 @@ impl Resting {
                 if late.abs() <= 4.0 * f64::EPSILON * time {
                     break;
                 }
-                trial = self.attempt(table, trial.span + late / self.time_rate(table.radius, &trial.step.end.balls));
+                let rate = self.time_rate(table.radius, &trial.step.end.balls);
+                trial = self.attempt(table, &trial, trial.span + late / rate);
             }
         }
         trial
@@ -339,18 +416,11 @@ impl Resting {
         balls
     }
 
-    fn integrate(&self, table: &Table, span: f64) -> Step {
-        let begin = Phase { balls: self.begin, time: 0.0 };
-        let slope = |phase: &Phase| self.slope(table.radius, &phase.balls, &self.forces(table, &phase.balls));
-        let first = self.slope(table.radius, &self.begin, &self.first);
-        extrapolate(&begin, &first, slope, self.members, span, table.radius, self.constants.tolerance.step)
-    }
-
-    /// The forces in this step's regime.
-    fn forces(&self, table: &Table, state: &State) -> Forces {
+    /// The forces in this step's regime; they have to be sought from `near` ones on where a friction yields.
+    fn forces(&self, table: &Table, state: &State, near: &Forces) -> Forces {
         let contacts = self.contacts.as_slice();
         if self.set.yields() {
-            return yielding(table, state, contacts, &self.set, &self.first);
+            return yielding(table, state, contacts, &self.set, near);
         }
         forces(table, state, contacts, &self.set, Some(&self.first)).unwrap_or(self.first)
     }

@@ -86,13 +86,13 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            if constants.tilt != DVec2::ZERO {
-                let slide = slide_on_slope(constants.sliding, constants.tilt, state.velocity, u);
-                segment.half_acceleration = slide.half_acceleration;
-                return (segment, slide.lasts);
+            if constants.even || constants.tilt == DVec2::ZERO {
+                segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
+                return (segment, speed * constants.slide_time);
             }
-            segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
-            (segment, speed * constants.slide_time)
+            let slide = slide_on_slope(constants.sliding, constants.tilt, state.velocity, u);
+            segment.half_acceleration = slide.half_acceleration;
+            (segment, slide.lasts)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
         } else {
@@ -106,6 +106,10 @@ impl Segment {
         let speed = self.velocity.length();
         self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
         self.motion = Motion::Rolling;
+        if constants.even {
+            self.half_acceleration = self.velocity * (-0.5 * constants.rolling.least / speed);
+            return (self, speed * constants.roll_time);
+        }
         if constants.tilt != DVec2::ZERO {
             let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
             self.half_acceleration = roll.half_acceleration;
@@ -113,31 +117,20 @@ impl Segment {
         }
         let (deceleration, end) = constants.rolling.band(speed);
         self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
-        if constants.rolling.growth == 0.0 {
-            return (self, speed * constants.roll_time);
-        }
         (self, (speed - end) / deceleration)
     }
 
     /// Whether a rolling ball comes to rest at the end of this course, and does not go on in the next band of its
     /// deceleration.
     #[inline(always)]
-    pub fn rolls_to_rest(&self, constants: &Constants, lasts: f64) -> bool {
-        (constants.tilt == DVec2::ZERO && constants.rolling.growth == 0.0)
-            || self.velocity_at_end(constants, lasts) == DVec2::ZERO
-    }
-
-    /// Velocity at the end of a roll's band, m/s: zero where it is less than what counts as rest.
-    fn velocity_at_end(&self, constants: &Constants, lasts: f64) -> DVec2 {
-        if constants.tilt != DVec2::ZERO {
-            return roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity;
+    pub fn rolls_to_rest(&self, constants: &Constants) -> bool {
+        if constants.even {
+            return true;
         }
-        let velocity = self.velocity_after(lasts);
-        if velocity.length_squared() < constants.tolerance.still * constants.tolerance.still {
-            DVec2::ZERO
-        } else {
-            velocity
+        if constants.tilt == DVec2::ZERO {
+            return constants.rolling.is_last(self.velocity.length());
         }
+        roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity == DVec2::ZERO
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
@@ -148,12 +141,18 @@ impl Segment {
         let start = self.start + duration;
         if self.motion == Motion::Sliding {
             // What the slip leaves is known without its duration, which keeps the rounding small. A slope adds its part.
-            let velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0)
-                + (5.0 / 7.0 * duration) * constants.tilt;
+            let mut velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
+            if !constants.even {
+                velocity += (5.0 / 7.0 * duration) * constants.tilt;
+            }
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
             if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
-        } else if !self.rolls_to_rest(constants, duration) {
-            let velocity = self.velocity_at_end(constants, duration);
+        } else if !self.rolls_to_rest(constants) {
+            let velocity = if constants.tilt == DVec2::ZERO {
+                self.velocity_after(duration)
+            } else {
+                roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity
+            };
             Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
             let position = if constants.tilt == DVec2::ZERO {
@@ -205,10 +204,10 @@ impl Segment {
             Motion::Stationary | Motion::Resting => 0.0,
         } * constants.per_radius;
         // A slope does not turn a sliding ball.
-        let turning = match self.motion {
-            Motion::Sliding => self.half_acceleration - 0.5 * constants.tilt,
-            _ => self.half_acceleration,
-        };
+        let mut turning = self.half_acceleration;
+        if !constants.even && self.motion == Motion::Sliding {
+            turning -= 0.5 * constants.tilt;
+        }
         let horizontal = self.spin.truncate() + (rate * t) * turning.perp();
         horizontal.extend(decayed_spin(self.spin.z, constants.spinning, t))
     }
@@ -231,7 +230,7 @@ mod tests {
 
     #[test]
     fn a_sliding_ball_rolls_exactly_when_its_slip_is_used_up() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let state =
             BallState { position: DVec2::ZERO, velocity: DVec2::new(2.0, -1.0), spin: DVec3::new(30.0, -70.0, 20.0) };
         let (slide, duration) = Segment::free(&constants, 0.0, &state);
@@ -256,7 +255,7 @@ mod tests {
 
     #[test]
     fn spin_about_the_vertical_decays_to_zero_and_stays_there() {
-        let constants = Constants::of(&Table::default());
+        let constants = Constants::of(&Table::preset("textbook").unwrap());
         let spin = DVec3::new(0.0, 0.0, -1.0);
         let state = BallState { position: DVec2::ZERO, velocity: DVec2::ZERO, spin };
         let (rest, _) = Segment::free(&constants, 0.0, &state);

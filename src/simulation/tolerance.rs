@@ -14,8 +14,8 @@ pub struct Tolerance {
     /// the test could be missed. Larger: roots are sought in vain.
     pub surely_apart: f64,
     /// Bounces that are given up together with others are lower than this, m: so far a ball may be moved at the end of a
-    /// chatter. Larger: the course jumps. Smaller: contacts that shake each other end their chatters one at a time.
-    pub given_up: f64,
+    /// chatter. Larger: the course jumps. Smaller: coupled contacts end their chatters one at a time.
+    pub coupled_gap: f64,
     /// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller:
     /// what rounding leaves of an impact counts as a bounce.
     pub opening: f64,
@@ -44,12 +44,12 @@ pub struct Tolerance {
     /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
     /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
-    /// The same where several contacts shake each other and make slips, m/s: the places are then right to as many metres.
-    pub slow_crowd: f64,
+    /// The same where several contacts are coupled and make slips, m/s: the places are then right to as many metres.
+    pub slowest_coupled_bounce: f64,
     /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
     pub negligible: f64,
-    /// The same where several contacts shake each other, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
-    pub negligible_crowd: f64,
+    /// The same where several contacts are coupled, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
+    pub negligible_coupled: f64,
 }
 
 impl Tolerance {
@@ -60,7 +60,7 @@ impl Tolerance {
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
             surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
-            given_up: 1.6e4 * f64::EPSILON * table.length.max(table.width),
+            coupled_gap: 1.6e4 * f64::EPSILON * table.length.max(table.width),
             opening: 2e-11 * speed,
             pressing: 1e-14 * table.gravity,
             slip: 2e-10 * speed,
@@ -71,9 +71,9 @@ impl Tolerance {
             slack: 1e-12 * table.gravity,
             slow_bounce: 2e-2 * speed,
             slowest_bounce: 2e-10 * speed,
-            slow_crowd: 2e-8 * speed,
+            slowest_coupled_bounce: 2e-8 * speed,
             negligible: 2e-12 * speed,
-            negligible_crowd: 2e-10 * speed,
+            negligible_coupled: 2e-10 * speed,
         }
     }
 }

@@ -28,7 +28,11 @@ impl Lock {
     /// # Errors
     /// Whatever the file system reports. One that knows no locks is taken at its word: then nothing is locked.
     pub fn take(folder: &Path) -> io::Result<Option<Self>> {
-        let file = OpenOptions::new().create(true).truncate(false).write(true).open(folder.join(Self::FILE))?;
+        let path = folder.join(Self::FILE);
+        if let Ok(found) = path.metadata() {
+            super::reading::regular(&found)?;
+        }
+        let file = OpenOptions::new().create(true).truncate(false).write(true).open(path)?;
         for attempt in 0..ATTEMPTS {
             if attempt > 0 {
                 std::thread::sleep(PAUSE);
@@ -48,7 +52,7 @@ impl Lock {
     /// Whether a process has the lock of a folder; `None` where that cannot be known: there is no lock, or the file system
     /// knows none.
     pub fn is_held(folder: &Path) -> Option<bool> {
-        match File::open(folder.join(Self::FILE)).ok()?.try_lock_shared() {
+        match super::open(&folder.join(Self::FILE)).ok()?.try_lock_shared() {
             Ok(()) => Some(false),
             Err(TryLockError::WouldBlock) => Some(true),
             Err(TryLockError::Error(_)) => None,

@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn every_drawn_shot_can_be_played_again_from_its_command_line() {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         for shot in random_shots(&table, 200, 5) {
             shot.cue.validate().unwrap();
             shot.cue.validate_tip(table.miscue_limit + 1e-6).unwrap();

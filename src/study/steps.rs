@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use crate::{
-    physics::{BallState, CueInputs, Impulse, Motion, rolling_deceleration, rolling_spin},
+    physics::{BallState, CueInputs, ImpactLaw, Impulse, Motion, rolling_deceleration, rolling_spin},
     simulation::{Constants, End, Event, EventKind, Observer, Rail, Recording, Segment, ShotError},
     table::{BALLS, Layout, Table},
 };
@@ -54,6 +54,11 @@ impl Steps {
         if (1e-8..=1.0).contains(&dt) { Ok(Self { dt, locate }) } else { Err(StepError(dt)) }
     }
 
+    /// The shortest time step, s, with which a shot takes no more than so many steps.
+    pub fn finest(table: &Table, impulse: &Impulse, most: f64) -> f64 {
+        longest(table, impulse) / most
+    }
+
     /// Records a shot as [`Recording::new`] does, but step by step, and tells what the steps did.
     ///
     /// # Errors
@@ -70,9 +75,7 @@ impl Steps {
         let mut stepper = Stepper::new(table, layout, observer);
         let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..stepper.balls[0].state };
         stepper.balls[0] = Ball::launched(&stepper.constants, 0.0, state);
-        // No ball of this energy can roll longer; what still moves then is jitter.
-        let energy = state.specific_energy(table.radius);
-        let limit = 1.0 + (2.0 * energy).sqrt() / rolling_deceleration(table);
+        let limit = longest(table, impulse);
         let (mut steps, mut flow) = (0_u64, ControlFlow::Continue(()));
         while flow.is_continue() && !stepper.at_rest() && steps as f64 * self.dt < limit {
             steps += 1;
@@ -83,6 +86,12 @@ impl Steps {
         let deepest_overlap = stepper.deepest_overlap;
         Stepped { end: stepper.finish(), steps, deepest_overlap, at_rest }
     }
+}
+
+/// Longest time that a shot can take, s: no ball of this energy can roll longer, and what still moves then is jitter.
+fn longest(table: &Table, impulse: &Impulse) -> f64 {
+    let state = BallState { velocity: impulse.velocity, spin: impulse.spin, ..BallState::at_rest(DVec2::ZERO) };
+    1.0 + (2.0 * state.specific_energy(table.radius)).sqrt() / rolling_deceleration(table)
 }
 
 /// A ball and the segment that its present motion belongs to.
@@ -123,6 +132,7 @@ impl Ball {
 
 struct Stepper<'a, O> {
     constants: Constants,
+    law: ImpactLaw,
     observer: &'a mut O,
     balls: [Ball; BALLS],
     now: f64,
@@ -138,7 +148,7 @@ impl<'a, O: Observer> Stepper<'a, O> {
             ends: f64::INFINITY,
         });
         let constants = Constants::of(table);
-        Self { constants, observer, balls, now: 0.0, last_event: 0.0, deepest_overlap: 0.0 }
+        Self { constants, law: ImpactLaw::of(table), observer, balls, now: 0.0, last_event: 0.0, deepest_overlap: 0.0 }
     }
 
     fn at_rest(&self) -> bool {
@@ -265,13 +275,13 @@ impl<'a, O: Observer> Stepper<'a, O> {
         match kind {
             EventKind::BallBall(first, second) => {
                 let (mut a, mut b) = (self.balls[first].state, self.balls[second].state);
-                c.balls.resolve(c.radius, &mut a, &mut b);
+                self.law.balls.resolve(c.radius, &mut a, &mut b);
                 self.launch(first, a);
                 self.launch(second, b);
             }
             EventKind::BallRail(index, rail) => {
                 let mut state = self.balls[index].state;
-                c.cushion(rail).resolve(c.radius, rail.normal(), &mut state);
+                self.law.cushions.at(rail).resolve(c.radius, rail.normal(), &mut state);
                 self.launch(index, state);
             }
             EventKind::SlidingRolling(index) => {
@@ -292,8 +302,8 @@ impl<'a, O: Observer> Stepper<'a, O> {
 
     /// Whether a ball that has come to the end of its motion rolls on in the next band of its deceleration.
     fn rolls_on(&self, index: usize) -> bool {
-        let Ball { segment, ends, .. } = &self.balls[index];
-        segment.motion == Motion::Rolling && !segment.rolls_to_rest(&self.constants, ends - segment.start)
+        let segment = &self.balls[index].segment;
+        segment.motion == Motion::Rolling && !segment.rolls_to_rest(&self.constants)
     }
 
     fn launch(&mut self, index: usize, state: BallState) {
@@ -337,14 +347,14 @@ mod tests {
     use super::*;
 
     fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let cue = CueInputs::parse(shot).unwrap();
         Steps::new(dt, locate).unwrap().record(&table, &Layout::opening(&table), &cue).unwrap()
     }
 
     fn error(dt: f64, locate: bool) -> f64 {
         let shot = "0,0.2,5,12.5,3";
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let exact = Recording::new(&table, &Layout::opening(&table), &CueInputs::parse(shot).unwrap()).unwrap();
         let stepped = play(dt, locate, shot).0;
         let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);

@@ -4,12 +4,12 @@ use glam::DVec2;
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-use super::Table;
+use super::{Opening, Side, Table};
 
 /// Number of balls in carom billiards.
 pub const BALLS: usize = 3;
 
-/// Their names by their index: ball 0 is the cue ball.
+/// Their names by their index where white is the cue ball; [`super::CueBall`] knows those of either player.
 pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
 
 /// How far balls may overlap each other or a cushion in a layout that is accepted, m. A touching ball written with the
@@ -84,11 +84,41 @@ impl Layout {
         Self { balls }
     }
 
-    /// The opening position (thesis Figure 8): white on the near spot, yellow `d` beside it, red on the far spot. Ball
-    /// 0 is white, ball 1 yellow, ball 2 red.
+    /// The opening position: red on the far spot, and of the cue ball, ball 0, and the opponent's, ball 1, one on the near spot
+    /// and the other `d` beside it, as the table's [`Opening`] has it; where the player may choose, the cue ball on the left.
     pub fn opening(table: &Table) -> Self {
+        Self::opening_on(table, Side::Left)
+    }
+
+    /// The same with the cue ball on the side that the player has chosen; where there is no choice it makes no difference.
+    pub fn opening_on(table: &Table, side: Side) -> Self {
         let spot = 0.25 * table.length;
-        Self::new([DVec2::new(-spot, 0.0), DVec2::new(-spot, table.opening_offset), DVec2::new(spot, 0.0)])
+        let (near, red) = (DVec2::new(-spot, 0.0), DVec2::new(spot, 0.0));
+        // Who looks along the table has the upper long rail on the left.
+        let beside = |side| match side {
+            Side::Left => near + DVec2::new(0.0, table.opening_offset),
+            Side::Right => near - DVec2::new(0.0, table.opening_offset),
+        };
+        match table.opening {
+            Opening::Thesis => Self::new([near, beside(Side::Left), red]),
+            Opening::Umb => Self::new([beside(side), near, red]),
+        }
+    }
+
+    /// The side on which the cue ball stands if this is the opening position.
+    pub fn opening_side(&self, table: &Table) -> Option<Side> {
+        let is_there = |side: &Side| {
+            let places = Self::opening_on(table, *side).balls;
+            self.balls.iter().zip(places).all(|(ball, place)| ball.distance(place) <= TOUCHING_TOLERANCE)
+        };
+        [Side::Left, Side::Right].into_iter().find(is_there)
+    }
+
+    /// The same balls for the other player: the cue ball and the opponent's change places in the order, not on the table.
+    #[must_use]
+    pub const fn for_the_opponent(&self) -> Self {
+        let [cue_ball, other, red] = self.balls;
+        Self::new([other, cue_ball, red])
     }
 
     /// A layout drawn uniformly from all that are possible on `table`.
@@ -163,6 +193,23 @@ mod tests {
             let table = Table::preset(name).unwrap();
             Layout::opening(&table).validate(&table).unwrap();
         }
+    }
+
+    #[test]
+    fn by_umb_rules_the_opponents_ball_is_on_the_spot_and_the_cue_ball_on_either_side() {
+        let thesis = Table { opening: Opening::Thesis, ..Table::default() };
+        let umb = Table { opening: Opening::Umb, ..Table::default() };
+        let (spot, d) = (0.25 * umb.length, umb.opening_offset);
+        for (side, y) in [(Side::Left, d), (Side::Right, -d)] {
+            let layout = Layout::opening_on(&umb, side);
+            layout.validate(&umb).unwrap();
+            assert_eq!(layout.balls, [DVec2::new(-spot, y), DVec2::new(-spot, 0.0), DVec2::new(spot, 0.0)]);
+            assert_eq!((layout.opening_side(&umb), layout.opening_side(&thesis)), (Some(side), None));
+        }
+        let only = Layout::opening(&thesis);
+        assert_eq!(only.balls[0], DVec2::new(-spot, 0.0));
+        assert_eq!(Layout::opening_on(&thesis, Side::Right), only);
+        assert_eq!(only.opening_side(&umb), None);
     }
 
     #[test]

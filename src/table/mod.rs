@@ -1,11 +1,18 @@
 //! What is played on: the table's parameters and the layout of its three balls.
 
+mod cue_ball;
+mod flaws;
 mod layout;
 mod models;
+mod opening;
 mod parameters;
 mod rail;
+mod room;
 
+pub use cue_ball::{CueBall, UnknownCueBall};
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
 pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
+pub use opening::{Opening, Side, UnknownSide};
 pub use parameters::{JUDGED, PRESETS, Table, TableError};
 pub use rail::Rail;
+pub use room::Room;

@@ -3,7 +3,10 @@
 use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-use super::models::{Fade, Rails, SlipFriction, is_zero};
+use super::{
+    Opening, Room, flaws,
+    models::{Fade, Rails, SlipFriction, is_zero},
+};
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
@@ -65,7 +68,7 @@ pub struct Table {
     pub gravity: f64,
     /// Largest `a² + b²` (in units of R²) at which the tip does not slip off the ball.
     pub miscue_limit: f64,
-    /// Distance `d` of the yellow ball beside the white one in the opening position, m.
+    /// Distance `d` of the cue ball and the opponent's in the opening position, m.
     #[serde(rename = "d")]
     pub opening_offset: f64,
     /// Growth of a rolling ball's deceleration with its speed, 1/s: `a = 5/7 mu_r g + c1 v`.
@@ -84,6 +87,12 @@ pub struct Table {
     /// Acceleration of a ball on a table that is not level, m/s² along x and y.
     #[serde(default, skip_serializing_if = "is_level")]
     pub tilt: DVec2,
+    /// How a game opens: `thesis` or `umb`.
+    #[serde(default, skip_serializing_if = "Opening::is_default")]
+    pub opening: Opening,
+    /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub room: Option<Room>,
     /// The rails' model; without this section balls meet them at the height of their centre.
     #[serde(default, skip_serializing_if = "is_thesis_rail")]
     pub rail: Rails,
@@ -177,6 +186,9 @@ impl Table {
                 return refuse(key, value, accepted);
             }
         }
+        if let Some((key, value, accepted)) = flaws::first(&self) {
+            return refuse(key, value, accepted);
+        }
         // Three balls must find room side by side, or no layout exists.
         for (key, side) in [("L", self.length), ("l", self.width)] {
             if side < 6.0 * self.radius {
@@ -185,6 +197,9 @@ impl Table {
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
+        }
+        if let Some((key, value, accepted)) = self.room.and_then(|room| room.flaw(self.radius)) {
+            return refuse(key, value, accepted);
         }
         Ok(self)
     }

@@ -1,4 +1,7 @@
-//! Undo and redo without limit.
+//! Undo and redo, as far back as is kept.
+
+/// Steps that are kept. An answered shot is a tenth of a megabyte, and nobody goes back further.
+const LONGEST: usize = 200;
 
 /// A value with its past and the future that was undone.
 #[derive(Clone, Debug)]
@@ -26,6 +29,9 @@ impl<T> History<T> {
 
     /// Makes `next` the present; what was undone is gone.
     pub fn push(&mut self, next: T) {
+        if self.past.len() == LONGEST {
+            self.past.remove(0);
+        }
         self.past.push(std::mem::replace(&mut self.present, next));
         self.future.clear();
     }
@@ -58,6 +64,14 @@ impl<T> History<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_too_long_ago_is_forgotten() {
+        let mut history = History::new(0);
+        (1..=LONGEST + 5).for_each(|step| history.push(step));
+        while history.undo() {}
+        assert_eq!((*history.present(), history.future.len()), (5, LONGEST));
+    }
 
     #[test]
     fn undo_and_redo_walk_the_same_way() {

@@ -8,21 +8,20 @@ use std::{
     time::Duration,
 };
 
-use crossterm::event::{self, Event};
+use crossterm::event::Event;
 use rustix::{
     event::{PollFd, PollFlags, Timespec, poll},
     io::Errno,
     termios::{Action, QueueSelector, tcflow, tcflush},
 };
-use signal_hook::{
-    consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH},
-    iterator::Signals,
+use signal_hook::consts::{SIGTTIN, SIGTTOU};
+
+use super::{
+    drills::DrillReport, input::Decoder, recommender::Answer, settings::SettingsReport, signals, training::Report,
 };
 
-use super::{drills::DrillReport, recommender::Answer, settings::SettingsReport, training::Report};
-
-/// Time in which a key that has begun to arrive is read, once there is something to read.
-const READING: Duration = Duration::from_millis(1);
+/// Bytes that are read at once.
+const AT_ONCE: usize = 65_536;
 
 /// Time that the screen has to end after a signal, before output that the terminal does not take is thrown away.
 const ENDING: Duration = Duration::from_millis(300);
@@ -53,14 +52,19 @@ pub enum News {
 pub fn open() -> io::Result<(Sender<News>, Receiver<News>)> {
     let (sender, receiver) = channel();
     // The input thread learns of a resize too, but only from its first read on: one before that would be lost.
-    let mut signals = Signals::new([SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGTSTP, SIGCONT, SIGWINCH])?;
+    let mut signals = signals::catch()?;
     let to_screen = sender.clone();
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
+            // The system's way to say that the terminal is somebody else's now.
+            if matches!(signal, SIGTTIN | SIGTTOU) && !signals::has_the_terminal() {
+                let _ = signals::stop();
+                continue;
+            }
             if to_screen.send(News::Signal(signal)).is_err() {
                 break;
             }
-            if matches!(signal, SIGTERM | SIGINT | SIGHUP | SIGQUIT) {
+            if signals::ends(signal) {
                 free_the_screen();
             }
         }
@@ -76,28 +80,50 @@ pub fn open() -> io::Result<(Sender<News>, Receiver<News>)> {
 
 /// Reads the terminal until it gives no more.
 ///
-/// crossterm takes the end of the input for no input and would ask for more for ever, so it is asked only while there is
-/// something to read.
-///
 /// # Errors
 /// What the terminal answers.
 fn read_input(to_screen: &Sender<News>) -> io::Result<()> {
-    while is_open(io::stdin())? {
-        while event::poll(READING)? {
-            if to_screen.send(News::Input(event::read()?)).is_err() {
+    let input = io::stdin();
+    let (mut decoder, mut events) = (Decoder::default(), Vec::new());
+    let mut bytes = vec![0; AT_ONCE];
+    loop {
+        match wait(&input, decoder.patience())? {
+            Waited::Silence => decoder.silence(&mut events),
+            Waited::Gone => return Ok(()),
+            Waited::Input => match rustix::io::read(&input, &mut bytes) {
+                Ok(0) => return Ok(()),
+                Ok(count) => decoder.feed(&bytes[..count], &mut events),
+                Err(Errno::INTR | Errno::AGAIN) => {}
+                Err(error) => return Err(error.into()),
+            },
+        }
+        for event in events.drain(..) {
+            if to_screen.send(News::Input(event)).is_err() {
                 return Ok(());
             }
         }
     }
-    Ok(())
 }
 
-/// Waits for input; `false` where there will be none any more: the terminal is gone.
-fn is_open(input: impl AsFd) -> io::Result<bool> {
+/// What comes of waiting for input.
+enum Waited {
+    Input,
+    /// Nothing came in time.
+    Silence,
+    /// There will be no more: the terminal is gone.
+    Gone,
+}
+
+fn wait(input: impl AsFd, patience: Option<Duration>) -> io::Result<Waited> {
+    let patience = patience.and_then(|time| Timespec::try_from(time).ok());
     let mut input = [PollFd::new(&input, PollFlags::IN)];
     loop {
-        match poll(&mut input, None) {
-            Ok(_) => return Ok(!input[0].revents().intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL)),
+        match poll(&mut input, patience.as_ref()) {
+            Ok(0) => return Ok(Waited::Silence),
+            Ok(_) if input[0].revents().intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) => {
+                return Ok(Waited::Gone);
+            }
+            Ok(_) => return Ok(Waited::Input),
             Err(Errno::INTR) => {}
             Err(error) => return Err(error.into()),
         }
@@ -106,6 +132,7 @@ fn is_open(input: impl AsFd) -> io::Result<bool> {
 
 /// Lets a screen end that waits for a terminal which takes nothing any more, as over a link that stands still: what has
 /// not been taken is thrown away, as often as that is in the way. The process ends meanwhile, and this thread with it.
+#[allow(clippy::disallowed_methods, reason = "nothing is written")]
 fn free_the_screen() -> ! {
     let output = io::stdout();
     loop {

@@ -8,8 +8,8 @@ use crate::{
     coach::Skill,
     drills::Session,
     game::Rule,
-    storage::replace,
-    table::{Layout, Table},
+    storage::{self, replace},
+    table::{CueBall, Layout, Table},
 };
 
 /// The version of the file that is written.
@@ -23,6 +23,9 @@ pub struct Last {
     pub table: Table,
     /// Where the balls lay.
     pub layout: Layout,
+    /// Which of them was the cue ball.
+    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    pub cue_ball: CueBall,
     /// What counted as a point.
     pub rule: Rule,
     /// Who played.
@@ -37,7 +40,13 @@ pub struct Last {
 impl Last {
     /// What is to be remembered of the coach's screen.
     pub const fn new(table: Table, layout: Layout, rule: Rule, skill: Skill, plan: bool) -> Self {
-        Self { version: VERSION, table, layout, rule, skill, plan, practice: None }
+        Self { version: VERSION, table, layout, cue_ball: CueBall::White, rule, skill, plan, practice: None }
+    }
+
+    /// The same with another cue ball.
+    #[must_use]
+    pub fn with_cue_ball(self, cue_ball: CueBall) -> Self {
+        Self { cue_ball, ..self }
     }
 
     /// The same with what is practised.
@@ -49,7 +58,7 @@ impl Last {
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
     /// nobody is to be bothered about it.
     pub fn load(path: &Path) -> Option<Self> {
-        let last: Self = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+        let last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
         (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
     }
 

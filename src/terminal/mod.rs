@@ -15,6 +15,7 @@ mod finder;
 mod geometry;
 mod history;
 mod inbox;
+mod input;
 mod keymap;
 mod last;
 mod log;
@@ -31,6 +32,7 @@ mod session;
 mod settings;
 mod sgr;
 mod shot;
+mod signals;
 mod spin;
 mod sprites;
 mod status;
@@ -50,6 +52,7 @@ use crate::{
     coach::Coach,
     drills::store::Store,
     learning::PolicyError,
+    printing,
     storage::Places,
     table::{Layout, LayoutError, Table},
 };
@@ -123,7 +126,7 @@ pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table)?;
-    Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), io::stdout().lock(), prompt)?)
+    Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), printing::stdout(), prompt)?)
 }
 
 /// What the terminal can show.

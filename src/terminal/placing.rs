@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn a_ball_stops_in_contact_with_another_even_if_the_step_would_jump_over_it() {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(0.0, 0.5));
         assert!(matches!(moved.stopped, Some(LayoutError::Overlap { first: 0, second: 1, .. })));
         let gap = moved.layout.balls[0].distance(moved.layout.balls[1]) - 2.0 * table.radius;

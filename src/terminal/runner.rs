@@ -7,10 +7,7 @@ use std::{
 };
 
 use crossterm::event::Event;
-use signal_hook::{
-    consts::{SIGCONT, SIGTSTP, SIGWINCH},
-    low_level::emulate_default_handler,
-};
+use signal_hook::consts::{SIGCONT, SIGWINCH};
 
 use tracing::{info, warn};
 
@@ -23,9 +20,10 @@ use super::{
     pace::Pace,
     recommender::{self, Answer, CoachNews, Job},
     session::Session,
+    signals,
     training::Report,
 };
-use crate::storage::Places;
+use crate::{printing::OneLine, storage::Places};
 
 /// Least time between two pictures; keys that come faster are drained and drawn together.
 const LEAST_INTERVAL: Duration = Duration::from_millis(15);
@@ -58,7 +56,8 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     })?;
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
-    let mut runner = Runner { app, session, jobs, errands, places, ticked, remembered, forgotten: false };
+    let mut runner =
+        Runner { app, session, jobs, errands, places, ticked, remembered, forgotten: false, written: String::new() };
     let end = runner.until_the_end(&news);
     runner.remember(true);
     info!(?end, "the screen closes");
@@ -67,7 +66,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     runner.errands.finish();
     match end? {
         // The parent is to see that a signal ended the program, even where the terminal is gone already.
-        Some(signal) => emulate_default_handler(signal),
+        Some(signal) => signals::die(signal),
         None => left,
     }
 }
@@ -93,6 +92,8 @@ struct Runner {
     remembered: (Option<Last>, Instant),
     /// Whether that could not be done.
     forgotten: bool,
+    /// What was last written into the log.
+    written: String,
 }
 
 impl Runner {
@@ -172,7 +173,12 @@ impl Runner {
     /// Writes refusals and failures down that were shown.
     fn write_down(&mut self) {
         for text in self.app.take_unwritten() {
-            warn!("{text}");
+            // A key that is held is refused again and again.
+            if self.written == text {
+                continue;
+            }
+            warn!("{}", OneLine(&text));
+            self.written = text;
         }
     }
 
@@ -193,7 +199,7 @@ impl Runner {
             // A resize needs a picture, which follows anyway.
             News::Input(_) | News::Signal(SIGWINCH) => None,
             News::InputEnded => return Ok(Next::Quit),
-            News::Signal(SIGTSTP) => Some(Effect::Suspend),
+            News::Signal(signal) if signals::stops(signal) => Some(Effect::Suspend),
             // Somebody else may have had the terminal since.
             News::Signal(SIGCONT) => {
                 self.session.leave()?;
@@ -237,7 +243,7 @@ impl Runner {
     /// Gives the terminal back and stops until the shell continues the program.
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
-        emulate_default_handler(SIGTSTP)?;
+        signals::stop()?;
         self.come_back()
     }
 

@@ -1,5 +1,10 @@
 //! The terminal while the program has it: taken over, given back as it was found, whatever ends the program.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "what takes the terminal over are control characters; text goes through the painter"
+)]
+
 use std::{
     fs::File,
     io::{self, IsTerminal, Write},
@@ -25,6 +30,7 @@ use ratatui::{
 };
 
 use super::painter::Painter;
+use crate::printing::OneLine;
 
 /// Whether the program has the terminal. A process has one, and a panic has to know: giving it back twice would move the
 /// cursor onto the report.
@@ -142,7 +148,7 @@ fn restore_on_panic() {
     let screen = thread::current().id();
     let report = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        tracing::error!("{info}");
+        tracing::error!("{}", OneLine(&info));
         if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
             let _ = disable_raw_mode();
             let _ = give_back(&mut io::stdout());

@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use super::{spin::Spin, words::BALL_NAMES};
+use super::spin::Spin;
 use crate::{
     coach::{Hit, first_hit},
     physics::{CueInputs, Impulse},
     simulation::{EventKind, Rail, Recording, ShotError},
-    table::{BALLS, Layout, Table},
+    table::{BALLS, CueBall, Layout, Table},
 };
 
 /// Distance of two dots of a path, m. The screen shows every second or third of them, as its sub-pixels ask for.
@@ -114,12 +114,12 @@ impl Shot {
         }
     }
 
-    /// How the cue ball meets the first object ball, in words.
-    pub fn contact_words(&self) -> Option<String> {
+    /// How the cue ball meets the first object ball, in words, for who plays with `cue_ball`.
+    pub fn contact_words(&self, cue_ball: CueBall) -> Option<String> {
         let contact = self.contact?;
         let side = if contact.left { "left" } else { "right" };
         let percent = (100.0 * contact.fullness).round();
-        Some(format!("hits {} {percent} % full, {side} side", BALL_NAMES[contact.ball]))
+        Some(format!("hits {} {percent} % full, {side} side", cue_ball.names()[contact.ball]))
     }
 }
 
@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     fn shot(layout: &str, cue: &str) -> Shot {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let layout = Layout::parse(layout, &table).unwrap();
         Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "policy").unwrap()
     }
@@ -165,7 +165,8 @@ mod tests {
         let contact = half.contact.unwrap();
         assert_eq!(contact.ball, 1);
         assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
-        assert_eq!(half.contact_words().unwrap(), "hits yellow 50 % full, left side");
+        assert_eq!(half.contact_words(CueBall::White).unwrap(), "hits yellow 50 % full, left side");
+        assert_eq!(half.contact_words(CueBall::Yellow).unwrap(), "hits white 50 % full, left side");
     }
 
     #[test]

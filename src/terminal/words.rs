@@ -7,10 +7,8 @@ use crate::{
     game::Rule,
     learning::evaluation::SuccessRate,
     simulation::{EventKind, Rail},
-    table::BALLS,
+    table::{BALLS, CueBall},
 };
-
-pub use crate::table::BALL_NAMES;
 
 /// The cushion's name as it lies on the screen.
 pub const fn rail_name(rail: Rail) -> &'static str {
@@ -22,9 +20,9 @@ pub const fn rail_name(rail: Rail) -> &'static str {
     }
 }
 
-/// What happens, in a few words.
-pub fn event_words(kind: EventKind) -> String {
-    let name = |ball: usize| BALL_NAMES[ball];
+/// What happens, in a few words, for who plays with `cue_ball`.
+pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
+    let name = |ball: usize| cue_ball.names()[ball];
     match kind {
         EventKind::BallBall(first, second) => format!("{} - {}", name(first), name(second)),
         EventKind::BallRail(ball, rail) => format!("{} - {}", name(ball), rail_name(rail)),
@@ -47,14 +45,14 @@ pub const fn rail_word(rail: Rail) -> &'static str {
 
 /// What sort of shot it is: the first object ball, the cushions on the way to the second, and how hard. A bank shot comes
 /// off a cushion to the first ball.
-pub fn kind_words(kind: Kind) -> String {
+pub fn kind_words(kind: Kind, cue_ball: CueBall) -> String {
     let bank = if kind.cushion_first { "bank " } else { "" };
     let way = match kind.way {
         Way::Direct => "direct",
         Way::OffCushion => "1-2 rails",
         Way::AroundTheTable => "3+ rails",
     };
-    format!("{bank}{}, {way}, {}", BALL_NAMES[kind.first_ball.min(BALLS - 1)], kind.pace)
+    format!("{bank}{}, {way}, {}", cue_ball.names()[kind.first_ball.min(BALLS - 1)], kind.pace)
 }
 
 /// The rule's name where there is little room.

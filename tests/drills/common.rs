@@ -43,6 +43,7 @@ pub fn command(folder: &Path, args: &[&str]) -> Command {
 pub fn program(folder: &Path, program: &Path) -> Command {
     let mut command = Command::new(program);
     command.current_dir(folder).env("XDG_DATA_HOME", folder).env("HOME", folder);
+    command.env("XDG_CONFIG_HOME", folder.join("config")).env("XDG_STATE_HOME", folder.join("state"));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }

@@ -3,4 +3,5 @@
 mod common;
 mod kept;
 mod scores;
+mod sides;
 mod trouble;

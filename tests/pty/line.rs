@@ -84,6 +84,7 @@ fn a_line_that_is_cut_while_a_run_is_watched_ends_the_watching() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
     let trained = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
+        .envs(super::shared::home())
         .args(["train", "--steps", "2000", "--run"])
         .arg(&run)
         .output()

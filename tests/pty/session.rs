@@ -59,6 +59,7 @@ impl Session {
     }
 
     pub fn start_at(home: &Path, mut command: CommandBuilder, width: u16, height: u16) -> Self {
+        command.env("HOME", home);
         command.env("XDG_STATE_HOME", home.join("state"));
         command.env("XDG_CONFIG_HOME", home.join("config"));
         if command.get_env("XDG_DATA_HOME").is_none_or(|folder| !Path::new(folder).starts_with(std::env::temp_dir())) {

@@ -9,6 +9,7 @@ use std::{
 use portable_pty::CommandBuilder;
 
 use super::session::{OPENING, PATIENCE, Session, carom};
+use super::shared::home;
 
 /// What every frame begins with.
 const FRAME: &[u8] = b"\x1b[?2026h";
@@ -146,7 +147,14 @@ fn a_note_is_kept_that_was_made_just_before_the_end() {
     let home = tempfile::tempdir().unwrap();
     let mut save = Command::new(env!("CARGO_BIN_EXE_carom"));
     save.args(["drill", "save", "mine", "--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5", "--rule", "three-cushion"]);
-    assert!(save.env("XDG_DATA_HOME", home.path().join("data")).output().unwrap().status.success());
+    assert!(
+        save.envs(super::shared::home())
+            .env("XDG_DATA_HOME", home.path().join("data"))
+            .output()
+            .unwrap()
+            .status
+            .success()
+    );
     let mut session = Session::start_at(home.path(), carom(), 80, 24);
     session.wait_for(OPENING);
     // The library's last category holds the position, of which the coach begins to think when it is opened.
@@ -161,7 +169,7 @@ fn a_note_is_kept_that_was_made_just_before_the_end() {
 #[test]
 fn without_a_terminal_it_names_the_command_line() {
     for term in ["xterm", "dumb"] {
-        let output = Command::new(env!("CARGO_BIN_EXE_carom")).env("TERM", term).output().unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_carom")).envs(home()).env("TERM", term).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
         assert!(output.stdout.is_empty());
         assert!(String::from_utf8_lossy(&output.stderr).contains("carom recommend --layout"));
@@ -211,6 +219,7 @@ fn a_pipe_that_is_closed_ends_it_quietly() {
     for (ends, told) in [("--plain < /dev/null", ""), ("--plain | true", ""), ("| true", "carom recommend --layout")] {
         let output = Command::new("sh")
             .args(["-c", &format!("echo help | \"$0\" {ends}"), env!("CARGO_BIN_EXE_carom")])
+            .envs(home())
             .env("XDG_CONFIG_HOME", "/nonexistent")
             .output()
             .unwrap();

@@ -9,6 +9,7 @@ mod finder;
 mod keys;
 mod mouse;
 mod settings;
+mod sides;
 mod table;
 mod tabs;
 mod toasts;

@@ -8,6 +8,8 @@ use std::{
 };
 
 use assert_cmd::cargo::cargo_bin;
+
+use crate::shared::Kept;
 use serde_json::Value;
 
 /// An agent that learns thousands of updates a second.
@@ -34,6 +36,7 @@ pub fn command(folder: &Path, line: &str) -> Command {
     let mut command = Command::new(cargo_bin!("carom"));
     // The user's own runs are in the test's folder, too.
     command.args(line.split_whitespace()).current_dir(folder).env("XDG_DATA_HOME", folder).env("HOME", folder);
+    command.env("XDG_CONFIG_HOME", folder.join("config")).env("XDG_STATE_HOME", folder.join("state"));
     command
 }
 
@@ -54,8 +57,8 @@ pub fn done(folder: &Path, line: &str) -> Outcome {
     outcome
 }
 
-pub fn start(folder: &Path, line: &str) -> Child {
-    command(folder, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+pub fn start(folder: &Path, line: &str) -> Kept {
+    Kept(command(folder, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap())
 }
 
 /// Waits until there is such a file, while the program runs.

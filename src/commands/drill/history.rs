@@ -164,7 +164,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
                 Goal::Free => "-".to_owned(),
                 Goal::Run(points) => format!("run of {points}"),
                 Goal::Exam => "exam".to_owned(),
-                Goal::Game { innings } => format!("{innings} innings"),
+                Goal::Game { innings } | Goal::Match { innings } => format!("{innings} innings"),
             },
             record.made.to_string(),
             record.tried.to_string(),

@@ -15,6 +15,7 @@ use crate::{
         output::{json_line, line, prompt, tell},
     },
     drills::{Goal, Session, Venue},
+    storage::Lock,
 };
 
 /// Log makes and misses at a real table.
@@ -65,7 +66,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let workspace = Workspace::open()?;
     let exercise = workspace.exercise(&args.name)?.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { workspace, session, name: args.name.clone(), json: args.json };
+    let mut log = Log { workspace, session, name: args.name.clone(), json: args.json, lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(
@@ -92,6 +93,8 @@ struct Log {
     /// The exercise's.
     name: String,
     json: bool,
+    /// Of the sessions, from the first note that is taken back: another program's would be lost or come back.
+    lock: Option<Lock>,
 }
 
 impl Log {
@@ -105,6 +108,12 @@ impl Log {
 
     /// Takes the last note back; where there is none in this session, that of the last session at a table, which then goes on.
     fn undo(&mut self) -> Result<(), Failure> {
+        if self.lock.is_none() {
+            self.lock = Some(self.workspace.store.lock().map_err(Failure::failed)?);
+            // Another program may have taken something of it back meanwhile.
+            let known = self.workspace.sessions().into_iter().find(|known| known.id == self.session.id);
+            self.session = known.unwrap_or_else(|| self.session.clone());
+        }
         if self.session.attempts.is_empty() {
             let is_noted = |earlier: &Session| {
                 (earlier.venue, earlier.goal) == (Venue::Table, Goal::Free)
@@ -155,6 +164,7 @@ impl Log {
                 done => {
                     done?;
                     self.keep()?;
+                    self.lock = None;
                 }
             }
         }

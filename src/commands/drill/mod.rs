@@ -15,7 +15,12 @@ mod workspace;
 
 use clap::Subcommand;
 
-pub use self::{attempts::strokes, options::PlayOptions, strokes::play, workspace::Workspace};
+pub use self::{
+    attempts::strokes,
+    options::PlayOptions,
+    strokes::{Strokes, play},
+    workspace::Workspace,
+};
 use super::Failure;
 
 /// Practise: exercises to play here or to log from a real table, exams, scores, positions of one's own.

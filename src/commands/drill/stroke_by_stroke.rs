@@ -21,8 +21,8 @@ use crate::{
         exam::{Mark, mark},
     },
     learning::evaluation::SuccessRate,
-    physics::CueInputs,
-    table::{Layout, Table},
+    physics::{CueInputs, least_elevation},
+    table::{CueBall, Layout, Table},
 };
 
 /// What makes the coach for a table.
@@ -51,6 +51,8 @@ struct Position<'a> {
     title: &'a str,
     rule: &'static str,
     table: &'a str,
+    /// The colour of the cue ball, which comes first in the layout.
+    cue_ball: CueBall,
     layout: &'a Layout,
 }
 
@@ -60,6 +62,7 @@ struct Turn<'a> {
     kind: &'static str,
     number: usize,
     exercise: &'a str,
+    cue_ball: CueBall,
     made: bool,
     verdict: String,
     helped: bool,
@@ -110,11 +113,21 @@ struct Outcome {
     /// Of an exam.
     #[serde(skip_serializing_if = "Option::is_none")]
     expected: Option<Par>,
+    /// Of a match: white and yellow, each with its own score.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sides: Option<Sides>,
     /// Standard deviations of the same.
     #[serde(skip_serializing_if = "Option::is_none")]
     spread: Option<Par>,
     #[serde(skip_serializing_if = "Option::is_none")]
     nearest: Option<&'static str>,
+}
+
+/// The scores of the two sides of a match.
+#[derive(Serialize)]
+struct Sides {
+    white: Score,
+    yellow: Score,
 }
 
 fn percent(rate: &SuccessRate) -> String {
@@ -140,12 +153,16 @@ impl<'a> StrokeByStroke<'a> {
             return Ok(());
         }
         let number = self.session.attempts.len() + 1;
+        let cue_ball = self.session.cue_ball_now();
         if self.options.json {
             let rule = rule.name();
-            json_line(&Position { kind: "position", number, exercise: name, title, rule, table, layout })?;
+            json_line(&Position { kind: "position", number, exercise: name, title, rule, table, cue_ball, layout })?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
-            line(format_args!("{name} ({rule}): {title}balls {}", layout_text(layout)))?;
+            // Where it is white in every stroke, nobody asks.
+            let is_told = self.session.is_match() || cue_ball != CueBall::White;
+            let turn = if is_told { format!("; the cue ball is {cue_ball}") } else { String::new() };
+            line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
         }
         self.shown = shown;
         Ok(())
@@ -155,6 +172,7 @@ impl<'a> StrokeByStroke<'a> {
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: Stroke) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let helped = matches!(stroke, Stroke::Coach);
+        let cue_ball = self.session.cue_ball_now();
         if let Stroke::Own(cue) = &stroke {
             check(table, cue).map_err(Failure::wrong_input)?;
         }
@@ -172,6 +190,9 @@ impl<'a> StrokeByStroke<'a> {
             (Stroke::Coach, None) => return Ok(false),
         };
         let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
+        let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
+        let is_raised = raised != meant;
+        let meant = raised;
         let share = chance(self.session.skill, rule, table, layout, &meant);
         if let Some(attempt) = self.session.attempts.last_mut() {
             attempt.by_coach = helped;
@@ -187,13 +208,14 @@ impl<'a> StrokeByStroke<'a> {
 
         let whose = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
-        let (verdict, run) = (played.verdict(rule), self.session.run());
+        let (verdict, run) = (played.verdict(cue_ball), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
         if self.options.json {
             let turn = Turn {
                 kind: "attempt",
                 number,
                 exercise: self.session.attempts.last().map_or("", |attempt| &attempt.exercise),
+                cue_ball,
                 made: played.made,
                 verdict,
                 helped,
@@ -215,6 +237,11 @@ impl<'a> StrokeByStroke<'a> {
             json_line(&turn)?;
             return Ok(true);
         }
+        if is_raised {
+            let over = least_elevation(table, layout, &meant).ok().and_then(|least| least.over);
+            let over = over.map_or(String::new(), |over| format!(": {over} is in the way of a lower one"));
+            line(format_args!("   the cue is raised to {:.2} degrees{over}", meant.theta.to_degrees()))?;
+        }
         line(format_args!("{number}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
         if helped {
             line(format_args!("   the coach played {}", shot_text(&meant)))?;
@@ -235,7 +262,7 @@ impl<'a> StrokeByStroke<'a> {
     /// The shot that the exercise teaches, where the balls lie for it.
     fn own(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
-        exercise.shot.filter(|_| !self.session.is_game())
+        exercise.taught().filter(|_| !self.session.is_game())
     }
 
     fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {
@@ -275,12 +302,21 @@ impl<'a> StrokeByStroke<'a> {
                 session: session.id.clone(),
                 over: session.is_over(),
                 score: record.into(),
+                sides: session.is_match().then(|| Sides {
+                    white: session.side(CueBall::White).into(),
+                    yellow: session.side(CueBall::Yellow).into(),
+                }),
                 expected: mark.map(|mark| mark.expected),
                 spread: mark.map(|mark| mark.spread),
                 nearest: mark.map(|mark| mark.nearest),
             })?);
         }
         line(words(&record))?;
+        if session.is_match() {
+            for cue_ball in [session.cue_ball, session.cue_ball.other()] {
+                line(format_args!("{cue_ball}: {}", words(&session.side(cue_ball))))?;
+            }
+        }
         match (session.goal, mark) {
             (Goal::Run(points), _) if session.is_over() => {
                 line(format_args!("the run of {points} is made, after {}", plural(record.tried, "attempt")))

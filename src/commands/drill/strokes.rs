@@ -19,6 +19,8 @@ pub enum Strokes {
     Input,
     /// The coach.
     Coach,
+    /// The standard input for the side that begins a match, the coach for the other.
+    AgainstCoach,
     /// One that is repeated.
     Same(Stroke),
 }
@@ -37,10 +39,16 @@ pub fn play(
     while game.session().attempts.len() < most {
         let Some((table, layout)) = game.session().position().map_err(Failure::failed)? else { break };
         game.show(&layout)?;
+        let is_begun_by = |session: &Session| session.cue_ball_now() == session.cue_ball;
+        let is_line = match strokes {
+            Strokes::Input => true,
+            Strokes::AgainstCoach => is_begun_by(game.session()),
+            Strokes::Coach | Strokes::Same(_) => false,
+        };
         let stroke = match strokes {
-            Strokes::Coach => Ok(Stroke::Coach),
             Strokes::Same(stroke) => Ok(stroke),
-            Strokes::Input => {
+            _ if !is_line => Ok(Stroke::Coach),
+            _ => {
                 prompt("shot a,b,theta,phi,V or coach: ");
                 let Some(line) = input.next() else { break };
                 let line = line.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
@@ -52,7 +60,6 @@ pub fn play(
                 text.parse()
             }
         };
-        let is_line = matches!(strokes, Strokes::Input);
         let (failure, is_refused) = match stroke.and_then(|stroke| game.stroke(&table, &layout, stroke)) {
             Ok(true) => continue,
             Ok(false) => (game.no_point(), is_line),

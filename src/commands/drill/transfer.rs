@@ -15,7 +15,8 @@ use crate::{
         Store,
         store::{Imported, Practice},
     },
-    storage::{Places, write_atomic},
+    printing::OneLine,
+    storage::{self, Places, target_of, write_atomic},
 };
 
 /// Write all sessions, positions and the skill of one's own as one JSON file.
@@ -46,7 +47,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
         Some(file) => {
             let refuse = |error: io::Error| Failure::failed(format_args!("{}: {error}", file.display()));
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
-            write_atomic(file, &bytes).map_err(refuse)?;
+            write_atomic(&target_of(file), &bytes).map_err(refuse)?;
             let (positions, sessions) = (practice.library.exercises.len(), practice.sessions.len());
             tell(format_args!(
                 "{} and {} written to {}",
@@ -69,9 +70,9 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     let file = args.file.display();
     let mut text = String::new();
     let read = if args.file == Path::new("-") {
-        io::stdin().read_to_string(&mut text).map(|_| ())
+        io::stdin().take(storage::PRACTICE).read_to_string(&mut text).map(|_| ())
     } else {
-        std::fs::read_to_string(&args.file).map(|read| text = read)
+        storage::read_text(&args.file, storage::PRACTICE).map(|read| text = read)
     };
     read.map_err(|error| Failure::failed(format_args!("{file}: {error}")))?;
     let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
@@ -88,7 +89,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
         ))?;
     }
     for sentence in refused {
-        tell(format_args!("refused: {sentence}"));
+        tell(format_args!("refused: {}", OneLine(sentence)));
     }
     if refused.is_empty() {
         return Ok(());

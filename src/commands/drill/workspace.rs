@@ -4,6 +4,7 @@ use crate::{
     coach::Skill,
     commands::{Failure, named::own_skill, output::tell},
     drills::{Exercise, Library, Session, Store},
+    printing::OneLine,
     storage::Places,
 };
 
@@ -49,6 +50,6 @@ pub fn player(given: Option<Skill>) -> Skill {
 /// Tells what could not be read.
 pub fn note(notes: &[String]) {
     for sentence in notes {
-        tell(format_args!("note: {sentence}"));
+        tell(format_args!("note: {}", OneLine(sentence)));
     }
 }

@@ -28,6 +28,7 @@ use crate::{
         evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
     },
     physics::CueInputs,
+    printing,
     table::{Layout, Table},
 };
 
@@ -149,11 +150,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         report
     };
     if args.json {
-        let mut out = std::io::stdout().lock();
-        serde_json::to_writer(&mut out, &report).map_err(std::io::Error::from)?;
+        let mut out = printing::stdout();
+        printing::json(&mut out, &report)?;
         writeln!(out)?;
     } else {
-        print(&mut std::io::stdout().lock(), &report, args.layouts)?;
+        print(&mut printing::stdout(), &report, args.layouts)?;
     }
     Ok(())
 }

@@ -14,6 +14,7 @@ use crate::{
     coach::{Inning, Skill, inning},
     commands::{Failure, output::tell, recommend::coach_for},
     learning::evaluation::{SuccessRate, held_out_layouts},
+    printing,
     table::{Layout, Table},
 };
 
@@ -79,9 +80,9 @@ pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
         innings.push(played);
     }
     let report = report(args, &coach.table().name, skill, &innings, start.elapsed());
-    let mut out = std::io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
-        serde_json::to_writer(&mut out, &report).map_err(std::io::Error::from)?;
+        printing::json(&mut out, &report)?;
         writeln!(out)?;
     } else {
         print(&mut out, &report)?;

@@ -1,12 +1,12 @@
 //! `carom recommend --margins`: how far off the shot may be, and where to aim.
 
-use std::fmt;
+use std::{fmt, sync::mpsc, thread, time::Duration};
 
 use serde::Serialize;
 
 use crate::{
     coach::{Aim, Input, Map, Margin, aim, map, margins},
-    commands::Failure,
+    commands::{Failure, output::tell},
     game::Rule,
     physics::CueInputs,
     table::{Layout, Table},
@@ -34,7 +34,28 @@ pub struct Margins {
     maps: [Map; 2],
 }
 
+/// Longest time that the margins of one shot may take. On a table that exists they take a tenth.
+const LONGEST: Duration = Duration::from_secs(1);
+
 impl Margins {
+    /// Of one shot, where they can be had in time; otherwise that is told on the standard error.
+    pub fn in_time(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Option<Self>, Failure> {
+        let (sender, found) = mpsc::channel();
+        let (table, layout, cue) = (table.clone(), *layout, *cue);
+        // Nobody waits for one that takes longer; it ends with the program.
+        thread::spawn(move || drop(sender.send(Self::of(rule, &table, &layout, &cue))));
+        found.recv_timeout(LONGEST).map_or_else(
+            |_| {
+                tell(format_args!(
+                    "note: the margins take more than {} s on this table and are left out",
+                    LONGEST.as_secs()
+                ));
+                Ok(None)
+            },
+            |margins| margins.map(Some),
+        )
+    }
+
     /// Of one shot.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, Failure> {
         let draw = |across, up| map(rule, table, layout, cue, across, up, CELLS);

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use self::margins::Margins;
 use super::{
     Failure,
-    input::{ByTable, Scene, answer_lines, note_doubts},
+    input::{ByTable, Keys, Scene, answer_lines, note_doubts},
     named::{policy_called, skill_called},
     output::impulse_words,
 };
@@ -21,6 +21,7 @@ use crate::{
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
+    printing,
     table::{Layout, Table},
 };
 
@@ -74,6 +75,10 @@ struct Question {
     layout: Layout,
     #[serde(default)]
     rule: Rule,
+}
+
+impl Keys for Question {
+    const KEYS: &'static [&'static str] = &["preset", "layout", "rule"];
 }
 
 /// The answer in JSON.
@@ -150,9 +155,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let (table, layout) = args.scene.read()?;
     let coach = coach_for(table, &args.policy)?;
     let answer = answer(args, &coach, &layout, args.rule)?;
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if args.json {
-        serde_json::to_writer(&mut out, &answer).map_err(io::Error::from)?;
+        printing::json(&mut out, &answer)?;
         writeln!(out)?;
     } else {
         describe(&mut out, args, coach.table(), &answer)?;
@@ -178,7 +183,7 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
-        answer.margins = Some(Margins::of(rule, coach.table(), layout, &answer.cue)?);
+        answer.margins = Margins::in_time(rule, coach.table(), layout, &answer.cue)?;
     }
     Ok(answer)
 }

@@ -1,9 +1,6 @@
 //! `carom train --list`: the runs there are.
 
-use std::{
-    io::{self, Write},
-    path::Path,
-};
+use std::{io::Write, path::Path};
 
 use crate::{
     commands::{
@@ -11,6 +8,7 @@ use crate::{
         output::{columns, tell},
     },
     learning::run::list::{Listing, Summary, runs_in},
+    printing::{self, OneLine},
     storage::Places,
 };
 
@@ -25,12 +23,12 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
         }
     };
     for sentence in unreadable {
-        tell(format_args!("note: {sentence}"));
+        tell(format_args!("note: {}", OneLine(sentence)));
     }
-    let mut out = io::stdout().lock();
+    let mut out = printing::stdout();
     if json {
         for run in &runs {
-            serde_json::to_writer(&mut out, run).map_err(io::Error::from)?;
+            printing::json(&mut out, run)?;
             writeln!(out)?;
         }
         return Ok(());

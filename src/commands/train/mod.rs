@@ -17,7 +17,7 @@ use std::{
 
 use clap::value_parser;
 use signal_hook::{
-    consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ},
+    consts::{SIGHUP, SIGINT, SIGTERM},
     flag,
 };
 
@@ -32,6 +32,7 @@ use crate::{
         learner::StartError,
         run::{Ending, Limits, Run, RunError, discard, seeds::is_group},
     },
+    printing,
 };
 
 /// Train an agent without a screen. The run's folder holds its configuration (config.json), its metrics as JSON Lines
@@ -131,11 +132,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
         flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
     }
-    // A write beyond the limit on file sizes shall fail and be reported, not end the program; and a terminal that is hung
-    // up, as when an ssh connection breaks, is no reason to stop: the run can be watched and stopped from the next one.
-    for signal in [SIGXFSZ, SIGHUP] {
-        flag::register(signal, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
-    }
+    // A terminal that is hung up, as when an ssh connection breaks, is no reason to stop: the run can be watched and
+    // stopped from the next one.
+    flag::register(SIGHUP, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
     let session = Session { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json };
     if let Some(name) = &args.resume {
         return resume(&run_named(name), args.jobs, &session);
@@ -195,7 +194,7 @@ fn say_result(run: &Run, score: Score, json: bool) -> io::Result<()> {
         return Ok(());
     }
     writeln!(
-        io::stdout(),
+        printing::stdout(),
         "{}: mean {} {:.4} on held-out layouts after {} shots",
         result.display(),
         learner.plan().reward,
@@ -229,6 +228,7 @@ fn minutes(value: f64) -> Result<Duration, Failure> {
 fn failure(error: RunError) -> Failure {
     match error {
         RunError::Occupied(_)
+        | RunError::Foreign { .. }
         | RunError::Agent(_)
         | RunError::Origin { .. }
         | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),

@@ -12,7 +12,7 @@ use crate::{
         run::{Schedule, origin::Weights, run_name, seeds::Order},
         timestamp,
     },
-    storage::Places,
+    storage::{self, Places},
 };
 
 /// What to train, with which weights, where.
@@ -54,7 +54,8 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>) -> Result
     let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
     if let Some(path) = path {
         let shown = path.display();
-        let text = std::fs::read_to_string(path).map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
+        let text = storage::read_text(path, storage::SMALL)
+            .map_err(|error| Failure::failed(format_args!("{shown}: {error}")))?;
         replace(&mut settings, &text, &format!("the settings in {shown}"))?;
     }
     for pair in set {

@@ -1,6 +1,6 @@
 //! What the user sees while training: a bar on a terminal, else a line for every measurement.
 
-use std::io::{IsTerminal, Write as _};
+use std::io::Write as _;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::{
     commands::output::tell,
     learning::run::{Run, Watcher, metrics::Record},
+    printing,
 };
 
 /// The progress of one run.
@@ -32,7 +33,7 @@ impl Screen {
     pub fn new(run: &Run, json: bool, seed: Option<u64>) -> Self {
         let learner = run.learner();
         let plan = learner.plan();
-        let bar = if seed.is_none() && std::io::stderr().is_terminal() && !learner.is_finished() {
+        let bar = if seed.is_none() && printing::is_watched() && !learner.is_finished() {
             ProgressBar::new(plan.shots)
         } else {
             ProgressBar::hidden()
@@ -78,10 +79,10 @@ fn summary(record: &Record) -> Option<String> {
 impl Watcher for Screen {
     fn line(&mut self, record: &Record) {
         if self.json
-            && let Ok(line) = serde_json::to_string(&Line { seed: self.seed, record })
+            && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
             // A reader that has gone away must not end the training.
-            let _ = writeln!(std::io::stdout(), "{line}");
+            let _ = writeln!(printing::stdout(), "{line}");
         }
         self.bar.set_position(record.shots);
         let Some(summary) = summary(record) else { return };

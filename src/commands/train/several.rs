@@ -1,7 +1,7 @@
 //! Several seeds: one after the other or side by side, and the spread between them.
 
 use std::{
-    io::{self, Write},
+    io::Write,
     path::Path,
     sync::atomic::{AtomicUsize, Ordering},
     time::{Duration, Instant},
@@ -11,6 +11,7 @@ use super::{Session, abandon, failure, how_to_go_on, order::Read, screen::Screen
 use crate::{
     commands::{Failure, output::tell},
     learning::run::{Ending, RunError, seeds::Group},
+    printing,
 };
 
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
@@ -52,7 +53,7 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
     if let Some(spread) = spread.filter(|_| !session.json) {
         let sd = spread.sd.map(|sd| format!(", standard deviation {sd:.4}")).unwrap_or_default();
         writeln!(
-            io::stdout(),
+            printing::stdout(),
             "{}: mean {:.4}{sd}, {:.4} to {:.4} on held-out layouts, seeds: {}, after {} shots",
             group.folder().display(),
             spread.mean,

@@ -25,11 +25,14 @@ pub use self::{
 use super::{Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session};
 use crate::{
     learning::policy::kept::is_name,
-    storage::{Places, create_atomic, remove_abandoned_files, write_atomic},
+    storage::{self, Lock, Places, create_atomic, remove_abandoned_files, write_atomic},
 };
 
 /// What a session's file says that it is.
 const SESSION: &str = "carom-session";
+
+/// Times to ask for the lock, a fifth of a second each.
+const LOCK_ATTEMPTS: u32 = 50;
 
 /// What the files are called after their names.
 const EXTENSION: &str = "json";
@@ -83,6 +86,21 @@ impl Store {
             created
         };
         written.map_err(|error| StoreError::file(&path, error))
+    }
+
+    /// The right to take notes back, which one program has at a time; waits for it.
+    ///
+    /// # Errors
+    /// Where another keeps it for long, or whatever the file system reports.
+    pub fn lock(&self) -> Result<Lock, StoreError> {
+        let refuse = |error| StoreError::file(&self.sessions, error);
+        fs::create_dir_all(&self.sessions).map_err(refuse)?;
+        for _ in 0..LOCK_ATTEMPTS {
+            if let Some(lock) = Lock::take(&self.sessions).map_err(refuse)? {
+                return Ok(lock);
+            }
+        }
+        Err(refuse(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing what is noted; try again")))
     }
 
     /// The player's own positions, by name.
@@ -165,7 +183,7 @@ struct SessionName {
 }
 
 fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
-    let text = fs::read(path).map_err(|error| StoreError::file(path, error))?;
+    let text = storage::read(path, storage::PRACTICE).map_err(|error| StoreError::file(path, error))?;
     marked::read(SESSION, &text).map_err(|error| StoreError::Mark { path: path.into(), error })
 }
 
@@ -181,7 +199,7 @@ fn validate(session: &Session) -> Result<(), StoreError> {
 }
 
 fn read_position(path: &Path) -> Result<Exercise, StoreError> {
-    let text = fs::read_to_string(path).map_err(|error| StoreError::file(path, error))?;
+    let text = storage::read_text(path, storage::PRACTICE).map_err(|error| StoreError::file(path, error))?;
     let library = LibraryFile::parse(&text).map_err(|error| StoreError::Library { path: path.into(), error })?;
     let [exercise] = <[Exercise; 1]>::try_from(library.exercises)
         .map_err(|found| StoreError::Many { path: path.into(), found: found.len() })?;

@@ -1,11 +1,14 @@
 //! The player's own skill, kept in a file of its own.
 
-use std::{fs, io};
+use std::io;
 
 use serde::{Deserialize, Serialize};
 
 use super::{Store, StoreError, marked};
-use crate::{coach::Skill, drills::session::now, storage::write_atomic};
+use crate::{
+    storage,
+    {coach::Skill, drills::session::now, storage::write_atomic},
+};
 
 /// What the file says that it is.
 const PLAYER: &str = "carom-player";
@@ -25,7 +28,7 @@ impl Store {
     /// # Errors
     /// Where the file cannot be read.
     pub fn own_skill(&self) -> Result<Option<OwnSkill>, StoreError> {
-        match fs::read(&self.player) {
+        match storage::read(&self.player, storage::SMALL) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(StoreError::file(&self.player, error)),
             Ok(text) => {

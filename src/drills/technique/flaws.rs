@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_3;
 use super::{PATTERNS, Technique};
 use crate::{
     drills::{Category, Exercise, ExerciseError},
-    game::scores,
-    physics::CueInputs,
+    game::{Point, scores},
+    physics::{CueInputs, has_room},
 };
 
 /// Balls are gathered where no two are further apart, m: a little less than two diamonds of a `match` table.
@@ -29,7 +29,8 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let misses = |changed: CueInputs| !scores(exercise.rule, &table, layout, &changed);
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let mut checks = vec![
-        ("it makes the point by its rule", technique.tally.is_point(exercise.rule)),
+        ("the cue has room for it", has_room(&table, layout, &cue)),
+        ("it makes the point by its rule", Point::of(exercise.rule, &table, layout).is_made(&technique.tally)),
         ("it meets ball 1 first", technique.first == Some(1)),
         ("it meets ball 1 only once before ball 2", technique.is_clean),
         ("it covers at least a twentieth of ball 1", technique.fullness >= 0.05),

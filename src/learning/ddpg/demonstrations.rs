@@ -6,7 +6,7 @@ use rand::{Rng, RngExt};
 use super::{
     action::{ACTIONS, Action, ActionSpace},
     replay::Experience,
-    stroke::cue_inputs,
+    stroke::playable,
     view::{VIEWS, View},
 };
 use crate::{
@@ -30,7 +30,8 @@ pub fn demonstrate(
         let view = View::new(layout, rng.random_range(0..VIEWS));
         let mut action: Action = [0.0; ACTIONS];
         action[..space.actions()].fill_with(|| rng.random_range(-1.0..=1.0));
-        let earned = reward.within(table, layout, &cue_inputs(table, &view, action), patience);
+        let cue = playable(table, layout, &view, action).ok()?;
+        let earned = reward.within(table, layout, &cue, patience);
         (earned >= 1.0).then_some(Experience { view, action, success: 1.0 })
     })
 }
@@ -51,7 +52,8 @@ mod tests {
                 continue;
             };
             shown += 1;
-            assert_eq!(Reward::R3.of(&table, &layout, &cue_inputs(&table, &shot.view, shot.action)), 1.0);
+            let cue = playable(&table, &layout, &shot.view, shot.action).unwrap();
+            assert_eq!(Reward::R3.of(&table, &layout, &cue), 1.0);
         }
         assert!(shown > 20, "{shown}");
     }

@@ -6,7 +6,7 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{action::Action, replay::Experience, stroke::cue_inputs, view::View};
+use super::{action::Action, replay::Experience, stroke::playable, view::View};
 use crate::{
     game::Reward,
     physics::strike,
@@ -24,7 +24,7 @@ pub fn relabel(
     patience: u32,
     rng: &mut (impl Rng + ?Sized),
 ) -> Option<Experience> {
-    let cue = cue_inputs(table, view, action);
+    let cue = playable(table, layout, view, action).ok()?;
     let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: Patience(patience) };
     watch(table, layout, &strike(table, &cue), &mut way);
     let (first, begin) = way.met?;
@@ -42,8 +42,11 @@ pub fn relabel(
     let mut moved = *layout;
     moved.balls[second] = target;
     moved.validate(table).ok()?;
-    let success = reward.within(table, &moved, &cue, patience) >= 1.0;
-    success.then(|| Experience { view: View { second: view.mirror * target, ..*view }, action, success: 1.0 })
+    let view = View { second: view.mirror * target, ..*view };
+    // The moved ball may be in the cue's way.
+    let is_same = playable(table, &moved, &view, action) == Ok(cue);
+    let success = is_same && reward.within(table, &moved, &cue, patience) >= 1.0;
+    success.then_some(Experience { view, action, success: 1.0 })
 }
 
 /// Keeps the cue ball's way after it has met its first ball.
@@ -105,7 +108,8 @@ mod tests {
                     let balls = [after.view.cue, after.view.first, after.view.second].map(|ball| view.mirror * ball);
                     let moved = Layout::new(balls);
                     moved.validate(&table).unwrap();
-                    assert_eq!(reward.of(&table, &moved, &cue_inputs(&table, &after.view, action)), 1.0);
+                    let cue = playable(&table, &moved, &after.view, action).unwrap();
+                    assert_eq!(reward.of(&table, &moved, &cue), 1.0);
                 }
                 assert!(found > 20, "{name} {reward}: {found}");
             }

@@ -10,7 +10,7 @@ use super::{
     hyperparameters::Hyperparameters,
     replay::Experience,
     scenes::Scenes,
-    stroke::cue_inputs,
+    stroke::playable,
     trainer::Trainer,
     view::{VIEWS, View},
 };
@@ -83,8 +83,9 @@ impl Trainer {
     /// Plays and remembers one shot near `choice`; returns its reward.
     fn shoot(&mut self, layout: &Layout, view: View, choice: Action) -> f64 {
         let action = self.task.hyperparameters.exploration.stray(self.space(), choice, &mut self.rng);
-        let cue = cue_inputs(&self.table, &view, action);
-        let reward = self.task.reward.within(&self.table, layout, &cue, PATIENCE);
+        // Where the cue has no room there is no stroke, and nothing is earned.
+        let reward = playable(&self.table, layout, &view, action)
+            .map_or(0.0, |cue| self.task.reward.within(&self.table, layout, &cue, PATIENCE));
         let success = (reward / self.task.reward.highest()) as f32;
         self.replay.push(Experience { view, action, success });
         let hindsight = self.task.hyperparameters.hindsight;

@@ -7,8 +7,8 @@ use super::{
     view::View,
 };
 use crate::{
-    physics::{CueInputs, squirt},
-    table::Table,
+    physics::{CueInputs, NoRoom, squirt, with_room},
+    table::{Layout, Table},
 };
 
 /// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
@@ -93,6 +93,14 @@ pub fn cue_inputs(table: &Table, view: &View, action: Action) -> CueInputs {
         phi: view.angle_on_table(direction) - squirt(table, a),
         speed: meaning.speed.value,
     }
+}
+
+/// The stroke that carries out `action` in a `view` of `layout`, with the cue raised as far as rails and balls make it.
+///
+/// # Errors
+/// Where the cue has no room at any elevation.
+pub fn playable(table: &Table, layout: &Layout, view: &View, action: Action) -> Result<CueInputs, NoRoom> {
+    with_room(table, layout, &cue_inputs(table, view, action))
 }
 
 #[cfg(test)]

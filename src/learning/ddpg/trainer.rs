@@ -205,7 +205,7 @@ pub(in crate::learning) mod tests {
             ..Hyperparameters::default()
         };
         let task = Task { reward: Reward::R3, seed: 1, shots: 64 * 1_000, hyperparameters };
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let mut trainer = Trainer::new(task, table.clone()).unwrap();
         let layouts = held_out_layouts(&table, 400, HELD_OUT_SEED);
         let reward =

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{Policy, file::PolicyError};
-use crate::storage::write_atomic;
+use crate::storage::{self, write_atomic};
 
 /// What the files are called after their names.
 const EXTENSION: &str = "safetensors";
@@ -58,7 +58,7 @@ pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<
         return Err(KeepError::Taken(name.to_owned()));
     }
     Policy::load(policy)?;
-    let copy = || write_atomic(&kept, &std::fs::read(policy)?);
+    let copy = || write_atomic(&kept, &storage::read(policy, storage::LARGE)?);
     copy().map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
     Ok(kept)
 }

@@ -12,7 +12,7 @@ use crate::{
     learning::ddpg::{
         networks::Networks,
         scenes::Scenes,
-        stroke::cue_inputs,
+        stroke::{cue_inputs, playable},
         view::{VIEWS, View},
     },
     physics::CueInputs,
@@ -54,7 +54,8 @@ impl Policy {
         self.proposals(table, layout)[0].cue
     }
 
-    /// Every head's stroke for either object ball on either side, the critic's favourite first. There is at least one.
+    /// Every head's stroke for either object ball on either side, the critic's favourite first. There is at least one. The
+    /// cue is raised where it has to be; strokes for which it has no room at all have no chance, and come last.
     ///
     /// # Panics
     /// Never, as [`Policy::propose`].
@@ -83,7 +84,11 @@ impl Policy {
             let success = 1.0 / (1.0 + (-f64::from(*logit)).exp());
             // What is not a number must neither win nor upset the order.
             let success = if success.is_nan() { 0.0 } else { success };
-            Proposal { cue: cue_inputs(table, &scenes.views()[row / heads], *action), success }
+            let view = &scenes.views()[row / heads];
+            match playable(table, &layouts[row / (VIEWS * heads)], view, *action) {
+                Ok(cue) => Proposal { cue, success },
+                Err(_) => Proposal { cue: cue_inputs(table, view, *action), success: 0.0 },
+            }
         });
         Ok((0..layouts.len())
             .map(|_| {

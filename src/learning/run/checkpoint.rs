@@ -7,7 +7,10 @@ use super::{
     contents::{self, DamageReason, State, restore},
     error::RunError,
 };
-use crate::{learning::learner::Learner, storage::Staged};
+use crate::{
+    storage,
+    {learning::learner::Learner, storage::Staged},
+};
 
 /// The last checkpoint.
 pub const CURRENT: &str = "checkpoint.safetensors";
@@ -76,7 +79,7 @@ impl Checkpoints {
         let read = |name: &str| {
             let path = folder.join(name);
             let read = || {
-                let bytes = std::fs::read(&path)?;
+                let bytes = storage::read(&path, storage::LARGE)?;
                 let (learner, state) = restore(&bytes)?;
                 Ok(Loaded { learner, state, bytes, fallback: None })
             };

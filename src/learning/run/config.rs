@@ -12,7 +12,7 @@ use crate::{
         calendar::now,
         learner::{Learner, Plan},
     },
-    storage::write_atomic,
+    storage::{self, write_atomic},
     table::Table,
 };
 
@@ -120,7 +120,7 @@ impl Config {
     /// # Errors
     /// Where there is none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&std::fs::read(folder.join(FILE))?)?)
+        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL)?)?)
     }
 
     /// Writes it for the run in `folder`.
@@ -154,15 +154,21 @@ impl Config {
     }
 }
 
+/// Letters of a table's name in that of a folder.
+const LONGEST_TABLE: usize = 40;
+
 /// How a new run's folder is called where nobody says: names sort by the `moment` of the start, as `timestamp` gives it.
 pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: impl Display) -> String {
+    let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '_' };
+    // Whoever named the table thought of no folder.
+    let table: String = table.chars().map(plain).take(LONGEST_TABLE).collect();
     format!("{moment}-{agent}-{table}-{reward}-{seed}")
 }
 
 /// A sentence on the configuration in `folder`, which cannot be read for this reason.
 pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
     let version = || {
-        let config: Value = serde_json::from_slice(&std::fs::read(folder.join(FILE)).ok()?).ok()?;
+        let config: Value = serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL).ok()?).ok()?;
         let version = config.get("version")?.as_str()?.to_owned();
         (version != VERSION).then_some(version)
     };

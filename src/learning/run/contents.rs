@@ -10,9 +10,12 @@ use super::{
     config::{Schedule, Start},
     tally::Tally,
 };
-use crate::learning::{
-    learner::{Agent, Learner},
-    network::weights::{Reader, WeightsError, Writer},
+use crate::{
+    learning::{
+        learner::{Agent, Learner},
+        network::weights::{Reader, WeightsError, Writer},
+    },
+    storage,
 };
 
 /// Version of what a checkpoint holds.
@@ -129,7 +132,7 @@ pub fn shots_in(path: &Path) -> Option<u64> {
     struct Progress {
         shots: u64,
     }
-    let mut file = std::fs::File::open(path).ok()?;
+    let mut file = storage::open(path).ok()?;
     let mut length = [0; 8];
     file.read_exact(&mut length).ok()?;
     let length = u64::from_le_bytes(length).min(LONGEST_HEADER);

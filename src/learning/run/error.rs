@@ -11,6 +11,14 @@ pub enum RunError {
     /// The folder already holds a run.
     #[error("{0} already holds a run; go on with it by --resume {0}, or choose another folder by --run")]
     Occupied(String),
+    /// The folder holds something else.
+    #[error("{folder} is not empty and holds no run: \"{entry}\" is in it; choose a new folder by --run")]
+    Foreign {
+        /// The folder.
+        folder: String,
+        /// Something in it.
+        entry: String,
+    },
     /// The folder holds no run.
     #[error(
         "{0} holds no run to go on with: it has no checkpoint.safetensors; carom train --list shows the runs there are"

@@ -4,7 +4,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{learning::learner::Learner, physics::CueInputs, storage::replace, table::Layout};
+use crate::{
+    storage,
+    {learning::learner::Learner, physics::CueInputs, storage::replace, table::Layout},
+};
 
 /// The file's name.
 pub const FILE: &str = "shots.json";
@@ -58,6 +61,6 @@ impl Examples {
     /// # Errors
     /// Where there are none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&std::fs::read(folder.join(FILE))?)?)
+        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::LARGE)?)?)
     }
 }

@@ -8,6 +8,8 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
+use crate::{printing, storage};
+
 use super::number;
 
 /// One line of a run's metrics. Means are over the updates since the line before. Numbers that are not finite stand in the
@@ -110,7 +112,7 @@ impl MetricsFile {
     /// Adds a line to those that wait.
     pub fn push(&mut self, record: &Record) {
         // A record has nothing but numbers under fixed names, and memory takes any number of bytes.
-        if serde_json::to_writer(&mut self.waiting, record).is_ok() {
+        if printing::json(&mut self.waiting, record).is_ok() {
             self.waiting.push(b'\n');
         }
     }
@@ -156,7 +158,7 @@ impl MetricsFile {
 }
 
 fn content(path: &Path) -> io::Result<Vec<u8>> {
-    match fs::read(path) {
+    match storage::read(path, storage::LARGE) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
         content => content,
     }

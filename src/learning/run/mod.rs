@@ -89,11 +89,7 @@ impl Run {
     ) -> Result<Self, RunError> {
         std::fs::create_dir_all(folder).map_err(file(folder))?;
         let lock = lock(folder)?;
-        if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
-            || seeds::is_group(folder)
-        {
-            return Err(RunError::Occupied(folder.display().to_string()));
-        }
+        refuse_taken(folder)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
         let state = State { schedule, from, tally: Tally::default() };
         let checkpoints = Checkpoints::new(folder);
@@ -185,6 +181,22 @@ impl Run {
 /// Whether `folder` holds a run: something to go on from.
 pub fn holds_checkpoints(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
+}
+
+/// Refuses a folder in which anything is: a run, or files that no run has written. A run would write over some of them.
+fn refuse_taken(folder: &Path) -> Result<(), RunError> {
+    let name = || folder.display().to_string();
+    let holds = |file: &&str| folder.join(file).exists();
+    if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(holds) || seeds::is_group(folder) {
+        return Err(RunError::Occupied(name()));
+    }
+    for entry in std::fs::read_dir(folder).map_err(file(folder))? {
+        let entry = entry.map_err(file(folder))?.file_name();
+        if entry != Lock::FILE {
+            return Err(RunError::Foreign { folder: name(), entry: entry.to_string_lossy().into_owned() });
+        }
+    }
+    Ok(())
 }
 
 /// Takes possession of a folder, and clears away what was being written there when the last owner was killed.

@@ -16,7 +16,7 @@ use crate::{
         learner::{Learner, note_of},
         network::weights::{Reader, WeightsError},
     },
-    storage::write_atomic,
+    storage::{self, write_atomic},
     table::Table,
 };
 
@@ -41,7 +41,7 @@ impl Weights {
         if path.is_dir() {
             return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
         }
-        let bytes = std::fs::read(path).map_err(file(path))?;
+        let bytes = storage::read(path, storage::LARGE).map_err(file(path))?;
         if is_checkpoint(&bytes) {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }

@@ -183,10 +183,11 @@ mod tests {
     fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
         let folder = tempfile::tempdir().unwrap();
         let runs = ["kept", "gone"].map(|name| folder.path().join(name));
-        std::fs::create_dir(&runs[0]).unwrap();
-        std::fs::write(runs[0].join("notes.txt"), "mine").unwrap();
         for path in &runs {
             let mut run = small_run(path);
+            if *path == runs[0] {
+                std::fs::write(path.join("notes.txt"), "mine").unwrap();
+            }
             let asking = ask(path, Phase::Training, Request::Abandon);
             assert_eq!(run.practise(&SLOW, &mut Told::default()).unwrap(), Ending::Abandoned);
             asking.join().unwrap();

@@ -3,7 +3,7 @@
 
 use std::{fs, io, path::Path};
 
-use crate::storage::replace;
+use crate::storage::{self, replace};
 
 /// The file's name.
 pub const FILE: &str = "request";
@@ -49,7 +49,7 @@ impl Request {
         // Away first: another request may come while this one is read.
         let taken = folder.join(TAKEN);
         fs::rename(folder.join(FILE), &taken).ok()?;
-        let word = fs::read_to_string(&taken).unwrap_or_default();
+        let word = storage::read_text(&taken, storage::SMALL).unwrap_or_default();
         let _ = fs::remove_file(taken);
         Self::ALL.into_iter().find(|request| request.word() == word.trim())
     }

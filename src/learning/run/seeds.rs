@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     learning::learner::{Agent, Learner, Plan},
-    storage::{Lock, write_atomic},
+    storage::{self, Lock, write_atomic},
     table::Table,
 };
 
@@ -95,9 +95,7 @@ impl Group {
         order.beginner(order.plan.seed, weights.as_ref())?;
         std::fs::create_dir_all(folder).map_err(file(folder))?;
         let lock = super::lock(folder)?;
-        if is_group(folder) || holds_checkpoints(folder) {
-            return Err(RunError::Occupied(folder.display().to_string()));
-        }
+        super::refuse_taken(folder)?;
         if let Some(weights) = &weights {
             weights.write(&folder.join(WEIGHTS))?;
         }
@@ -114,7 +112,7 @@ impl Group {
     /// Where its description or its weights cannot be read, or another process works on it.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
         let path = folder.join(FILE);
-        let text = std::fs::read(&path).map_err(file(&path))?;
+        let text = storage::read(&path, storage::SMALL).map_err(file(&path))?;
         let note: Note = serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))?;
         let lock = super::lock(folder)?;
         let weights = match &note.from {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::storage::replace;
+use crate::storage::{self, replace};
 
 /// The file's name.
 pub const FILE: &str = "state.json";
@@ -93,6 +93,6 @@ impl Standing {
     /// # Errors
     /// Where there is none, or something else.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        Ok(serde_json::from_slice(&std::fs::read(folder.join(FILE))?)?)
+        Ok(serde_json::from_slice(&storage::read(&folder.join(FILE), storage::SMALL)?)?)
     }
 }

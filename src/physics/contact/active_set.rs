@@ -143,6 +143,12 @@ impl ActiveSet {
         self
     }
 
+    /// Whether nothing begins to slip: no friction yields, and no slip has only a direction.
+    pub fn lasts(&self) -> bool {
+        let lasts = |friction: &Friction| matches!(friction, Friction::Sticks | Friction::Slips(DVec2::ZERO));
+        self.cloth.iter().chain(&self.roll).chain(&self.contact).all(lasts)
+    }
+
     /// Whether any friction yields.
     pub fn yields(&self) -> bool {
         self.cloth.iter().chain(&self.roll).chain(&self.contact).any(|friction| *friction == Friction::Yields)

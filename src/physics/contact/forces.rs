@@ -4,20 +4,13 @@ use glam::{DVec2, DVec3};
 
 use super::{
     ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
-    linear::Factorized,
-    problem::{GYRATION, Limit, Place, Problem, Row, Unknown, coefficient},
-    solve::{PROXIMITY, ROUNDING, Side, solve},
+    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown},
+    solve::{Side, solve},
 };
 use crate::{
-    physics::{BallState, slip},
+    physics::BallState,
     table::{BALLS, Table},
 };
-
-/// Most scalar unknowns: a normal and two frictions a contact, five frictions of the cloth a ball.
-const MAX_UNKNOWNS: usize = 3 * MAX_CONTACTS + 5 * BALLS;
-
-/// Rounds of refinement that take the effect of [`PROXIMITY`] out again.
-const MAX_REFINEMENTS: usize = 8;
 
 /// What begins to slip more slowly than this share of g holds: in a second it would come to 1e-9 m/s.
 const DEPARTING: f64 = 1e-10;
@@ -40,8 +33,12 @@ pub struct Forces {
     pub normal: [f64; MAX_CONTACTS],
     /// By how much all laws hold, m/s²: negative where the regime that was asked for has ended.
     pub slack: f64,
-    /// Sizes of the problem's unknowns, to start from in a similar state.
-    sizes: [f64; MAX_UNKNOWNS],
+    /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
+    pub(super) friction: [DVec2; MAX_CONTACTS],
+    /// The cloth's forces per ball mass where they hold a ball, against slip, against rolling and against spin, m/s².
+    pub(super) cloth: [DVec2; BALLS],
+    pub(super) roll: [DVec2; BALLS],
+    pub(super) spin: [f64; BALLS],
 }
 
 /// The regime that holds in a state.
@@ -70,9 +67,7 @@ pub fn resolve(
     similar: Option<&Forces>,
 ) -> Option<Resolved> {
     let problem = Problem::new(table, balls, contacts.as_slice(), set);
-    let none = [0.0; MAX_UNKNOWNS];
-    let guess = similar.map_or(&none, |similar| &similar.sizes);
-    let solution = solve(&problem, &guess[..problem.rates.len()]);
+    let solution = solve(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut resolved = Resolved {
         contacts: *contacts,
@@ -126,33 +121,7 @@ pub fn resolve(
     Some(resolved)
 }
 
-/// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the regime's end,
-/// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
-pub fn forces(
-    table: &Table,
-    balls: &[BallState; BALLS],
-    contacts: &[Contact],
-    set: &ActiveSet,
-    similar: Option<&Forces>,
-) -> Option<Forces> {
-    if let [contact] = contacts
-        && let Some(forces) = slipping(table, balls, contact, set)
-    {
-        return Some(forces);
-    }
-    let problem = Problem::new(table, balls, contacts, set);
-    let mut sizes = [0.0; MAX_UNKNOWNS];
-    if let Some(similar) = similar {
-        sizes = similar.sizes;
-    }
-    let sizes = &mut sizes[..problem.rates.len()];
-    let accelerations = balance(&problem, problem.known, &problem.bias, sizes)?;
-    let mut forces = Forces::of(table.radius, &problem, sizes, &accelerations);
-    forces.slack = spin_slack(table.radius, balls, set).min(slack_of(&problem, sizes));
-    Some(forces)
-}
-
-/// The same where a friction yields: what holds is sought anew in every state.
+/// The forces where a friction yields: what holds is sought anew in every state.
 pub fn yielding(
     table: &Table,
     balls: &[BallState; BALLS],
@@ -161,7 +130,7 @@ pub fn yielding(
     similar: &Forces,
 ) -> Forces {
     let problem = Problem::new(table, balls, contacts, set);
-    let solution = solve(&problem, &similar.sizes[..problem.rates.len()]);
+    let solution = solve(&problem, &similar.sizes(&problem));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut forces = Forces::of(table.radius, &problem, &solution.sizes, &accelerations);
     forces.slack = spin_slack(table.radius, balls, set);
@@ -204,139 +173,21 @@ fn slack_of_one(unknown: &Unknown, sizes: &[f64]) -> f64 {
 /// A spin that has turned round has ended before.
 fn spin_slack(radius: f64, balls: &[BallState; BALLS], set: &ActiveSet) -> f64 {
     set.spin.iter().zip(balls).fold(f64::INFINITY, |slack, (spin, ball)| match spin {
-        Friction::Slips(sign) if sign.x != 0.0 && ball.spin.z * sign.x < 0.0 => {
-            slack.min(radius * ball.spin.z * sign.x)
-        }
+        Friction::Slips(sign) if sign.x != 0.0 => slack.min(radius * ball.spin.z * sign.x),
         _ => slack,
     })
 }
 
-/// The same in closed form for a single contact whose balls slip on the cloth: its three directions do not feel each other.
-fn slipping(table: &Table, balls: &[BallState; BALLS], contact: &Contact, set: &ActiveSet) -> Option<Forces> {
-    let radius = table.radius;
-    let lever = 2.5 / radius;
-    let boring = table.spinning_friction * table.gravity;
-    let mut forces = Forces::NONE;
-    // What a force along the contact's tangent accelerates: a ball whose spin is held, or one that turns, too.
-    let mut response = 0.0;
-    let members = [Some(contact.first), contact.second];
-    for ball in members.into_iter().flatten() {
-        let against = set.cloth[ball].direction(slip(radius, balls[ball].velocity, balls[ball].spin))?;
-        let push = -table.sliding_friction * table.gravity * against;
-        let sign = if let Friction::Slips(sign) = set.spin[ball] { sign.x } else { 0.0 };
-        forces.linear[ball] = push;
-        // Friction at the lowest point: w' = -5/2R z×push.
-        forces.angular[ball] = (-lever * push.perp()).extend(-lever * boring * sign);
-        response += if set.spin[ball] == Friction::Sticks { 1.0 } else { 3.5 };
-    }
-    let (n, slip_at) = contact.normal_and_slip(radius, balls);
-    let t = n.perp();
-    let (first, second) = (contact.first, contact.second);
-    let (mut rates, mut spins) = (forces.linear[first], forces.angular[first]);
-    let (mut centripetal, mut turning, mut bodies) = (0.0, 0.0, 1.0);
-    let mu = coefficient(table, contact);
-    if let Some(second) = second {
-        let across = contact.relative_velocity(balls).dot(t);
-        let spin = balls[first].spin + balls[second].spin;
-        centripetal = across * across / (2.0 * radius);
-        turning = -0.5 * across * spin.truncate().dot(n);
-        rates -= forces.linear[second];
-        spins += forces.angular[second];
-        bodies = 2.0;
-    }
-    let normal = -(rates.dot(n) + centripetal) / bodies;
-    (forces.normal[0], forces.sizes[0]) = (normal, normal);
-    forces.slack = normal.min(spin_slack(radius, balls, set));
-    let friction = if let Some(against) = set.contact[0].direction(slip_at) {
-        -mu * normal * against
-    } else {
-        let along = rates.dot(t) - radius * spins.z;
-        let up = radius * spins.truncate().dot(t) + turning;
-        let holds = DVec2::new(-along / response, -up / (2.5 * bodies));
-        forces.slack = forces.slack.min(mu * normal - holds.length());
-        holds
-    };
-    let force = normal * n + friction.x * t;
-    let twist = (lever * friction.y * t).extend(-lever * friction.x);
-    for (ball, sense) in [(Some(first), 1.0), (second, -1.0)] {
-        let Some(ball) = ball else { continue };
-        forces.linear[ball] += sense * force;
-        forces.angular[ball] += twist;
-        if set.spin[ball] == Friction::Sticks {
-            forces.angular[ball].z = 0.0;
-            forces.slack = forces.slack.min(boring - friction.x.abs());
-        }
-    }
-    Some(forces)
-}
-
-/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
-/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something rubs where its
-/// contact slips. Where they cannot all vanish, all stay.
-pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts: &[Contact], set: &ActiveSet) {
-    let mut problem = Problem::new(table, balls, contacts, &set.slipping_where(set));
-    for (index, contact) in contacts.iter().enumerate() {
-        // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
-        if table.ball_friction.is_none() && contact.second.is_some() {
-            problem.forces[index] = problem.rates[index];
-        }
-    }
-    let speeds = Row::of_speeds(table.radius, balls);
-    let bias = vec![0.0; problem.rates.len()];
-    let mut sizes = bias.clone();
-    if let Some(stopped) = balance(&problem, speeds, &bias, &mut sizes) {
-        for (ball, state) in balls.iter_mut().enumerate() {
-            let (velocity, spin) = stopped.of_ball(ball);
-            (state.velocity, state.spin) = (velocity, spin / (GYRATION * table.radius));
-        }
-    }
-}
-
-/// Changes the sizes of the unknown forces, as little as possible, until all their rates vanish; returns what `base` becomes
-/// under them. `None` where they cannot vanish together.
-fn balance(problem: &Problem, base: Row, bias: &[f64], sizes: &mut [f64]) -> Option<Row> {
-    let count = sizes.len();
-    let mut matrix = problem.matrix();
-    for index in 0..count {
-        matrix[index * count + index] += PROXIMITY;
-    }
-    let factors = Factorized::new(count, matrix)?;
-    let mut side = vec![0.0; count];
-    let mut smallest = f64::INFINITY;
-    for _ in 0..MAX_REFINEMENTS {
-        let mut moved = base;
-        for (size, row) in sizes.iter().zip(&problem.forces) {
-            moved.add(*size, row);
-        }
-        let (mut residual, mut scale) = (0.0_f64, f64::MIN_POSITIVE);
-        for (index, side) in side.iter_mut().enumerate() {
-            *side = -(problem.rates[index].dot(&moved) + bias[index]);
-            residual = residual.max(side.abs());
-            scale = scale.max(sizes[index].abs()).max(bias[index].abs());
-        }
-        scale = base.0.iter().fold(scale, |scale, x| scale.max(x.abs()));
-        // Once rounding is reached, more rounds would only stir it.
-        if residual <= 16.0 * f64::EPSILON * scale
-            || (residual <= 16.0 * ROUNDING * scale && residual >= 0.5 * smallest)
-        {
-            return Some(moved);
-        }
-        smallest = smallest.min(residual);
-        factors.solve(&mut side);
-        for (size, change) in sizes.iter_mut().zip(&side) {
-            *size += change;
-        }
-    }
-    None
-}
-
 impl Forces {
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         linear: [DVec2::ZERO; BALLS],
         angular: [DVec3::ZERO; BALLS],
         normal: [0.0; MAX_CONTACTS],
         slack: f64::INFINITY,
-        sizes: [0.0; MAX_UNKNOWNS],
+        friction: [DVec2::ZERO; MAX_CONTACTS],
+        cloth: [DVec2::ZERO; BALLS],
+        roll: [DVec2::ZERO; BALLS],
+        spin: [0.0; BALLS],
     };
 
     fn of(radius: f64, problem: &Problem, sizes: &[f64], accelerations: &Row) -> Self {
@@ -347,12 +198,33 @@ impl Forces {
             forces.angular[ball] = angular / (GYRATION * radius);
         }
         for unknown in &problem.unknowns {
-            if let Place::Normal(index) = unknown.place {
-                forces.normal[index] = sizes[unknown.first];
+            let one = sizes[unknown.first];
+            let both = || DVec2::new(one, sizes[unknown.first + 1]);
+            match unknown.place {
+                Place::Normal(index) => forces.normal[index] = one,
+                Place::Contact(index) => forces.friction[index] = both(),
+                Place::Cloth(ball) => forces.cloth[ball] = both(),
+                Place::Roll(ball) => forces.roll[ball] = both(),
+                Place::Spin(ball) => forces.spin[ball] = one,
             }
         }
-        forces.sizes[..sizes.len()].copy_from_slice(sizes);
         forces
+    }
+
+    /// The problem's unknowns if the forces were these.
+    fn sizes(&self, problem: &Problem) -> Sizes {
+        let mut sizes = NO_SIZES;
+        for unknown in &problem.unknowns {
+            let own = match unknown.place {
+                Place::Normal(index) => [self.normal[index], 0.0],
+                Place::Spin(ball) => [self.spin[ball], 0.0],
+                Place::Contact(index) => self.friction[index].to_array(),
+                Place::Cloth(ball) => self.cloth[ball].to_array(),
+                Place::Roll(ball) => self.roll[ball].to_array(),
+            };
+            sizes[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
+        }
+        sizes
     }
 
     /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.
@@ -367,7 +239,8 @@ impl Forces {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::forces, *};
+    use crate::physics::slip;
 
     fn resolved(ball: BallState, contacts: &[Contact]) -> Option<Resolved> {
         let table = Table::preset("thesis").unwrap();
@@ -402,13 +275,13 @@ mod tests {
     }
 
     #[test]
-    fn the_closed_form_agrees_with_the_solver() {
+    fn what_is_held_agrees_with_the_solver() {
         let (table, contact, position) = right_cushion();
         let ball = BallState { position, velocity: DVec2::new(0.0, 0.7), spin: DVec3::new(3.0, 80.0, -5.0) };
         let resolved = resolved(ball, &[contact]).unwrap();
         let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
-        let closed = slipping(&table, &balls, &contact, &resolved.set).unwrap();
-        assert!(resolved.converged && closed.distance(&resolved.forces, table.radius) < 1e-12);
+        let held = forces(&table, &balls, &[contact], &resolved.set, None).unwrap();
+        assert!(resolved.converged && held.distance(&resolved.forces, table.radius) < 1e-12);
     }
 
     #[test]
@@ -416,5 +289,26 @@ mod tests {
         let (_, contact, position) = right_cushion();
         let ball = BallState { position, velocity: DVec2::ZERO, spin: DVec3::new(0.0, -80.0, 0.0) };
         assert!(resolved(ball, &[contact]).is_none());
+    }
+
+    /// What keeps a rolling ball from opening the contact also keeps it from slipping upwards there: the matrix is singular.
+    #[test]
+    fn forces_that_are_not_unique_are_found() {
+        let (table, contact, position) = right_cushion();
+        let spin = DVec3::new(-0.5, 0.0, -0.5) / table.radius;
+        let ball = BallState { position, velocity: DVec2::new(0.0, 0.5), spin };
+        let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
+        let set = ActiveSet::of(&table, &balls, &[contact], 1e-10);
+        assert_eq!((set.cloth[0], set.contact[0]), (Friction::Sticks, Friction::Sticks));
+        let held = forces(&table, &balls, &[contact], &set, None).unwrap();
+        let slips = contact.slip(
+            table.radius,
+            &[0, 1, 2].map(|index: usize| BallState {
+                velocity: held.linear[index],
+                spin: held.angular[index],
+                ..balls[index]
+            }),
+        );
+        assert!(held.linear[0].x.abs() < 1e-13 && slips.length() < 1e-13 && held.linear[0].y < 0.0, "{held:?}");
     }
 }

@@ -7,6 +7,7 @@
 
 mod active_set;
 mod forces;
+mod held;
 mod linear;
 mod problem;
 mod solve;
@@ -16,7 +17,8 @@ use glam::{DVec2, DVec3};
 use super::BallState;
 use crate::table::BALLS;
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
-pub use forces::{Forces, Resolved, forces, resolve, stop_by_impulses, yielding};
+pub use forces::{Forces, Resolved, resolve, yielding};
+pub use held::{forces, stop_by_impulses};
 
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +83,11 @@ impl Contact {
     /// equation 21).
     pub fn slip(&self, radius: f64, balls: &[BallState; BALLS]) -> DVec2 {
         self.normal_and_slip(radius, balls).1
+    }
+
+    /// Speed of the first ball's centre relative to the other, m/s.
+    pub fn relative_speed(&self, balls: &[BallState; BALLS]) -> f64 {
+        self.relative_velocity(balls).length()
     }
 
     fn relative_velocity(&self, balls: &[BallState; BALLS]) -> DVec2 {

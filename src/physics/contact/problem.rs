@@ -6,11 +6,20 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{ActiveSet, Contact, Friction};
+use super::{ActiveSet, Contact, Friction, MAX_CONTACTS};
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
 };
+
+/// Most scalar unknowns: a normal and two frictions a contact, five frictions of the cloth a ball.
+pub const MOST_UNKNOWNS: usize = 3 * MAX_CONTACTS + 5 * BALLS;
+
+/// Sizes of all unknowns; those that a problem does not have are zero.
+pub type Sizes = [f64; MOST_UNKNOWNS];
+
+/// None at all.
+pub const NO_SIZES: Sizes = [0.0; MOST_UNKNOWNS];
 
 /// Numbers that tell a ball's velocity and spin.
 const PER_BALL: usize = 5;
@@ -50,16 +59,6 @@ impl Row {
     pub fn of_ball(&self, ball: usize) -> (DVec2, DVec3) {
         let part = &self.0[PER_BALL * ball..][..PER_BALL];
         (DVec2::new(part[0], part[1]), DVec3::new(part[2], part[3], part[4]))
-    }
-
-    /// The speeds of all balls.
-    pub fn of_speeds(radius: f64, balls: &[BallState; BALLS]) -> Self {
-        let mut row = Self::ZERO;
-        for (ball, state) in balls.iter().enumerate() {
-            // A row's spins are divided by the gyration, speeds are multiplied by it.
-            row = row.with(ball, state.velocity, GYRATION * GYRATION * radius * state.spin);
-        }
-        row
     }
 
     /// Slip on the cloth along x or y, `u = v + R z×w` (thesis equation 1).
@@ -126,7 +125,7 @@ pub struct Unknown {
 }
 
 /// Everything that acts on the balls in one state.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Problem {
     pub unknowns: Vec<Unknown>,
     /// For every scalar unknown the row of the rate that it keeps at zero.
@@ -139,15 +138,16 @@ pub struct Problem {
     pub known: Row,
 }
 
-impl Default for Row {
-    fn default() -> Self {
-        Self::ZERO
-    }
-}
-
 impl Problem {
     pub fn new(table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Self {
-        let mut problem = Self::default();
+        let room = 3 * contacts.len() + 5 * BALLS;
+        let mut problem = Self {
+            unknowns: Vec::with_capacity(room),
+            rates: Vec::with_capacity(room),
+            bias: Vec::with_capacity(room),
+            forces: Vec::with_capacity(room),
+            known: Row::ZERO,
+        };
         let mut frictions = Vec::with_capacity(contacts.len());
         for (index, contact) in contacts.iter().enumerate() {
             let (n, slip) = contact.normal_and_slip(table.radius, balls);
@@ -224,10 +224,5 @@ impl Problem {
             sum.add(*size, row);
         }
         sum
-    }
-
-    /// The matrix of rates by forces, rows one after another.
-    pub fn matrix(&self) -> Vec<f64> {
-        self.rates.iter().flat_map(|rate| self.forces.iter().map(|force| rate.dot(force))).collect()
     }
 }

@@ -8,15 +8,18 @@
 use glam::DVec2;
 
 use super::{
-    linear::Factorized,
-    problem::{Limit, Place, Problem, Unknown},
+    linear::{factorize, substitute},
+    problem::{Limit, MOST_UNKNOWNS, NO_SIZES, Place, Problem, Sizes, Unknown},
 };
 
 /// Forces per mass by which laws may be broken, as a share of the largest force or acceleration: some hundred roundings.
-pub const ROUNDING: f64 = 256.0 * f64::EPSILON;
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// Newton steps before sweeps are tried. From a near regime it takes two or three, from anywhere about eight.
 const NEWTON_STEPS: usize = 24;
+
+/// A step that takes the error below this share of itself is as good as any.
+const ENOUGH: f64 = 0.1;
 
 /// Halvings of a Newton step that are tried.
 const MOST_HALVINGS: i32 = 14;
@@ -28,7 +31,7 @@ const FIRST_SWEEPS: usize = 8;
 /// Added to the system's diagonal, whose entries are 1 to 10. A ball that sticks to several things at once is held more
 /// often than needed, so that forces are not unique; this picks those nearest to what they were. Further steps take its
 /// effect out again.
-pub const PROXIMITY: f64 = 1e-7;
+const PROXIMITY: f64 = 1e-7;
 
 /// What a law asks at present.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,24 +48,27 @@ pub enum Side {
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// Size of each scalar unknown, m/s².
-    pub sizes: Vec<f64>,
+    pub sizes: Sizes,
     /// What each unknown's law asks.
-    pub sides: Vec<Side>,
+    pub sides: Sides,
     /// Whether every law holds to rounding.
     pub converged: bool,
 }
 
+/// What each unknown's law asks.
+pub type Sides = [Side; MOST_UNKNOWNS];
+
 /// Forces and frictions that obey all laws, sought from `guess` on.
-pub fn solve(problem: &Problem, guess: &[f64]) -> Solution {
+pub fn solve(problem: &Problem, guess: &Sizes) -> Solution {
     let system = System::new(problem);
-    let mut best = (f64::INFINITY, guess.to_vec());
-    let mut sizes = guess.to_vec();
+    let mut best = (f64::INFINITY, *guess);
+    let mut sizes = *guess;
     for attempt in 0..ATTEMPTS {
         let (mut residual, mut sides) = system.residual(&sizes);
         for _ in 0..NEWTON_STEPS {
             let error = length(&residual);
             if error < best.0 {
-                best = (error, sizes.clone());
+                best = (error, sizes);
             }
             if error <= ROUNDING * system.scale(&sizes) {
                 return Solution { sizes, sides, converged: true };
@@ -72,7 +78,7 @@ pub fn solve(problem: &Problem, guess: &[f64]) -> Solution {
             let mut tried: Option<Point> = None;
             for halvings in 0..MOST_HALVINGS {
                 let share = 0.5_f64.powi(halvings);
-                let there: Vec<f64> = sizes.iter().zip(&change).map(|(size, change)| size + share * change).collect();
+                let there = std::array::from_fn(|index| sizes[index] + share * change[index]);
                 let (residual, sides) = system.residual(&there);
                 let reached = length(&residual);
                 if tried.as_ref().is_none_or(|best| reached < best.0) {
@@ -80,11 +86,14 @@ pub fn solve(problem: &Problem, guess: &[f64]) -> Solution {
                 } else if tried.as_ref().is_some_and(|best| best.0 < error) {
                     break;
                 }
+                if halvings == 0 && reached < ENOUGH * error {
+                    break;
+                }
             }
             let Some((_, there, left, now)) = tried else { break };
             (sizes, residual, sides) = (there, left, now);
         }
-        sizes.clone_from(&best.1);
+        sizes = best.1;
         for _ in 0..FIRST_SWEEPS << attempt {
             system.sweep(&mut sizes);
         }
@@ -93,43 +102,47 @@ pub fn solve(problem: &Problem, guess: &[f64]) -> Solution {
     Solution { sizes: best.1, sides, converged: false }
 }
 
-fn length(residual: &[f64]) -> f64 {
+fn length(residual: &Sizes) -> f64 {
     residual.iter().fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
 /// Where a step leads: how far the laws are from holding there, the sizes, the residual and the sides.
-type Point = (f64, Vec<f64>, Vec<f64>, Vec<Side>);
+type Point = (f64, Sizes, Sizes, Sides);
 
 /// The problem as numbers: rates are `matrix · sizes + bias`.
 struct System<'a> {
     problem: &'a Problem,
     count: usize,
     matrix: Vec<f64>,
-    bias: Vec<f64>,
+    bias: Sizes,
 }
 
 impl<'a> System<'a> {
     fn new(problem: &'a Problem) -> Self {
-        let bias =
-            problem.rates.iter().zip(&problem.bias).map(|(rate, bias)| rate.dot(&problem.known) + bias).collect();
-        Self { problem, count: problem.rates.len(), matrix: problem.matrix(), bias }
+        let count = problem.rates.len();
+        let mut system = Self { problem, count, matrix: Vec::with_capacity(count * count), bias: NO_SIZES };
+        for (row, (rate, bias)) in problem.rates.iter().zip(&problem.bias).enumerate() {
+            system.bias[row] = rate.dot(&problem.known) + bias;
+            system.matrix.extend(problem.forces.iter().map(|force| rate.dot(force)));
+        }
+        system
     }
 
     fn row(&self, index: usize) -> &[f64] {
         &self.matrix[index * self.count..][..self.count]
     }
 
-    fn rate(&self, index: usize, sizes: &[f64]) -> f64 {
+    fn rate(&self, index: usize, sizes: &Sizes) -> f64 {
         self.bias[index] + self.row(index).iter().zip(sizes).map(|(w, x)| w * x).sum::<f64>()
     }
 
     /// The largest of all forces and accelerations, m/s², whose rounding the residual has.
-    fn scale(&self, sizes: &[f64]) -> f64 {
+    fn scale(&self, sizes: &Sizes) -> f64 {
         self.bias.iter().chain(sizes).fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
     }
 
     /// How a law answers to its rates: the projected force, and which side it is on.
-    fn project(&self, unknown: &Unknown, sizes: &[f64]) -> (DVec2, Side) {
+    fn project(&self, unknown: &Unknown, sizes: &Sizes) -> (DVec2, Side) {
         let first = unknown.first;
         // One step for both rows of a friction keeps its direction.
         let response = (first..first + unknown.count).map(|i| self.row(i)[i]).fold(f64::MIN_POSITIVE, f64::max);
@@ -155,24 +168,23 @@ impl<'a> System<'a> {
     }
 
     /// Forces less their projections, and the side of each law.
-    fn residual(&self, sizes: &[f64]) -> (Vec<f64>, Vec<Side>) {
-        let mut residual = vec![0.0; self.count];
-        let sides = self.problem.unknowns.iter().map(|unknown| {
-            let (force, side) = self.project(unknown, sizes);
+    fn residual(&self, sizes: &Sizes) -> (Sizes, Sides) {
+        let (mut residual, mut sides) = (NO_SIZES, [Side::Absent; MOST_UNKNOWNS]);
+        for (unknown, side) in self.problem.unknowns.iter().zip(&mut sides) {
+            let force;
+            (force, *side) = self.project(unknown, sizes);
             for (axis, projected) in force.to_array().into_iter().take(unknown.count).enumerate() {
                 residual[unknown.first + axis] = sizes[unknown.first + axis] - projected;
             }
-            side
-        });
-        let sides = sides.collect();
+        }
         (residual, sides)
     }
 
     /// A Newton step; `None` where its system is singular.
-    fn newton_step(&self, sizes: &[f64], residual: &[f64], sides: &[Side]) -> Option<Vec<f64>> {
+    fn newton_step(&self, sizes: &Sizes, residual: &Sizes, sides: &Sides) -> Option<Sizes> {
         let n = self.count;
         let mut jacobian = vec![0.0; n * n];
-        let mut change = vec![0.0; n];
+        let mut change = NO_SIZES;
         for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
             for axis in 0..unknown.count {
                 let index = unknown.first + axis;
@@ -194,13 +206,17 @@ impl<'a> System<'a> {
                 }
             }
         }
-        Factorized::new(n, jacobian)?.solve(&mut change);
+        let mut pivots = [0; MOST_UNKNOWNS];
+        if factorize(&mut jacobian, &mut pivots[..n]) == 0.0 {
+            return None;
+        }
+        substitute(&jacobian, &pivots[..n], &mut change[..n]);
         change.iter().all(|x| x.is_finite()).then_some(change)
     }
 
     /// A row of the derivative of `f - L z/|z|` with `z = f - rate/w`: the limit grows with its normal force, and the
     /// direction turns with `z`.
-    fn limited(&self, unknown: &Unknown, axis: usize, direction: DVec2, sizes: &[f64], entries: &mut [f64]) {
+    fn limited(&self, unknown: &Unknown, axis: usize, direction: DVec2, sizes: &Sizes, entries: &mut [f64]) {
         let n = self.count;
         let response =
             (unknown.first..unknown.first + unknown.count).map(|i| self.row(i)[i]).fold(f64::MIN_POSITIVE, f64::max);
@@ -229,7 +245,7 @@ impl<'a> System<'a> {
     }
 
     /// Satisfies one law after another with the others held.
-    fn sweep(&self, sizes: &mut [f64]) {
+    fn sweep(&self, sizes: &mut Sizes) {
         for unknown in &self.problem.unknowns {
             let (force, _) = self.project(unknown, sizes);
             sizes[unknown.first..][..unknown.count].copy_from_slice(&force.to_array()[..unknown.count]);

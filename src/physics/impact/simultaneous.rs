@@ -15,10 +15,10 @@
 
 use glam::DVec2;
 
-use super::{BallImpact, BallState, Cushion, contact_twist};
+use super::{BallImpact, BallState, Cushion, Cushions, contact_twist};
 use crate::{
     physics::{Contact, MAX_CONTACTS},
-    table::{BALLS, Rail},
+    table::{BALLS, Rail, Table},
 };
 
 /// Sweeps over the normal impulses: they converge like a power of at most 3/4 for three balls, in some hundred.
@@ -26,26 +26,32 @@ const MAX_SWEEPS: usize = 2000;
 
 /// The laws of the impacts on a table. Where several contacts close at once, cushions are met at the height of the balls'
 /// centres, with the friction and restitution of slow impacts.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ImpactLaw {
     /// That of two balls.
     pub balls: BallImpact,
-    /// Those of the four cushions, in the order of [`Rail::ALL`].
-    pub cushions: [Cushion; 4],
+    /// Those of the four cushions.
+    pub cushions: Cushions,
 }
 
 impl ImpactLaw {
+    /// Those of a table.
+    pub fn of(table: &Table) -> Self {
+        Self { balls: BallImpact::of(table), cushions: Cushions::of(table) }
+    }
+
     /// The same without restitution: the end of endless bounces.
     #[must_use]
-    pub fn inelastic(self) -> Self {
-        Self { balls: self.balls.inelastic(), cushions: self.cushions.map(Cushion::inelastic) }
+    pub fn inelastic(&self) -> Self {
+        Self { balls: self.balls.inelastic(), cushions: self.cushions.inelastic() }
     }
 
     fn cushion(&self, contact: &Contact) -> &Cushion {
-        &self.cushions[Rail::with_normal(contact.cushion_normal) as usize]
+        self.cushions.at(Rail::with_normal(contact.cushion_normal))
     }
 
-    fn restitution(&self, contact: &Contact) -> f64 {
+    /// Restitution of a slow impact.
+    pub fn restitution(&self, contact: &Contact) -> f64 {
         if contact.second.is_some() { self.balls.restitution } else { self.cushion(contact).restitution }
     }
 }
@@ -155,7 +161,6 @@ fn normal_impulses(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Table;
 
     const RADIUS: f64 = 0.03;
 
@@ -171,7 +176,7 @@ mod tests {
             rail_friction: 0.2,
             ..Table::preset("textbook").unwrap()
         };
-        ImpactLaw { balls: BallImpact::of(&table), cushions: Rail::ALL.map(|rail| Cushion::of(&table, rail)) }
+        ImpactLaw::of(&table)
     }
 
     /// Rounds until nothing closes, as the engine plays them.

@@ -17,10 +17,6 @@ use crate::table::Table;
 /// A filmed ball from one rail to some others, with no other ball near.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    /// Number of the shot in the match.
-    pub shot: u32,
-    /// Which ball, the cue ball first.
-    pub ball: usize,
     /// The samples between the rails.
     pub samples: Vec<Sample>,
     /// The rails, that which it leaves first.
@@ -30,10 +26,6 @@ pub struct Chain {
 /// How a chain came out.
 #[derive(Clone, Debug)]
 pub struct Played {
-    /// The motion at the first sample.
-    pub motion: Motion,
-    /// Root mean square of what is left on the fitted part, m.
-    pub rms: f64,
     /// Distances from where the ball met the rails, m, for those of `hits[1..]`.
     pub places: Vec<f64>,
     /// By how much it was late there, s.
@@ -62,7 +54,7 @@ fn readable(shot: &FilmedShot, found: Vec<(usize, Vec<RailHit>)>) -> Vec<Chain> 
         let (from, to) = (hits[0].time + IN_RAIL, hits[hits.len() - 1].time);
         let free = |time: f64| hits.iter().all(|hit| (time - hit.time).abs() > IN_RAIL);
         let samples = shot.balls[ball].iter().filter(|s| s.time > from && s.time < to && free(s.time)).copied();
-        Chain { shot: shot.number, ball, samples: samples.collect(), hits }
+        Chain { samples: samples.collect(), hits }
     };
     let shows = |chain: &Chain, leg: usize| {
         let [from, to] = [leg, leg + 1].map(|hit| chain.hits[hit].time);
@@ -117,7 +109,7 @@ impl Chain {
 
     /// Fits the first two legs and predicts the rest.
     pub fn play(&self, table: &Table) -> Played {
-        let (motion, squares) = self.fit(table, 2, None);
+        let (motion, _) = self.fit(table, 2, None);
         let begin = self.samples[0].time;
         let followed =
             Follower::new(&[], self.hits.len() - 1).of(table, &alone(motion.place), &motion.impulse(table.radius));
@@ -127,7 +119,6 @@ impl Chain {
             places.push(met.map_or(9.0, |(_, _, place)| place.distance(hit.place)));
             late.push(met.map_or(9.0, |(time, ..)| begin + time - hit.time));
         }
-        let used = self.samples.iter().filter(|sample| sample.time < self.hits[2].time).count();
-        Played { motion, rms: (squares / used as f64).sqrt(), places, late }
+        Played { places, late }
     }
 }

@@ -1,9 +1,24 @@
-//! Filmed balls: how far the simulation is from what real balls did.
+//! Filmed balls: how far the simulation is from what real balls did, and which constants come nearest.
+//!
+//! The film (`tests/data/filmed`, with its source) shows the balls' places at 50 pictures a second. [`rail_hits`] finds
+//! where balls met rails; [`chains`] predicts from rail to rail, [`whole`] whole shots, [`systems`] what players count on;
+//! [`constants`] fits a table.
 
-pub mod chains;
-pub mod film;
-pub mod least_squares;
-pub mod lone;
-pub mod rail_hits;
-pub mod systems;
-pub mod whole;
+mod chains;
+mod constants;
+mod film;
+mod judged;
+mod least_squares;
+mod lone;
+mod rail_hits;
+mod report;
+mod systems;
+mod whole;
+
+pub use constants::{Constant, Fitted, fit_constants};
+pub use film::{FilmError, FilmedShot, Sample, bundled, read};
+pub use judged::{Judged, judge};
+pub use lone::Motion;
+pub use report::{csv, fit_text, models, paths, rows, text};
+pub use systems::Natural;
+pub use whole::{Whole, play};

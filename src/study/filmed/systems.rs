@@ -4,7 +4,7 @@
 //! its cases, is chosen so that the arrivals fit best: its side, its roll and its speed.
 
 use glam::DVec2;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::lone::{Follower, Motion, alone};
 use crate::{simulation::Rail, table::Table};
@@ -35,7 +35,7 @@ struct Case {
 }
 
 /// A system's natural stroke, and how well it fits.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Natural {
     /// The system's name.
     pub id: String,
@@ -61,16 +61,6 @@ pub fn bundled() -> Vec<System> {
 }
 
 impl System {
-    /// Number of cases.
-    pub fn len(&self) -> usize {
-        self.cases.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.cases.is_empty()
-    }
-
     /// The natural stroke on `table`: the best of a net of sides, rolls and speeds.
     pub fn natural(&self, table: &Table) -> Natural {
         let mut best = Natural {
@@ -178,7 +168,7 @@ mod tests {
 
     #[test]
     fn the_bundled_systems_have_the_cases_that_their_readme_tells() {
-        let sizes: Vec<_> = bundled().iter().map(|system| (system.id.clone(), system.len())).collect();
+        let sizes: Vec<_> = bundled().iter().map(|system| (system.id.clone(), system.cases.len())).collect();
         assert_eq!(sizes, [("corner5".to_owned(), 42), ("plus".to_owned(), 23), ("seven".to_owned(), 35)]);
     }
 }

@@ -114,7 +114,7 @@ fn an_impact_passes_through_a_row_of_balls() {
 
 #[test]
 fn a_symmetric_break_stays_symmetric() {
-    for table in [thesis(), Table::default()] {
+    for table in [thesis(), Table::preset("textbook").unwrap()] {
         let numbers = Numbers::<D>::of(&table);
         let high = table.radius;
         let places = [vector(-0.3, 0.0, 0.0), vector(0.3, high, 0.0), vector(0.3, -high, 0.0)];
@@ -132,7 +132,7 @@ fn in_single_precision_it_ends_as_well() {
         let of = |x: f64, y: f64, z: f64| Vector::new(x as f32, y as f32, z as f32);
         let places = shot.layout.balls.map(|ball| of(ball.x, ball.y, 0.0));
         let played = play(&Numbers::of(&thesis()), places, of(v.x, v.y, 0.0), of(w.x, w.y, w.z), by_extrema);
-        assert!(played.is_ok(), "{}", shot.command_line(&thesis()));
+        assert!(played.is_ok(), "{:?}: {}", played.err(), shot.command_line(&thesis()));
     }
 }
 
@@ -223,7 +223,7 @@ fn what_the_engine_lacks_is_said_and_not_judged() {
 }
 
 fn judges_all(random: usize, adversarial_shots: usize) {
-    for table in [thesis(), Table::default()] {
+    for table in [thesis(), Table::preset("textbook").unwrap()] {
         for shot in random_shots(&table, random, 1) {
             let _ = played(&table, &shot, [0, 1, 2], false);
         }

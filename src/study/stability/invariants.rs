@@ -225,7 +225,7 @@ mod tests {
 
     /// A shot that meets a ball and cushions, and what the checks say after it has been tampered with.
     fn violations(tamper: impl Fn(&mut Trace)) -> Vec<Violation> {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
         let shot = Shot { layout, cue: Stroke { b: 0.3, ..Stroke::centre(0.0, 4.0) } };
         let mut trace = Trace::new(&table);

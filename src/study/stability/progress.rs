@@ -1,12 +1,13 @@
 //! A line that tells how far a long run is.
 
 use std::{
-    io::{IsTerminal, Write},
+    io::Write,
     sync::atomic::{AtomicBool, Ordering},
     time::{Duration, Instant},
 };
 
 use super::{Plan, Progress, Row, rows};
+use crate::printing;
 
 /// Time between two lines where nobody sits before them.
 const SELDOM: Duration = Duration::from_secs(60);
@@ -25,7 +26,7 @@ pub struct ProgressLine {
 impl Default for ProgressLine {
     fn default() -> Self {
         let now = Instant::now();
-        Self { started: now, shown: now, terminal: std::io::stderr().is_terminal() }
+        Self { started: now, shown: now, terminal: printing::is_watched() }
     }
 }
 
@@ -40,17 +41,13 @@ impl ProgressLine {
         let seconds = self.started.elapsed().as_secs();
         let line = format!("{seconds} s, {what}: {done} of {of} shots, {findings} findings");
         // A terminal that is gone is no reason to end the run.
-        let _ = if self.terminal {
-            write!(std::io::stderr(), "\r\x1b[K{line}")
-        } else {
-            writeln!(std::io::stderr(), "{line}")
-        };
+        let _ = if self.terminal { printing::redraw_line(line) } else { writeln!(printing::stderr(), "{line}") };
     }
 
     /// Takes the line away.
     pub fn clear(&self) {
         if self.terminal {
-            let _ = write!(std::io::stderr(), "\r\x1b[K");
+            let _ = printing::clear_line();
         }
     }
 }

@@ -210,7 +210,7 @@ mod tests {
 
     fn sweep() -> Sweep {
         Sweep {
-            table: Table::default(),
+            table: Table::preset("textbook").unwrap(),
             generator: random::shot,
             check: None,
             shots: 1050,

@@ -1,6 +1,6 @@
 //! What a key asks for, where it is pressed, and why not.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyEventKind};
+use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
 use super::{App, Effect, Screen};
 use crate::terminal::{
@@ -21,6 +21,10 @@ impl App {
     }
 
     fn take_key(&mut self, key: &KeyEvent) -> Option<Effect> {
+        // Everywhere, whatever lies over the screen.
+        if (key.code, key.modifiers) == (KeyCode::Char('c'), KeyModifiers::CONTROL) {
+            return self.update(Action::Quit);
+        }
         if self.is_blind() {
             let refuse_help = |when| (when == When::Help).then_some("");
             return match keymap::find(&self.keys().translate(key), Place::Coach, refuse_help) {

@@ -35,7 +35,7 @@ use crate::{
     coach::Skill,
     learning::run::request::Request,
     storage::Places,
-    table::{Layout, LayoutError, Table},
+    table::{CueBall, Layout, LayoutError, Table},
 };
 
 /// What the arrow keys are for on the coach's screen.
@@ -140,6 +140,8 @@ pub struct App {
     /// The finest characters to draw with: octants only where they were asked for.
     finest: Glyphs,
     theme: Theme,
+    /// The same where yellow is the cue ball.
+    yellow_theme: Theme,
     palette: Palette,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
     detect: Option<fn(&Settings) -> Look>,
@@ -169,6 +171,7 @@ impl App {
             full_look: look,
             finest: look.finest(),
             theme: Theme::new(look.depth),
+            yellow_theme: Theme::new(look.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
             detect: None,
         })

@@ -86,10 +86,11 @@ impl App {
         let time = self.playback().time;
         let balls = self.watched().map_or(self.layout().balls, |shot| shot.recording.positions(time));
         let ball = ball_at(balls, mapping, self.look.glyphs, (event.column, event.row))?;
+        let colour = self.coach.cue_ball().ordered([0, 1, 2])[ball];
         // As long as a shot has not begun the balls lie where they can be taken.
         let is_moving = self.watched().is_some() && time > 0.0;
         let when = if is_moving { CoachWhen::Placing } else { CoachWhen::Idle };
-        let effect = self.attempt(When::Coach(when), Action::Coach(CoachAction::Select(ball)));
+        let effect = self.attempt(When::Coach(when), Action::Coach(CoachAction::Select(colour)));
         if self.refusal(When::Coach(CoachWhen::Placing)).is_none() {
             self.coach.take_ball(mapping.nearest_metres(event.column, event.row)?);
         }

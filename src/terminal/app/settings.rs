@@ -2,6 +2,7 @@
 
 use super::{App, Effect};
 use crate::{
+    table::CueBall,
     table::{PRESETS, Table},
     terminal::{
         advice::Tutor,
@@ -90,5 +91,6 @@ impl App {
         let mono = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
         self.look = if palette == Palette::Mono { mono } else { self.full_look };
         self.theme = Theme::of(palette, self.look.depth);
+        self.yellow_theme = self.theme.with_cue_ball(CueBall::Yellow);
     }
 }

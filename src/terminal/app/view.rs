@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{App, Mode, Overlay, Screen};
 use crate::{
-    table::{Layout, Table},
+    table::{CueBall, Layout, Table},
     terminal::{
         coach::CoachScreen,
         drills::DrillScreen,
@@ -135,7 +135,19 @@ impl App {
     }
 
     /// The colours.
-    pub const fn theme(&self) -> &Theme {
-        &self.theme
+    pub fn theme(&self) -> &Theme {
+        match self.cue_ball() {
+            CueBall::White => &self.theme,
+            CueBall::Yellow => &self.yellow_theme,
+        }
+    }
+
+    /// The ball that the player plays with on the screen that is shown.
+    pub fn cue_ball(&self) -> CueBall {
+        match self.screen {
+            Screen::Coach => self.coach.cue_ball(),
+            Screen::Drills => self.drills.turn.as_ref().map_or(CueBall::White, |turn| turn.cue_ball),
+            Screen::Training | Screen::Settings => CueBall::White,
+        }
     }
 }

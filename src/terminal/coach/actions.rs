@@ -6,7 +6,8 @@ use glam::DVec2;
 
 use super::{CoachScreen, Position, STEPS};
 use crate::{
-    table::{BALLS, Layout, LayoutError},
+    game::Point,
+    table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
     terminal::{
         advice::Tutor,
         app::{Effect, Mode},
@@ -14,7 +15,7 @@ use crate::{
         keymap::CoachAction as Action,
         placing,
         status::Message,
-        words::{BALL_NAMES, step_words},
+        words::step_words,
     },
 };
 
@@ -30,13 +31,15 @@ impl CoachScreen {
 
     fn act(&mut self, action: Action) -> Option<Effect> {
         match action {
-            Action::Select(ball) => self.select(ball),
+            // The keys are for colours.
+            Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
             Action::SelectNext => self.select((self.selected + 1) % BALLS),
             Action::SelectPrevious => self.select((self.selected + BALLS - 1) % BALLS),
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
             Action::LargerStep => self.choose_step(self.step + 1),
             Action::SmallerStep => self.choose_step(self.step.saturating_sub(1)),
-            Action::Opening => self.place(Layout::opening(self.table())),
+            Action::Opening => self.open(),
+            Action::OtherBall => self.take_other_ball(),
             Action::Random => {
                 let layout = Layout::random(&self.balls.present().table, &mut self.rng);
                 self.place(layout);
@@ -60,6 +63,29 @@ impl CoachScreen {
             other => self.play(other),
         }
         None
+    }
+
+    /// The opponent's turn: the other ball is the cue ball, and all stay where they lie.
+    fn take_other_ball(&mut self) {
+        let cue_ball = self.cue_ball().other();
+        let layout = self.layout().for_the_opponent();
+        self.selected = CueBall::Yellow.ordered([0, 1, 2])[self.selected];
+        self.place(layout);
+        self.balls.present_mut().cue_ball = cue_ball;
+        self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
+    }
+
+    /// Puts the balls on their spots; where they are there already, the cue ball goes to the other side of the opponent's.
+    fn open(&mut self) {
+        let side = self.layout().opening_side(self.table()).map_or(Side::Left, Side::other);
+        let layout = Layout::opening_on(self.table(), side);
+        let rule = self.tutor.rule;
+        self.place(layout);
+        if self.table().opening == Opening::Umb {
+            let red = if Point::of(rule, self.table(), &layout).red_first { "; red has to be met first" } else { "" };
+            let (here, there) = (side.name(), side.other().name());
+            self.message = Some(Message::plain(format!("the cue ball on the {here}, again for the {there}{red}")));
+        }
     }
 
     fn play(&mut self, action: Action) {
@@ -101,10 +127,11 @@ impl CoachScreen {
             self.place(slide.layout);
         }
         if let Some(reason) = slide.stopped {
-            let name = BALL_NAMES[self.selected];
+            let names = self.cue_ball().names();
+            let name = names[self.selected];
             let place = match &reason {
                 LayoutError::Overlap { first, second, .. } => {
-                    format!("in contact with {}", BALL_NAMES[first + second - self.selected])
+                    format!("in contact with {}", names[first + second - self.selected])
                 }
                 _ => "at the rail".to_owned(),
             };
@@ -121,8 +148,8 @@ impl CoachScreen {
 
     /// The same table and policy with the balls elsewhere, on which there is no advice yet.
     pub(super) fn position(&self, layout: Layout) -> Position {
-        let Position { table, policy, .. } = self.balls.present();
-        Position { table: Arc::clone(table), policy: policy.clone(), layout, advised: None }
+        let Position { table, policy, cue_ball, .. } = self.balls.present();
+        Position { table: Arc::clone(table), policy: policy.clone(), layout, cue_ball: *cue_ball, advised: None }
     }
 
     fn travel(&mut self, step: impl Fn(&mut History<Position>) -> bool) {

@@ -10,6 +10,7 @@ use crate::{
     coach::Skill,
     game::Rule,
     physics::CueInputs,
+    table::CueBall,
     terminal::{
         advice::{Advice, Effort, Proposal, Tutor},
         app::{Effect, Mode},
@@ -93,7 +94,7 @@ impl CoachScreen {
                 let tutor = pending.tutor.clone();
                 self.pending = None;
                 self.message = if tutor == self.tutor {
-                    advice.proposals.first().map(|best| news(best, advice.effort, &tutor))
+                    advice.proposals.first().map(|best| news(best, advice.effort, &tutor, self.cue_ball()))
                 } else {
                     let [asked, now] = [tutor.skill, self.tutor.skill].map(skill_word);
                     Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
@@ -155,14 +156,15 @@ impl CoachScreen {
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut Advised)) {
+        let cue_ball = self.cue_ball();
         if let Some(advised) = self.advised_mut() {
             choose(advised);
             let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
             let proposal = &advised.choice().proposal;
             self.message = Some(match chance(proposal, &advised.tutor) {
                 // Whose chance it is stands above the list, and one row is all there is.
-                Some(chance) => Message::good(format!("{words}: {chance}{}", contact(proposal))),
-                None => news(proposal, None, &advised.tutor).after(&words),
+                Some(chance) => Message::good(format!("{words}: {chance}{}", contact(proposal, cue_ball))),
+                None => news(proposal, None, &advised.tutor, cue_ball).after(&words),
             });
         }
         self.watch_from_the_stroke();
@@ -177,7 +179,7 @@ impl CoachScreen {
         }
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };
-        self.message = next.proposals.first().map(|best| news(best, None, &self.tutor));
+        self.message = next.proposals.first().map(|best| news(best, None, &self.tutor, self.cue_ball()));
         self.show(self.tutor.clone(), next);
         None
     }
@@ -216,8 +218,8 @@ fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
 }
 
 /// A proposal in a sentence.
-fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor) -> Message {
-    let (shot, contact) = (&proposal.shot, contact(proposal));
+fn news(proposal: &Proposal, effort: Option<Effort>, tutor: &Tutor, cue_ball: CueBall) -> Message {
+    let (shot, contact) = (&proposal.shot, contact(proposal, cue_ball));
     let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
         0 => ", under 1 ms".to_owned(),
         milliseconds => format!(", {milliseconds} ms"),
@@ -239,6 +241,6 @@ fn chance(proposal: &Proposal, tutor: &Tutor) -> Option<String> {
 }
 
 /// How the first ball is hit, after other words.
-fn contact(proposal: &Proposal) -> String {
-    proposal.shot.contact_words().map_or(String::new(), |words| format!("; {words}"))
+fn contact(proposal: &Proposal, cue_ball: CueBall) -> String {
+    proposal.shot.contact_words(cue_ball).map_or(String::new(), |words| format!("; {words}"))
 }

@@ -32,7 +32,7 @@ use crate::{
     drills::Session,
     game::Rule,
     learning::Policy,
-    table::{Layout, LayoutError, Table},
+    table::{CueBall, Layout, LayoutError, Table},
 };
 
 pub use advised::{Advised, Choice};
@@ -49,6 +49,7 @@ struct Position {
     table: Arc<Table>,
     policy: Option<(String, Arc<Policy>)>,
     layout: Layout,
+    cue_ball: CueBall,
     advised: Option<Advised>,
 }
 
@@ -124,7 +125,13 @@ impl CoachScreen {
             tutor: Tutor::default(),
             own: None,
             view: View::default(),
-            balls: History::new(Position { table: Arc::new(table), policy: None, layout, advised: None }),
+            balls: History::new(Position {
+                table: Arc::new(table),
+                policy: None,
+                layout,
+                cue_ball: CueBall::White,
+                advised: None,
+            }),
             drag: None,
             before: None,
             step: FIRST_STEP,
@@ -150,7 +157,7 @@ impl CoachScreen {
     /// start.
     pub fn last(&self, practice: Option<Session>) -> Option<Last> {
         let Tutor { rule, skill, plan, .. } = self.tutor;
-        let last = || Last::new(self.table().clone(), *self.layout(), rule, skill, plan);
+        let last = || Last::new(self.table().clone(), *self.layout(), rule, skill, plan).with_cue_ball(self.cue_ball());
         (self.is_begun() || practice.is_some()).then(|| last().with_practice(practice))
     }
 
@@ -163,6 +170,7 @@ impl CoachScreen {
     pub fn resume(&mut self) -> Option<Session> {
         let last = self.before.take()?;
         self.take_position(&last.table, last.layout, last.rule);
+        self.balls.present_mut().cue_ball = last.cue_ball;
         self.tutor = Tutor { skill: last.skill, plan: last.plan, ..self.tutor.clone() };
         self.message = Some(Message::good("this is where the last session ended; Enter asks the coach"));
         last.practice
@@ -247,7 +255,8 @@ impl CoachScreen {
         self.drop_ball();
         let known = &self.balls.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
-        self.balls.push(Position { table, policy: tutor.policy.clone(), layout, advised: None });
+        let cue_ball = self.cue_ball();
+        self.balls.push(Position { table, policy: tutor.policy.clone(), layout, cue_ball, advised: None });
         self.tutor = tutor;
         self.rest();
     }
@@ -260,6 +269,11 @@ impl CoachScreen {
     /// Where the balls lie before the shot.
     pub const fn layout(&self) -> &Layout {
         &self.balls.present().layout
+    }
+
+    /// The ball that is the cue ball.
+    pub const fn cue_ball(&self) -> CueBall {
+        self.balls.present().cue_ball
     }
 
     /// The advice on the layout, if it answers what is asked now.

@@ -18,8 +18,8 @@ use super::{
 use crate::{
     coach::Skill,
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
-    physics::CueInputs,
-    table::{Layout, Table},
+    physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
+    table::{CueBall, Layout, Table},
     terminal::{history::History, keymap::DrillAction, playback::Playback, shot::Shot, status::Message},
 };
 
@@ -74,6 +74,8 @@ pub struct Turn {
     pub table: Table,
     /// Where the balls lie.
     pub layout: Layout,
+    /// Which of them is the cue ball.
+    pub cue_ball: CueBall,
     /// What is going on.
     pub stage: Stage,
     /// The stroke that is taught.
@@ -104,6 +106,7 @@ impl Turn {
         Ok(Some(Self {
             strokes: History::new(aiming::first_stroke(&layout)),
             changed_by: None,
+            cue_ball: session.cue_ball_now(),
             session,
             exercise,
             table,
@@ -121,6 +124,19 @@ impl Turn {
     /// The stroke that is set.
     pub const fn stroke(&self) -> &CueInputs {
         self.strokes.present()
+    }
+
+    /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
+    pub fn raised_stroke(&self) -> CueInputs {
+        with_room(&self.table, &self.layout, self.stroke()).unwrap_or(*self.stroke())
+    }
+
+    /// How low the cue can be held for the stroke that is set.
+    ///
+    /// # Errors
+    /// Where it has no room at all.
+    pub fn least_elevation(&self) -> Result<LeastElevation, NoRoom> {
+        least_elevation(&self.table, &self.layout, self.stroke())
     }
 
     /// Sets another stroke, as `action` wants it.
@@ -213,7 +229,7 @@ impl Turn {
     pub fn verdict(&self) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
-        let text = played.verdict(self.exercise.rule);
+        let text = played.verdict(self.cue_ball);
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 
@@ -230,7 +246,7 @@ impl Turn {
             rule: self.exercise.rule,
             skill: self.session.skill,
             plan: self.session.is_game(),
-            own: self.exercise.shot.filter(|_| is_exact && !self.session.is_game()),
+            own: self.exercise.taught().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
     }
@@ -271,7 +287,9 @@ impl Turn {
         let mut playback = Playback::default();
         let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
         playback.toggle(duration);
-        let mut watched = Watched { outcome, meant: *self.stroke(), chance: None, playback, is_settled: false };
+        let noted = outcome.session.attempts.last().and_then(|attempt| attempt.meant);
+        let meant = noted.unwrap_or(*self.stroke());
+        let mut watched = Watched { outcome, meant, chance: None, playback, is_settled: false };
         watched.settle();
         self.stage = Stage::Watching(Box::new(watched));
     }
@@ -343,6 +361,7 @@ impl Turn {
             self.changed_by = None;
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
+        self.cue_ball = self.session.cue_ball_now();
         self.stage = Stage::Aiming;
         self.shows_hint &= !is_moved;
         self.is_helped = self.shows_hint;

@@ -78,7 +78,7 @@ impl DrillScreen {
                 None => self.message = Some(Message::warning("further out the tip would slip off the ball")),
             },
             Action::Centre => turn.set_stroke(CueInputs { a: 0.0, b: 0.0, ..cue }, action),
-            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&cue, degrees), action),
+            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&turn.raised_stroke(), degrees), action),
             Action::Faster(by) => turn.set_stroke(aiming::faster(&cue, by), action),
             Action::StrokeBack => turn.travel(History::undo),
             Action::StrokeAgain => turn.travel(History::redo),
@@ -103,7 +103,8 @@ impl DrillScreen {
                 self.wishes.goal = match turn.session.goal {
                     Goal::Free => Goal::Run(FIRST_RUN),
                     Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
-                    Goal::Game { .. } | Goal::Exam => Goal::Free,
+                    Goal::Game { .. } => Goal::Match { innings: FIRST_GAME },
+                    Goal::Match { .. } | Goal::Exam => Goal::Free,
                 };
                 return self.restart(None);
             }
@@ -113,6 +114,7 @@ impl DrillScreen {
                 self.wishes.goal = match turn.session.goal {
                     Goal::Run(points) => Goal::Run(counted(points)),
                     Goal::Game { innings } => Goal::Game { innings: counted(innings) },
+                    Goal::Match { innings } => Goal::Match { innings: counted(innings) },
                     other => other,
                 };
                 return self.restart(None);

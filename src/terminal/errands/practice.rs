@@ -155,6 +155,8 @@ impl PracticeWorker {
             _ => return,
         };
         let number = session.attempts.len() - 1;
+        // With the cue raised where it had to be.
+        let meant = session.attempts[number].meant.unwrap_or(meant);
         if let Some((_, advice)) = self.taught.as_ref().filter(|(id, _)| *id == position) {
             session.attempts[number].advised = Some(advice.cue);
             session.attempts[number].advised_chance = Some(advice.chance.rate);

@@ -12,7 +12,7 @@ use crate::terminal::{app::Screen, chord::Chord};
 /// What a key does on the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoachAction {
-    /// Selects a ball.
+    /// Selects a ball by its colour: white, yellow or red.
     Select(usize),
     /// Selects the next ball.
     SelectNext,
@@ -28,6 +28,8 @@ pub enum CoachAction {
     Opening,
     /// Puts the balls anywhere.
     Random,
+    /// Makes the opponent's ball the cue ball.
+    OtherBall,
     /// Takes the last change of the balls back.
     Undo,
     /// Makes it again.
@@ -176,8 +178,9 @@ pub const COACH: &[Binding] = &[
     bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Balls, W::Redoable, &[letter('U', A::Redo), on(Chord::ctrl(KeyCode::Char('r')), A::Redo)], Some(("redo", 1)),
         "make a change again that was taken back"),
-    bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots"),
+    bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots; again for the other side"),
     bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
+    bind(Balls, W::Idle, &[letter('x', A::OtherBall)], None, "the opponent's turn: play with the other ball"),
     bind(Program, W::Anytime, &[(Chord::char('d'), Action::Open(Screen::Drills))], Some(("drills", 1)),
         "practise: exercises, exams, and your own positions"),
     bind(Balls, W::Anytime, &[(Chord::char('s'), Action::SavePosition)], None, "save the balls as a position to practise"),

@@ -275,7 +275,7 @@ pub const EXERCISE: &[Binding] = &[
         "note a point, a miss at a real table; nothing is played here"),
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
     bind(Score, W::Free, &[letter('o', A::Goal)], Some(("goal", 1)),
-        "free repetition, a run of points, or a game that plays on from where the balls stop"),
+        "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
     bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
         "a shorter or longer goal"),
     bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),

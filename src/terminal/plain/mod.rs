@@ -15,10 +15,11 @@ use self::order::{HELP, Order};
 use super::{history::History, placing::slide, settings::Settings};
 use crate::{
     coach::{Coach, Kind, Request, aim, margins},
+    game::Point,
     learning::evaluation::SuccessRate,
     physics::CueInputs,
     simulation::Recording,
-    table::{Layout, Table},
+    table::{CueBall, Layout, Side, Table},
 };
 
 /// A shot that was found.
@@ -33,7 +34,7 @@ struct Found {
 struct Conversation {
     coach: Coach,
     request: Request,
-    balls: History<Layout>,
+    balls: History<(Layout, CueBall)>,
     /// The shots that were found for the balls as they lie, and which of them is spoken of.
     shots: Vec<Found>,
     chosen: usize,
@@ -62,7 +63,14 @@ pub fn converse(
         ..Request::default()
     };
     let rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut talk = Conversation { coach, request, balls: History::new(layout), shots: Vec::new(), chosen: 0, rng };
+    let mut talk = Conversation {
+        coach,
+        request,
+        balls: History::new((layout, CueBall::White)),
+        shots: Vec::new(),
+        chosen: 0,
+        rng,
+    };
     write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
     output.flush()?;
     // What is no UTF-8 is no order either, and is answered so.
@@ -83,8 +91,16 @@ impl Conversation {
         self.coach.table()
     }
 
+    const fn layout(&self) -> &Layout {
+        &self.balls.present().0
+    }
+
+    const fn cue_ball(&self) -> CueBall {
+        self.balls.present().1
+    }
+
     fn places(&self) -> String {
-        speech::places(self.table(), self.balls.present())
+        speech::places(self.table(), self.layout(), self.cue_ball())
     }
 
     fn answer(&mut self, order: Order) -> String {
@@ -97,13 +113,19 @@ impl Conversation {
                 },
                 Err(error) => error.to_string(),
             },
-            Order::Move(ball, step) => {
-                let moved = slide(self.table(), self.balls.present(), ball, step);
+            Order::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
+            Order::CueBall(cue_ball) => {
+                self.balls.push((self.layout().for_the_opponent(), cue_ball));
+                self.forget(format!("The cue ball is {cue_ball}."))
+            }
+            Order::Move(colour, step) => {
+                let ball = self.cue_ball().ordered([0, 1, 2])[colour];
+                let moved = slide(self.table(), self.layout(), ball, step);
                 let stopped =
                     moved.stopped.map_or(String::new(), |reason| format!("\nIt stops there: beyond, {reason}."));
                 self.place(moved.layout) + &stopped
             }
-            Order::Opening => self.place(Layout::opening(self.table())),
+            Order::Opening(side) => self.open(side),
             Order::Random => {
                 let layout = Layout::random(self.coach.table(), &mut self.rng);
                 self.place(layout)
@@ -127,14 +149,16 @@ impl Conversation {
             }
             Order::Other => "There is no other shot; say shot to ask for one.".to_owned(),
             Order::Margins => self.about_the_shot(|talk, shot| {
-                match margins(talk.request.rule, talk.table(), talk.balls.present(), &shot.cue) {
+                match margins(talk.request.rule, talk.table(), talk.layout(), &shot.cue) {
                     Some(found) => speech::margins(&found),
                     None => "This shot makes no point.".to_owned(),
                 }
             }),
-            Order::Tell => self.about_the_shot(|talk, shot| talk.recorded(shot, speech::events)),
+            Order::Tell => self.about_the_shot(|talk, shot| {
+                talk.recorded(shot, |recording| speech::events(recording, talk.cue_ball()))
+            }),
             Order::GoOn => match self.shots.get(self.chosen).copied() {
-                Some(shot) => match Recording::new(self.table(), self.balls.present(), &shot.cue) {
+                Some(shot) => match Recording::new(self.table(), self.layout(), &shot.cue) {
                     Ok(recording) => self.place(recording.final_layout()),
                     Err(error) => error.to_string(),
                 },
@@ -152,9 +176,16 @@ impl Conversation {
         }
     }
 
+    /// Puts the balls on their spots.
+    fn open(&mut self, side: Side) -> String {
+        let layout = Layout::opening_on(self.table(), side);
+        let asks = Point::of(self.request.rule, self.table(), &layout).red_first;
+        self.place(layout) + if asks { "\nThe first shot of a game has to meet red first." } else { "" }
+    }
+
     /// Puts the balls elsewhere.
     fn place(&mut self, layout: Layout) -> String {
-        self.balls.push(layout);
+        self.balls.push((layout, self.cue_ball()));
         self.forget(self.places())
     }
 
@@ -165,7 +196,7 @@ impl Conversation {
     }
 
     fn ask(&mut self) -> String {
-        let advice = match self.coach.recommend(self.balls.present(), &self.request) {
+        let advice = match self.coach.recommend(self.layout(), &self.request) {
             Ok(advice) => advice,
             Err(error) => return error.to_string(),
         };
@@ -191,9 +222,9 @@ impl Conversation {
     /// The shot that is spoken of.
     fn describe(&self) -> String {
         self.about_the_shot(|talk, shot| {
-            let aim = aim(talk.table(), talk.balls.present(), &shot.cue).ok();
-            let chance = speech::chance(shot.kind, shot.rate, talk.request.skill);
-            format!("{chance}\n{}", speech::stroke(talk.table(), &shot.cue, aim.as_ref()))
+            let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
+            let chance = speech::chance(shot.kind, shot.rate, talk.request.skill, talk.cue_ball());
+            format!("{chance}\n{}", speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball()))
         })
     }
 
@@ -202,7 +233,7 @@ impl Conversation {
     }
 
     fn recorded(&self, shot: &Found, say: impl Fn(&Recording) -> String) -> String {
-        match Recording::new(self.table(), self.balls.present(), &shot.cue) {
+        match Recording::new(self.table(), self.layout(), &shot.cue) {
             Ok(recording) => say(&recording),
             Err(error) => error.to_string(),
         }
@@ -238,6 +269,16 @@ mod tests {
         }
         let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
         assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+    }
+
+    #[test]
+    fn the_other_player_has_the_other_ball_and_every_colour_is_told_right() {
+        let said = talk("cue ball yellow\nwhere\nmove yellow up 10\nshot\ntell\nundo\nundo\nwhere\ncue ball white\n");
+        let told = "Yellow lies at 4.00 diamonds along and 2.03 up, 0 and 10 millimetres from the middle.";
+        assert!(said.contains("The cue ball is yellow.") && said.contains(told), "{said}");
+        assert!(said.contains("hits white") || said.contains("hits red"), "{said}");
+        assert!(said.contains("yellow meets") && !said.contains("white meets yellow"), "{said}");
+        assert!(said.trim_end().ends_with("The cue ball is white already."), "{said}");
     }
 
     #[test]

@@ -4,7 +4,11 @@ use std::str::FromStr;
 
 use glam::DVec2;
 
-use crate::{coach::Skill, game::Rule, terminal::words::BALL_NAMES};
+use crate::{
+    coach::Skill,
+    game::Rule,
+    table::{BALL_NAMES, CueBall, Side},
+};
 
 /// What a line asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,10 +17,12 @@ pub enum Order {
     Where,
     /// All three balls at once, as on the command line.
     Balls(String),
-    /// A ball goes by so many millimetres to the right and up.
+    /// This ball is the cue ball.
+    CueBall(CueBall),
+    /// A ball, by its place among white, yellow and red, goes by so many millimetres to the right and up.
     Move(usize, DVec2),
-    /// Balls on their spots.
-    Opening,
+    /// Balls on their spots, the cue ball on this side.
+    Opening(Side),
     /// Balls anywhere.
     Random,
     /// What counts as a point.
@@ -53,7 +59,11 @@ pub const HELP: &[(&str, &str)] = &[
     ("where", "where the balls lie"),
     ("move white left 20", "move a ball by so many millimetres: left, right, up or down"),
     ("balls -0.5,0 0,0 0.5,0.03", "place all three, in metres or in diamonds like 2d,2d 6d,2d 2d,2.5d"),
-    ("opening", "put the balls on their spots"),
+    (
+        "opening",
+        "put the balls on their spots; where the cue ball may stand on either side, opening right puts it there",
+    ),
+    ("cue ball yellow", "which ball is the cue ball: white or yellow"),
     ("random", "put the balls anywhere"),
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     ("skill club", "who plays: perfect, expert, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1"),
@@ -74,8 +84,10 @@ impl FromStr for Order {
             ["margins"] => Self::Margins,
             ["go", "on"] => Self::GoOn,
             ["where"] => Self::Where,
-            ["opening"] => Self::Opening,
+            ["opening"] => Self::Opening(Side::default()),
+            ["opening", side] => Self::Opening(side.parse().map_err(|error| format!("{error}"))?),
             ["random"] => Self::Random,
+            ["cue", "ball", name] => Self::CueBall(name.parse().map_err(|error| format!("{error}"))?),
             ["undo"] => Self::Undo,
             ["help"] => Self::Help,
             ["quit"] => Self::Quit,
@@ -133,6 +145,8 @@ mod tests {
             ("move red left -3", "-3"),
             ("rule snooker", "snooker"),
             ("skill god", "god"),
+            ("cue ball red", "red"),
+            ("opening far", "far"),
         ] {
             let error = line.parse::<Order>().unwrap_err();
             assert!(error.contains(named), "{line}: {error}");

@@ -5,34 +5,31 @@ use crate::{
     learning::evaluation::SuccessRate,
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
-    table::{BALLS, Layout, Table},
-    terminal::words::{BALL_NAMES, event_words, fixed, percent, rail_name},
+    table::{BALLS, CueBall, Layout, Table},
+    terminal::words::{event_words, fixed, percent, rail_name},
 };
 
-/// A ball's name at the beginning of a sentence.
-fn name(ball: usize) -> &'static str {
-    ["White", "Yellow", "Red"][ball]
-}
-
-/// Where the balls lie.
-pub fn places(table: &Table, layout: &Layout) -> String {
+/// Where the balls lie; which is the cue ball is said where it is not white.
+pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall) -> String {
+    let names = cue_ball.ordered(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
         let diamonds = (at + glam::DVec2::new(0.5 * table.length, 0.5 * table.width)) / table.diamond();
         format!(
             "{} lies at {} diamonds along and {} up, {} and {} millimetres from the middle.",
-            name(ball),
+            names[ball],
             fixed(diamonds.x, 2),
             fixed(diamonds.y, 2),
             fixed(1e3 * at.x, 0),
             fixed(1e3 * at.y, 0)
         )
     };
-    (0..layout.balls.len()).map(place).collect::<Vec<_>>().join("\n")
+    let places = cue_ball.ordered([0, 1, 2]).map(place).join("\n");
+    if cue_ball == CueBall::White { places } else { format!("{places}\nThe cue ball is {cue_ball}.") }
 }
 
 /// How to strike.
-pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>) -> String {
+pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBall) -> String {
     let offset = |value: f64, plus: &str, minus: &str| match fixed(1e3 * table.radius * value.abs(), 1) {
         zero if zero == "0.0" => None,
         distance => Some(format!("{distance} millimetres {}", if value > 0.0 { plus } else { minus })),
@@ -58,15 +55,15 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>) -> String {
         lines.extend(hit.map(|hit| {
             let side = if hit.left { "left" } else { "right" };
             let percent = fixed(100.0 * hit.fullness, 0);
-            format!("The cue ball hits {} {percent} percent full on its {side} side.", BALL_NAMES[hit.ball])
+            format!("The cue ball hits {} {percent} percent full on its {side} side.", cue_ball.names()[hit.ball])
         }));
     }
     lines.join("\n")
 }
 
 /// What sort of shot, and how often the player makes it.
-pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> String {
-    let kind = kind.map_or("No point was found; this is the best attempt".to_owned(), sort);
+pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill, cue_ball: CueBall) -> String {
+    let kind = kind.map_or("No point was found; this is the best attempt".to_owned(), |kind| sort(kind, cue_ball));
     match rate {
         Some(rate) => format!(
             "{kind}. Player {skill} makes it {} percent of the time, between {} and {}.",
@@ -79,9 +76,9 @@ pub fn chance(kind: Option<Kind>, rate: Option<SuccessRate>, skill: Skill) -> St
 }
 
 /// What sort of shot it is.
-fn sort(kind: Kind) -> String {
-    let first = kind.first_ball.clamp(1, BALLS - 1);
-    let (first, other) = (BALL_NAMES[first], BALL_NAMES[BALLS - first]);
+fn sort(kind: Kind, cue_ball: CueBall) -> String {
+    let (first, names) = (kind.first_ball.clamp(1, BALLS - 1), cue_ball.names());
+    let (first, other) = (names[first], names[BALLS - first]);
     let start = if kind.cushion_first { "a cushion, then " } else { "" };
     let way = match kind.way {
         Way::Direct => "without a cushion",
@@ -111,11 +108,12 @@ pub fn margins(margins: &[Margin]) -> String {
 }
 
 /// What happens in a shot.
-pub fn events(recording: &Recording) -> String {
+pub fn events(recording: &Recording, cue_ball: CueBall) -> String {
+    let names = cue_ball.names();
     let words = |kind: EventKind| match kind {
-        EventKind::BallBall(one, other) => format!("{} meets {}", BALL_NAMES[one], BALL_NAMES[other]),
-        EventKind::BallRail(ball, rail) => format!("{} meets the {}", BALL_NAMES[ball], rail_name(rail)),
-        other => event_words(other),
+        EventKind::BallBall(one, other) => format!("{} meets {}", names[one], names[other]),
+        EventKind::BallRail(ball, rail) => format!("{} meets the {}", names[ball], rail_name(rail)),
+        other => event_words(other, cue_ball),
     };
     let line = |event: &Event| format!("{} seconds: {}.", fixed(event.time, 2), words(event.kind));
     let mut lines: Vec<String> = recording.events().iter().map(line).collect();

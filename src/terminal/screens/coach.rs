@@ -21,7 +21,7 @@ use crate::{
             draw_legend, draw_margins, draw_plan, draw_proposal, draw_shot, draw_sight, draw_spin, draw_status,
             draw_table, draw_tip, draw_tip_map, plan_spots,
         },
-        words::{BALL_NAMES, event_words, fixed, millimetres, percent, rail_word, step_words},
+        words::{event_words, fixed, millimetres, percent, rail_word, step_words},
     },
 };
 
@@ -140,7 +140,7 @@ fn standing(app: &App) -> String {
         Some(shot) => {
             let (events, time) = (shot.recording.events(), app.playback().readout);
             events.get(passed(events, time)).map_or("all balls lie still".to_owned(), |next| {
-                format!("next: {} in {} s", event_words(next.kind), fixed(next.time - time, 1))
+                format!("next: {} in {} s", event_words(next.kind, app.cue_ball()), fixed(next.time - time, 1))
             })
         }
         None => selected_ball(app),
@@ -149,7 +149,7 @@ fn standing(app: &App) -> String {
 
 /// How the first ball is hit, and the line of aim in diamonds, as a player reads it off the rails.
 fn aim_words(app: &App, shot: &Shot) -> String {
-    let hit = shot.contact_words().unwrap_or_else(|| "hits no ball".to_owned());
+    let hit = shot.contact_words(app.cue_ball()).unwrap_or_else(|| "hits no ball".to_owned());
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
     let [ahead, behind] = line_of_aim(app.table(), app.layout(), shot.cue.phi).map(mark);
     format!("{hit}; aim from {behind} to {ahead} diamonds")
@@ -157,12 +157,11 @@ fn aim_words(app: &App, shot: &Shot) -> String {
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.
 fn selected_ball(app: &App) -> String {
-    let (ball, balls) = (app.selected(), app.layout().balls);
+    let (ball, balls, names) = (app.selected(), app.layout().balls, app.cue_ball().names());
     let others = (0..BALLS).filter(|&other| other != ball);
     let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
     let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
-    let near =
-        nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), BALL_NAMES[other]));
+    let near = nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), names[other]));
     let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
-    format!("{} at x {x} mm, y {y} mm{near}; step {}", BALL_NAMES[ball], step_words(app.step_mm()))
+    format!("{} at x {x} mm, y {y} mm{near}; step {}", names[ball], step_words(app.step_mm()))
 }

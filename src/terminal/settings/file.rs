@@ -1,7 +1,7 @@
 //! The user's file as it is read and written while the program runs, one errand after the other.
 
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
@@ -10,7 +10,7 @@ use super::{
     change::{changed, is_changeable},
     read::{line_at, read},
 };
-use crate::storage::write_atomic;
+use crate::storage::{self, write_atomic};
 
 /// Something that is to be done with the file.
 #[derive(Clone, Debug)]
@@ -96,7 +96,7 @@ impl SettingsFile {
         };
         if text != Some(&new) {
             // What is linked from elsewhere stays linked.
-            let target = fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+            let target = storage::target_of(path);
             let written = write_atomic(&target, new.as_bytes());
             self.has_failed = written.is_err();
             if let Err(error) = written {
@@ -111,7 +111,7 @@ impl SettingsFile {
 
 /// The bytes of the file; `None` where there is none.
 fn content(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    match fs::read(path) {
+    match storage::read(path, storage::SMALL) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),
@@ -130,6 +130,8 @@ fn troubles(path: &Path, bytes: Option<&[u8]>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::terminal::theme::Palette;
 

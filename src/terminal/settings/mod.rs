@@ -23,6 +23,7 @@ use super::{
 use crate::{
     coach::Skill,
     game::Rule,
+    storage,
     table::{PRESETS, Table},
 };
 
@@ -92,7 +93,7 @@ impl Settings {
 
     /// What the file says, or the defaults where there is none or a key is wrong; and what is wrong.
     pub fn load(path: &Path) -> (Self, Vec<Complaint>) {
-        match std::fs::read(path) {
+        match storage::read(path, storage::SMALL) {
             Ok(bytes) => read::read(&String::from_utf8_lossy(&bytes)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => (Self::default(), Vec::new()),
             Err(error) => (Self::default(), vec![Complaint::of_file(&error)]),
@@ -141,7 +142,7 @@ impl Settings {
         if PRESETS.contains(&self.table.as_str()) {
             return Table::preset(&self.table).map_err(|error| error.to_string());
         }
-        let text = std::fs::read_to_string(&self.table).map_err(|error| error.to_string());
+        let text = storage::read_text(self.table.as_ref(), storage::SMALL).map_err(|error| error.to_string());
         let table = text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string()));
         table.map_err(|sentence| format!("{}: {sentence}", self.table))
     }

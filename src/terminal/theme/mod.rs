@@ -5,6 +5,7 @@ mod palette;
 use ratatui::style::{Color, Modifier, Style};
 
 use super::look::Depth;
+use crate::table::CueBall;
 
 pub use palette::{Palette, UnknownPalette};
 
@@ -40,7 +41,9 @@ pub struct Theme {
     pub sight: Color,
     /// The cue before the stroke.
     pub cue: Color,
-    /// White, yellow and red ball.
+    /// Which ball the player plays with.
+    pub cue_ball: CueBall,
+    /// The cue ball, the opponent's and the red ball.
     pub balls: [Color; 3],
     /// Behind a ball's sign among words, where it has to be seen as well.
     pub behind_ball: Color,
@@ -87,6 +90,7 @@ impl Theme {
             wood: ink(0x006b_4128, 94, Color::DarkGray),
             sight: ink(0x00f3_e3bf, 223, Color::White),
             cue: ink(0x00e2_bb82, 180, Color::Gray),
+            cue_ball: CueBall::White,
             balls: [
                 ink(0x00f7_f3e8, 255, Color::White),
                 ink(0x00f6_c324, 220, Color::LightYellow),
@@ -115,6 +119,27 @@ impl Theme {
             grid: ink(0x0036_3f48, 237, Color::DarkGray),
             strong: Modifier::BOLD,
         }
+    }
+
+    /// The same for who plays with `cue_ball`: the balls keep their colours, whichever comes first.
+    #[must_use]
+    pub fn with_cue_ball(&self, cue_ball: CueBall) -> Self {
+        if cue_ball == self.cue_ball {
+            return *self;
+        }
+        // Changing twice changes nothing.
+        let [balls, paths] = [self.balls, self.paths].map(|colours| CueBall::Yellow.ordered(colours));
+        Self { cue_ball, balls, paths, face: balls[0], ..*self }
+    }
+
+    /// What the balls are called.
+    pub const fn names(&self) -> [&'static str; 3] {
+        self.cue_ball.names()
+    }
+
+    /// Their letters.
+    pub fn letters(&self) -> [char; 3] {
+        self.cue_ball.ordered(['W', 'Y', 'R'])
     }
 
     /// Whether nothing but letters and modifiers tells things apart.
@@ -164,7 +189,7 @@ impl Theme {
             (Color::Rgb(r, g, b), Color::Rgb(cloth_r, cloth_g, cloth_b)) => {
                 Color::Rgb(r.midpoint(cloth_r), g.midpoint(cloth_g), b.midpoint(cloth_b))
             }
-            (Color::Indexed(_), _) => Color::Indexed([73, 107, 131][ball]),
+            (Color::Indexed(_), _) => Color::Indexed(self.cue_ball.ordered([73, 107, 131])[ball]),
             (Color::Reset, _) => Color::Reset,
             _ => Color::Cyan,
         }

@@ -13,7 +13,7 @@ use crate::{
     terminal::{
         app::{App, Mode},
         spin::Spin,
-        words::{BALL_NAMES, fixed, millimetres, step_words},
+        words::{fixed, millimetres, step_words},
     },
 };
 
@@ -45,11 +45,11 @@ fn draw_ball(app: &App, ball: usize, area: Rect, buffer: &mut Buffer) {
     if selected {
         style = theme.accent();
     }
-    let marker = if theme.is_mono() || !look.unicode { ["W", "Y", "R"][ball] } else { "●" };
+    let marker = if theme.is_mono() || !look.unicode { theme.letters()[ball] } else { '●' };
     let pointer = if selected { look.pick("▸", ">") } else { " " };
     buffer.set_string(area.x, area.y, pointer, theme.accent());
-    buffer.set_string(area.x + 1, area.y, marker, theme.ball(ball).add_modifier(Modifier::BOLD));
-    buffer.set_string(area.x + 3, area.y, BALL_NAMES[ball], style);
+    buffer.set_string(area.x + 1, area.y, marker.to_string(), theme.ball(ball).add_modifier(Modifier::BOLD));
+    buffer.set_string(area.x + 3, area.y, theme.names()[ball], style);
     let (place, speed, motion) = match app.watched() {
         Some(shot) => {
             let time = app.playback().readout;
@@ -84,12 +84,12 @@ fn more(app: &App) -> Vec<Line<'static>> {
             let balls = app.layout().balls;
             let gap = (balls[app.selected()].distance(balls[other]) - 2.0 * app.table().radius).max(0.0);
             gaps.push(label(if gaps.len() > 1 { ", " } else { " " }));
-            gaps.push(value(format!("{} {}", BALL_NAMES[other], millimetres(gap))));
+            gaps.push(value(format!("{} {}", theme.names()[other], millimetres(gap))));
         }
         gaps.push(label(" mm"));
         lines.push(Line::from(gaps));
     }
-    if let Some(contact) = app.shot().and_then(|shot| shot.contact_words()) {
+    if let Some(contact) = app.shot().and_then(|shot| shot.contact_words(app.cue_ball())) {
         lines.push(Line::from(value(contact)));
     }
     lines

@@ -7,12 +7,15 @@ use ratatui::{
 };
 
 use super::{draw_nothing, draw_title, write_right};
-use crate::terminal::{
-    advice::Proposal,
-    coach::Advised,
-    look::Look,
-    theme::Theme,
-    words::{chance_words, kind_words, percent, skill_word},
+use crate::{
+    table::CueBall,
+    terminal::{
+        advice::Proposal,
+        coach::Advised,
+        look::Look,
+        theme::Theme,
+        words::{chance_words, kind_words, percent, skill_word},
+    },
 };
 
 /// Columns at which the number of a shot and its probability end, and before its words.
@@ -56,7 +59,7 @@ pub fn draw_chances(
         let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
         let room = usize::from(inner.width.saturating_sub(WORDS));
-        buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal), room, style);
+        buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal, theme.cue_ball), room, style);
     }
 }
 
@@ -75,6 +78,6 @@ fn in_view(advised: &Advised, inner: Rect) -> impl Iterator<Item = (usize, u16)>
 }
 
 /// What sort of shot it is, or that it makes no point.
-pub fn sort_words(proposal: &Proposal) -> String {
-    proposal.kind.map_or_else(|| "no point".to_owned(), kind_words)
+pub fn sort_words(proposal: &Proposal, cue_ball: CueBall) -> String {
+    proposal.kind.map_or_else(|| "no point".to_owned(), |kind| kind_words(kind, cue_ball))
 }

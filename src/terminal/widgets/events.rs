@@ -46,7 +46,8 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, theme: &T
     let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
     for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
         let event = n.checked_sub(1).map(|n| events[n]);
-        let (at, words) = event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind)));
+        let (at, words) =
+            event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind, theme.cue_ball)));
         let words = if is_narrow { words.trim_end_matches(" rail").replace("comes free", "is free") } else { words };
         let style = match n {
             _ if n == present => theme.accent(),

@@ -15,12 +15,11 @@ use crate::{
         coach::Choice,
         look::{Glyphs, Look},
         theme::Theme,
-        words::{BALL_NAMES, fixed, percent},
+        words::{fixed, percent},
     },
 };
 
-/// Signs of the balls' ends and of the cue ball's next way where only letters are drawn.
-const END_LETTERS: [char; BALLS] = ['w', 'y', 'r'];
+/// Sign of the cue ball's next way where only letters are drawn.
 const WAY_LETTER: char = '*';
 
 /// What the distances of the stops are.
@@ -35,7 +34,11 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let Some(choice) = choice else { return draw_nothing(&[empty], inner, theme, buffer) };
-    let rows = [("now", shot_words(&choice.proposal)), ("stop", stop_words(choice)), ("next", next_words(choice))];
+    let rows = [
+        ("now", shot_words(&choice.proposal, theme)),
+        ("stop", stop_words(choice, theme)),
+        ("next", next_words(choice, theme)),
+    ];
     let mut lines: Vec<Line> = rows
         .into_iter()
         .map(|(name, words)| {
@@ -59,25 +62,25 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, theme: &Theme
     }
 }
 
-fn shot_words(proposal: &Proposal) -> String {
+fn shot_words(proposal: &Proposal, theme: &Theme) -> String {
     let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
     let so_far = if proposal.is_early { "so far " } else { "" };
-    format!("{so_far}{chance} % {}", sort_words(proposal))
+    format!("{so_far}{chance} % {}", sort_words(proposal, theme.cue_ball))
 }
 
 /// How near to the meant places the balls stop, in half of the attempts that make the point.
-fn stop_words(choice: &Choice) -> String {
+fn stop_words(choice: &Choice, theme: &Theme) -> String {
     let Some(study) = &choice.study else { return "being tried".to_owned() };
     let meant = choice.proposal.shot.recording.final_layout();
     let spread = |ball: usize| Some(100.0 * study.scatter.spread(ball, meant.balls[ball])?);
     let words: Vec<_> =
-        (0..BALLS).filter_map(|ball| Some(format!("{} {}", BALL_NAMES[ball], fixed(spread(ball)?, 0)))).collect();
+        (0..BALLS).filter_map(|ball| Some(format!("{} {}", theme.names()[ball], fixed(spread(ball)?, 0)))).collect();
     if words.is_empty() { "no attempt made the point".to_owned() } else { words.join(", ") + " cm" }
 }
 
-fn next_words(choice: &Choice) -> String {
+fn next_words(choice: &Choice, theme: &Theme) -> String {
     match (&choice.next, choice.is_studied) {
-        (Some(next), _) => next.proposals.first().map_or_else(String::new, shot_words),
+        (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, theme)),
         (None, false) => "being looked for".to_owned(),
         (None, true) => "none".to_owned(),
     }
@@ -91,7 +94,7 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
             place: end.balls[ball],
             is_ball: false,
             color: theme.balls[ball],
-            letter: END_LETTERS[ball],
+            letter: theme.letters()[ball].to_ascii_lowercase(),
         };
         (0..BALLS).map(spot)
     });

@@ -13,13 +13,7 @@ use super::{
 };
 use crate::{
     coach::Hit,
-    terminal::{
-        canvas::Ink,
-        look::Look,
-        shot::Meeting,
-        theme::Theme,
-        words::{BALL_NAMES, rail_name},
-    },
+    terminal::{canvas::Ink, look::Look, shot::Meeting, theme::Theme, words::rail_name},
 };
 
 /// Rows of the words, and rows of a panel up to which only the title tells how full the ball is hit.
@@ -27,10 +21,8 @@ const WORDS: u16 = 3;
 const LOW: u16 = 5;
 /// Fullness from which on a hit is called 100 % full, and has no side.
 const FULL: f64 = 0.995;
-/// Signs of the cue ball, of the part of the object ball behind it, and of the object balls.
-const CUE_BALL: char = 'W';
+/// Sign of the part of the object ball behind the cue ball.
 const BEHIND: char = '#';
-const OBJECT_BALLS: [char; 3] = [CUE_BALL, 'Y', 'R'];
 
 /// Draws the panel: how the object ball is met, or what is met before it.
 pub fn draw_sight(meeting: Option<Meeting>, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffer) {
@@ -41,7 +33,7 @@ pub fn draw_sight(meeting: Option<Meeting>, area: Rect, theme: &Theme, look: Loo
     }
     let inner = draw_title(&Line::from(title), area, theme, look, buffer);
     let Some(Meeting::Ball(hit)) = meeting else {
-        return draw_words(&words_without_ball(meeting), inner, theme, buffer);
+        return draw_words(&words_without_ball(meeting, theme), inner, theme, buffer);
     };
     let words = if is_low { 0 } else { WORDS };
     let picture = Rect { height: inner.height.saturating_sub(words), ..inner };
@@ -51,7 +43,7 @@ pub fn draw_sight(meeting: Option<Meeting>, area: Rect, theme: &Theme, look: Loo
         Hit { left: true, .. } => "left side",
         Hit { left: false, .. } => "right side",
     };
-    let lines = [BALL_NAMES[hit.ball].to_owned(), format!("{} % full", percent(&hit)), side.to_owned()];
+    let lines = [theme.names()[hit.ball].to_owned(), format!("{} % full", percent(&hit)), side.to_owned()];
     if !is_low {
         draw_words(&lines, Rect { y: drawn.bottom(), height: words, ..inner }, theme, buffer);
     }
@@ -61,7 +53,7 @@ fn percent(hit: &Hit) -> String {
     format!("{:.0}", 100.0 * hit.fullness)
 }
 
-fn words_without_ball(meeting: Option<Meeting>) -> Vec<String> {
+fn words_without_ball(meeting: Option<Meeting>, theme: &Theme) -> Vec<String> {
     match meeting {
         None | Some(Meeting::Ball(_)) => Vec::new(),
         Some(Meeting::Nothing) => vec!["meets".to_owned(), "nothing".to_owned()],
@@ -69,7 +61,7 @@ fn words_without_ball(meeting: Option<Meeting>) -> Vec<String> {
             let mut words = vec![rail_name(rail).to_owned(), "first".to_owned()];
             if let Some(hit) = hit {
                 words[1].push_str(", then");
-                words.push(format!("{} {} %", BALL_NAMES[hit.ball], percent(&hit)));
+                words.push(format!("{} {} %", theme.names()[hit.ball], percent(&hit)));
             }
             words
         }
@@ -98,15 +90,15 @@ fn draw_hit(hit: &Hit, area: Rect, theme: &Theme, look: Look, buffer: &mut Buffe
     let apart = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
     let cue = if hit.left { -0.5 * apart } else { 0.5 * apart };
     let per_half = f64::from(2 * rows) / f64::from(diameter);
-    let ink = |color, weight| Ink { color, weight };
+    let (ink, letters) = (|color, weight| Ink { color, weight }, theme.letters());
     draw_field(cloth, theme.cloth, look, buffer, |x, y, _| {
         let (x, y) = (2.0 * x, per_half * y);
         let covers = |middle: f64| (x - middle).hypot(y) <= 1.0;
         let ball = hit.ball;
         let (ink, letter, style) = match (covers(cue), covers(-cue)) {
             (true, true) => (ink(theme.paths[ball], 3), BEHIND, theme.ball(ball)),
-            (true, false) => (ink(theme.balls[0], 3), CUE_BALL, theme.ball(0)),
-            (false, true) => (ink(theme.balls[ball], 3), OBJECT_BALLS[ball], theme.ball(ball)),
+            (true, false) => (ink(theme.balls[0], 3), letters[0], theme.ball(0)),
+            (false, true) => (ink(theme.balls[ball], 3), letters[ball], theme.ball(ball)),
             (false, false) => return None,
         };
         Some(Mark { ink, letter, style: style.add_modifier(Modifier::BOLD) })

@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::stamp::Stamp;
-use crate::learning::run::metrics::Record;
+use crate::{learning::run::metrics::Record, storage};
 
 /// Bytes that are read at a time; no line of ours is longer than a thousandth of it.
 const CHUNK: usize = 1 << 20;
@@ -68,7 +68,7 @@ impl Tail {
         if stamp == self.stamp {
             return Ok(if stamp.is_some() { Look::Same } else { Look::Missing });
         }
-        let mut file = match File::open(&self.path) {
+        let mut file = match storage::open(&self.path) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 self.stamp = None;
                 return Ok(Look::Missing);

@@ -7,7 +7,7 @@ mod nose;
 use glam::DVec2;
 
 use super::BallState;
-use crate::table::{Fade, Rail, RailModel, Table};
+use crate::table::{Fade, Rail, RailModel, Rails, Table};
 pub use equator::collide_rail;
 use nose::Grip;
 
@@ -48,7 +48,7 @@ impl Cushion {
         let restitution = own.e.unwrap_or(table.rail_restitution);
         let friction = own.mu.unwrap_or(table.rail_friction);
         let sine = own.height.or(table.rail.height).map_or(0.0, |height| height / table.radius - 1.0);
-        let cosine = (1.0 - sine * sine).sqrt();
+        let cosine = if sine == 0.0 { 1.0 } else { (1.0 - sine * sine).sqrt() };
         let law = match table.rail.model {
             RailModel::Equator => Law::Equator,
             RailModel::Nose => Law::Nose { sine, cosine, grip: Grip::Sharp },
@@ -90,6 +90,38 @@ impl Cushion {
                 mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball)
             }
         }
+    }
+}
+
+/// A table's four cushions: mostly one for all.
+#[derive(Clone, Debug)]
+pub struct Cushions {
+    all: Cushion,
+    own: Option<Box<[Cushion; 4]>>,
+}
+
+impl Cushions {
+    /// Those of a table.
+    pub fn of(table: &Table) -> Self {
+        let Rails { left, right, bottom, top, .. } = table.rail;
+        let differ = left.is_some() || right.is_some() || bottom.is_some() || top.is_some();
+        Self {
+            all: Cushion::of(table, Rail::Left),
+            own: differ.then(|| Box::new(Rail::ALL.map(|rail| Cushion::of(table, rail)))),
+        }
+    }
+
+    /// The one of a rail.
+    #[inline(always)]
+    pub fn at(&self, rail: Rail) -> &Cushion {
+        self.own.as_ref().map_or(&self.all, |own| &own[rail as usize])
+    }
+
+    /// The end of endless bounces at all of them.
+    #[must_use]
+    pub fn inelastic(&self) -> Self {
+        let own = self.own.as_ref().map(|own| Box::new(own.map(Cushion::inelastic)));
+        Self { all: self.all.inelastic(), own }
     }
 }
 

@@ -18,8 +18,8 @@ pub struct OnCushion<'a> {
     pub normal: DVec2,
     /// Whether the ball slips at the cushion; otherwise it sticks there.
     pub slips: bool,
-    /// Whether it spins about the vertical; otherwise the cloth keeps it from doing so.
-    pub spins: bool,
+    /// Which way it spins about the vertical all along, 1 or -1; if 0 the cloth keeps it from doing so.
+    pub turning: f64,
 }
 
 impl OnCushion<'_> {
@@ -62,7 +62,7 @@ impl OnCushion<'_> {
         let table = self.table;
         let (n, t, twist) = (self.normal, self.normal.perp(), 2.5 / table.radius);
         let cloth = -table.sliding_friction * table.gravity * self.cloth_slip(now).normalize_or_zero();
-        let boring = -twist * table.spinning_friction * table.gravity * sign(now.1.z);
+        let boring = -twist * table.spinning_friction * table.gravity * self.turning;
         // The force at the lowest point turns the ball about a horizontal axis, that at the cushion about the others.
         let turn = (twist * DVec2::new(cloth.y, -cloth.x)).extend(boring);
         let push = (-cloth.dot(n)).max(0.0);
@@ -74,12 +74,7 @@ impl OnCushion<'_> {
         };
         let linear = cloth + push * n + rub.x * t;
         let mut angular = turn + twist * (rub.y * t).extend(-rub.x);
-        angular.z = if self.spins { angular.z } else { 0.0 };
+        angular.z = if self.turning == 0.0 { 0.0 } else { angular.z };
         (linear, angular)
     }
-}
-
-/// -1, 0 or 1.
-fn sign(x: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x.signum() }
 }

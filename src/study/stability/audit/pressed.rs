@@ -103,8 +103,11 @@ fn on_one_cushion(
     let (Some(contact @ Contact { second: None, normal, .. }), None) = (own.next(), own.next()) else { return None };
     let [_, along, up] = contact.directions();
     let (slides, rubs) = (slips(ends, &on_cloth(ball)), slips(ends, &[along, up]));
-    let spins = slips(ends, &[about_vertical(ball)]);
-    (slides && (rubs || spins)).then(|| OnCushion { table, normal: *normal, slips: rubs, spins }.loss(state, time))
+    // Where a spin ends, rounding leaves the other sign; where it begins, it has none yet.
+    let spin = about_vertical(ball);
+    let turning = if slips(ends, &[spin]) { (dot(&spin, &ends[0]) + dot(&spin, &ends[1])).signum() } else { 0.0 };
+    let course = OnCushion { table, normal: *normal, slips: rubs, turning };
+    (slides && (rubs || turning != 0.0)).then(|| course.loss(state, time))
 }
 
 /// Whether there is a speed along some directions, by its size at a stretch's start and end.

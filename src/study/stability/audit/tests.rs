@@ -24,7 +24,7 @@ fn unexplained(table: &Table, shot: &Shot, tamper: impl FnOnce(&mut Trace)) -> f
 /// Over two cushions and a ball.
 fn lively() -> (Table, Shot) {
     let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
-    (Table::default(), Shot { layout, cue: Stroke { a: 0.2, b: 0.3, ..Stroke::centre(0.0, 4.0) } })
+    (Table::preset("textbook").unwrap(), Shot { layout, cue: Stroke { a: 0.2, b: 0.3, ..Stroke::centre(0.0, 4.0) } })
 }
 
 /// A shot on the thesis' table whose cue ball is pressed against a cushion for a while.
@@ -40,6 +40,17 @@ fn pressed() -> (Table, Shot) {
             return (table, shot);
         }
     }
+}
+
+/// The ball's spin about the vertical ends on the way along a cushion.
+#[test]
+fn a_spin_that_ends_against_a_cushion_is_explained() {
+    let table = Table::preset("thesis").unwrap();
+    let shot = r#"{"layout": [[0.6605517353993215, -0.3942754478236047], [0.4614715737467585, -0.423863774229514],
+        [0.16292131207569605, -0.1396717743680046]], "cue": {"a": -0.31536479533037, "b": 0.8130529572876475,
+        "phi_deg": -7.48977395544091, "speed": 33.16013417052466, "theta_deg": 10.061314137005898}}"#;
+    let left = unexplained(&table, &serde_json::from_str(shot).unwrap(), |_| {});
+    assert!(left < 1.0, "{left}");
 }
 
 fn piece_of(trace: &mut Trace, motion: Motion, last: bool) -> &mut Piece {

@@ -90,7 +90,12 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, look: Look) -> Vec<Spot> {
     // The ball at the end of the line is drawn over it.
     let line = steps(DOT, sight.way - 1.5 * turn.table.radius, DOT);
     let line = line.map(|way| spot(start + way * ahead, theme.paths[0], dot));
-    let ghost = Spot { place: sight.end, is_ball: true, color: theme.paths[0], letter: 'w' };
+    let ghost = Spot {
+        place: sight.end,
+        is_ball: true,
+        color: theme.paths[0],
+        letter: theme.letters()[0].to_ascii_lowercase(),
+    };
     cue.filter(on_table).chain(line).chain([ghost]).collect()
 }
 

@@ -9,13 +9,14 @@ use ratatui::{
 use super::{percent, write_paragraphs};
 use crate::{
     drills::changes,
-    physics::CueInputs,
+    physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
+    table::CueBall,
     terminal::{
         app::App,
         drills::{Lesson, Meets, Sight, Taught, Turn, Watched},
         look::Look,
         widgets::draw_title,
-        words::{BALL_NAMES, fixed, rail_name},
+        words::{fixed, rail_name},
     },
 };
 
@@ -25,8 +26,11 @@ const FULL: f64 = 0.995;
 /// Draws the numbers of the stroke that is set, or was meant.
 pub fn draw_stroke(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
     let (theme, look) = (app.theme(), app.look());
-    let cue = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
-    let inner = draw_title(&Line::from(Span::styled("Your stroke", theme.text())), area, theme, look, buffer);
+    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
+    // In a match one plays both sides.
+    let title =
+        if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
+    let inner = draw_title(&Line::from(Span::styled(title, theme.text())), area, theme, look, buffer);
     let degree = look.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
         let offset = 1000.0 * turn.table.radius * radii;
@@ -67,7 +71,14 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
         paragraphs.extend(differences(turn, watched, look).into_iter().map(|words| (words, theme.text())));
     } else {
         if let Some(sight) = turn.sight() {
-            paragraphs.push((sight_words(&sight), theme.accent()));
+            paragraphs.push((sight_words(&sight, turn.cue_ball), theme.accent()));
+            match turn.least_elevation() {
+                Ok(LeastElevation { theta, over: Some(over) }) => {
+                    paragraphs.push((least_words(theta, over, turn.cue_ball, look), theme.faint()));
+                }
+                Ok(LeastElevation { over: None, .. }) => {}
+                Err(NoRoom { obstacle }) => paragraphs.push((no_room_words(obstacle, turn.cue_ball), theme.warning())),
+            }
         }
         // In a game the balls have gone elsewhere, and what was to be learnt with them.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
@@ -81,18 +92,36 @@ pub fn draw_aim(app: &App, turn: &Turn, area: Rect, buffer: &mut Buffer) {
 }
 
 /// What the line of aim meets.
-fn sight_words(sight: &Sight) -> String {
+fn sight_words(sight: &Sight, cue_ball: CueBall) -> String {
     let way = fixed(100.0 * sight.way, 0);
     match sight.meets {
         Meets::Ball(hit) => {
             // Head-on has no side.
             let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
             let side = sides[usize::from(hit.left)];
-            format!("{} {:.0} % full{side}, {way} cm", BALL_NAMES[hit.ball], 100.0 * hit.fullness)
+            format!("{} {:.0} % full{side}, {way} cm", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         Meets::Cushion(mark) => {
             format!("{} at {} diamonds, {way} cm", rail_name(mark.rail), fixed(mark.diamond, 1))
         }
+    }
+}
+
+/// How low the cue can be held, and what it passes over.
+fn least_words(theta: f64, over: Obstacle, cue_ball: CueBall, look: Look) -> String {
+    let degree = look.pick("°", " deg");
+    format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over, cue_ball))
+}
+
+/// What keeps the cue from being held at all.
+fn no_room_words(obstacle: Obstacle, cue_ball: CueBall) -> String {
+    format!("no room for the cue: the {} is in the way", obstacle_word(obstacle, cue_ball))
+}
+
+fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
+    match obstacle {
+        Obstacle::Rail(rail) => rail_name(rail).to_owned(),
+        Obstacle::Ball(ball) => format!("{} ball", cue_ball.names()[ball]),
     }
 }
 
@@ -114,7 +143,7 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, look: Look) -> Str
 /// How often the stroke is made that is taught, and how to set it.
 fn hint(turn: &Turn, taught: &Taught, look: Look) -> String {
     let advice = &taught.advice;
-    let changes = told(turn, [turn.stroke(), &advice.cue], "as it is set", look);
+    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", look);
     format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
 }
 
@@ -141,4 +170,27 @@ fn differences(turn: &Turn, watched: &Watched, look: Look) -> [String; 2] {
     };
     let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", look);
     [lesson, format!("your hand: {added}")]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        simulation::Rail,
+        terminal::look::{Depth, Glyphs},
+    };
+
+    #[test]
+    fn the_least_elevation_is_told_with_what_the_cue_passes_over() {
+        let look = |unicode| Look { depth: Depth::True, glyphs: Glyphs::Letters, unicode };
+        let theta = 7.26_f64.to_radians();
+        let over_rail = least_words(theta, Obstacle::Rail(Rail::Top), CueBall::White, look(true));
+        assert_eq!(over_rail, "cue at least 7.3° up, over the top rail");
+        let over_ball = least_words(theta, Obstacle::Ball(1), CueBall::White, look(false));
+        assert_eq!(over_ball, "cue at least 7.3 deg up, over the yellow ball");
+        assert_eq!(
+            no_room_words(Obstacle::Ball(1), CueBall::Yellow),
+            "no room for the cue: the white ball is in the way"
+        );
+    }
 }

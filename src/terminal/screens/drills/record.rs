@@ -171,6 +171,7 @@ fn what(session: &Session, scope: Option<&str>) -> String {
         Goal::Run(points) => format!("run of {points}"),
         Goal::Exam => "exam".to_owned(),
         Goal::Game { .. } => "game".to_owned(),
+        Goal::Match { .. } => "match".to_owned(),
     };
     let place = if session.venue == Venue::Table { ", real table" } else { "" };
     if scope.is_some() || session.goal == Goal::Exam {

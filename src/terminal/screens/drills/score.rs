@@ -44,6 +44,8 @@ fn goal_words(goal: Goal) -> String {
         Goal::Game { innings: 0 } => "game".to_owned(),
         Goal::Game { innings: 1 } => "game, 1 inning".to_owned(),
         Goal::Game { innings } => format!("game, {innings} innings"),
+        Goal::Match { innings: 0 } => "match".to_owned(),
+        Goal::Match { innings } => format!("match, {innings} innings"),
     }
 }
 
@@ -88,7 +90,12 @@ fn lines(session: &Session) -> Vec<String> {
         return lines;
     }
     let average = record.average.map_or(String::new(), |average| format!(", average {average:.2}"));
-    if session.is_game() {
+    if session.is_match() {
+        for cue_ball in [session.cue_ball, session.cue_ball.other()] {
+            let Record { made, innings, high_run, .. } = session.side(cue_ball);
+            lines.push(format!("{cue_ball}: {made} in {innings} innings, best run {high_run}"));
+        }
+    } else if session.is_game() {
         let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
         lines.push(format!("run {}, best {}", session.run(), record.high_run));

@@ -18,8 +18,7 @@ use crate::{
 
 /// Columns across a ball from which on its letter has room for brackets.
 const BRACKET_COLUMNS: f64 = 2.0;
-/// Letters of the balls, and the signs of their paths and of their trails.
-const LETTERS: [char; BALLS] = ['W', 'Y', 'R'];
+/// The signs of the balls' paths, white, yellow and red, and of their trails.
 const DOTS: [char; BALLS] = ['·', '+', '×'];
 const PLAIN_DOTS: [char; BALLS] = ['.', '+', 'x'];
 const TRAIL: [char; 2] = ['•', '*'];
@@ -85,18 +84,19 @@ fn in_letters(scene: &Scene, buffer: &mut Buffer) {
     for spot in scene.spots() {
         put(spot.place, spot.letter, spot.color);
     }
-    let (dots, trail) = (look.pick(DOTS, PLAIN_DOTS), look.pick(TRAIL[0], TRAIL[1]));
+    let dots = theme.cue_ball.ordered(look.pick(DOTS, PLAIN_DOTS));
+    let (letters, trail) = (theme.letters(), look.pick(TRAIL[0], TRAIL[1]));
     scene.each_dot(|ball, place, age| {
         let sign = if age == Age::Trail { trail } else { dots[ball] };
         put(place, sign, path_color(theme, ball, age));
     });
     for ghost in scene.ghosts() {
-        put(ghost.place, LETTERS[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
+        put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
     }
     for ball in scene.order() {
         let (x, y) = mapping.to_cell(scene.balls[ball]);
         let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
-        let text = if wide { format!("({})", LETTERS[ball]) } else { LETTERS[ball].to_string() };
+        let text = if wide { format!("({})", letters[ball]) } else { letters[ball].to_string() };
         let mut style = theme.ball_letter(ball).add_modifier(Modifier::BOLD);
         if !scene.view.is_moving && ball == scene.view.front {
             style = style.add_modifier(Modifier::REVERSED);

@@ -146,7 +146,7 @@ mod tests {
 
     /// Calls `check` with the scene at `time` of a shot that meets both balls.
     fn at(columns: u16, time: f64, check: impl Fn(&Scene, &Shot)) {
-        let table = Table::default();
+        let table = Table::preset("textbook").unwrap();
         let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse("0,0.3,0,0,4").unwrap(), true, "test").unwrap();
         assert_eq!(shot.contacts.len(), 2, "{:?}", shot.contacts);

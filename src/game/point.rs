@@ -1,0 +1,94 @@
+//! What makes a shot a point: the rule, and in the opening of a match which ball comes first.
+
+use super::{Rule, Tally};
+use crate::table::{Layout, Opening, Table};
+
+/// What makes a shot a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Point {
+    /// The rule.
+    pub rule: Rule,
+    /// Whether of the object balls the red one has to be met first.
+    pub red_first: bool,
+}
+
+impl From<Rule> for Point {
+    fn from(rule: Rule) -> Self {
+        Self { rule, red_first: false }
+    }
+}
+
+impl Point {
+    /// What makes a shot from this layout a point: where the balls stand as a game opens by UMB rules, a three-cushion shot
+    /// has to meet the red ball first.
+    #[inline]
+    pub fn of(rule: Rule, table: &Table, layout: &Layout) -> Self {
+        let asks = table.opening == Opening::Umb && rule == Rule::ThreeCushion;
+        Self { rule, red_first: asks && layout.opening_side(table).is_some() }
+    }
+
+    /// Whether a shot that did what `tally` says is a point; it can still become one until both object balls are met.
+    pub fn is_made(self, tally: &Tally) -> bool {
+        tally.is_point(self.rule) && (tally.red_first || !self.red_first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        game::scores,
+        physics::CueInputs,
+        simulation::{Event, EventKind, Rail},
+        table::Side,
+    };
+
+    #[test]
+    fn only_the_first_three_cushion_shot_of_a_umb_game_asks_for_the_red_ball() {
+        let umb = Table { opening: Opening::Umb, ..Table::default() };
+        let thesis = Table { opening: Opening::Thesis, ..Table::default() };
+        for side in [Side::Left, Side::Right] {
+            let layout = Layout::opening_on(&umb, side);
+            assert!(Point::of(Rule::ThreeCushion, &umb, &layout).red_first);
+            assert!(!Point::of(Rule::OneCushion, &umb, &layout).red_first);
+            assert!(!Point::of(Rule::ThreeCushion, &thesis, &layout).red_first);
+            let mut later = layout;
+            later.balls[2].y += 1e-4;
+            assert!(!Point::of(Rule::ThreeCushion, &umb, &later).red_first);
+        }
+        assert!(!Point::of(Rule::ThreeCushion, &thesis, &Layout::opening(&thesis)).red_first);
+    }
+
+    #[test]
+    fn the_opponents_ball_first_is_no_point_where_red_is_asked_for() {
+        let rail = EventKind::BallRail(0, Rail::Top);
+        let tally = |first, second| {
+            let mut tally = Tally::default();
+            for kind in [EventKind::BallBall(0, first), rail, rail, rail, EventKind::BallBall(0, second)] {
+                tally.note(&Event { time: 0.0, kind });
+            }
+            tally
+        };
+        let point = Point { rule: Rule::ThreeCushion, red_first: true };
+        assert!(point.is_made(&tally(2, 1)) && !point.is_made(&tally(1, 2)));
+        assert!(Point::from(Rule::ThreeCushion).is_made(&tally(1, 2)));
+    }
+
+    /// Of all strokes at either ball, some make three cushions from the opening off the opponent's ball: those do not count.
+    #[test]
+    fn scoring_an_opening_shot_looks_at_the_ball_that_comes_first() {
+        let umb = Table { opening: Opening::Umb, ..Table::default() };
+        let free = Table { opening: Opening::Thesis, ..umb.clone() };
+        let layout = Layout::opening(&umb);
+        let (mut kept, mut lost) = (0, 0);
+        for step in 0..3600 {
+            let phi = f64::from(step) * 0.1_f64.to_radians();
+            let cue = CueInputs { a: if step % 2 == 0 { 0.4 } else { -0.4 }, b: 0.0, theta: 0.0, phi, speed: 4.0 };
+            let [strict, loose] = [&umb, &free].map(|table| scores(Rule::ThreeCushion, table, &layout, &cue));
+            assert!(loose || !strict);
+            kept += u32::from(strict);
+            lost += u32::from(loose && !strict);
+        }
+        assert!(kept > 3 && lost > 3, "{kept} {lost}");
+    }
+}

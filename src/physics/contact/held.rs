@@ -1,0 +1,414 @@
+//! Forces where it is known which contacts push and which frictions hold: what is held has a rate of zero, which makes a
+//! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
+//! answers to a force with less motion than one that slides.
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
+    linear::{factorize, substitute},
+    problem::coefficient,
+};
+use crate::{
+    physics::{BallState, slip},
+    table::{BALLS, Table},
+};
+
+/// Unknowns for which there is room on the stack: three contacts that stick. More are rare.
+const ROOM: usize = 9;
+
+/// Added to a diagonal whose entries are 1 to 10, where forces are not unique: a ball that is held by several things at once.
+/// It picks the forces nearest to what they were; further steps take its effect out again.
+const PROXIMITY: f64 = 1e-7;
+
+/// A system with pivots below this share of the largest has no unique solution.
+const SINGULAR: f64 = 1e-6;
+
+/// Rounds of refinement that take the effect of [`PROXIMITY`] out again.
+const MAX_REFINEMENTS: usize = 8;
+
+/// Residuals below this share of the largest number are rounding.
+const ROUNDING: f64 = 4096.0 * f64::EPSILON;
+
+/// Accelerations, speeds or their changes: of the centre, and R times those of the spin.
+#[derive(Clone, Copy, Debug)]
+struct Movement {
+    linear: [DVec2; BALLS],
+    angular: [DVec3; BALLS],
+}
+
+impl Movement {
+    const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
+}
+
+/// How the cloth holds a ball.
+#[derive(Clone, Copy, PartialEq)]
+enum Cloth {
+    Slides,
+    Rolls,
+    Stands,
+}
+
+/// The cloth's forces on a ball that it holds: against slip, against rolling, against spin.
+type Holding = (DVec2, DVec2, f64);
+
+/// What the cloth does to a ball that would move otherwise.
+#[derive(Clone, Copy)]
+struct Grip {
+    cloth: Cloth,
+    /// Whether the spin about the vertical is held.
+    spin: bool,
+}
+
+impl Grip {
+    fn of(set: &ActiveSet, ball: usize) -> Self {
+        let cloth = match (set.cloth[ball], set.roll[ball]) {
+            (Friction::Slips(_), _) => Cloth::Slides,
+            (_, Friction::Slips(_)) => Cloth::Rolls,
+            _ => Cloth::Stands,
+        };
+        Self { cloth, spin: !matches!(set.spin[ball], Friction::Slips(_)) }
+    }
+
+    /// The forces that hold a ball which would move like this without them.
+    fn holding(self, linear: DVec2, angular: DVec3) -> Holding {
+        let around = angular.truncate();
+        let (cloth, roll) = match self.cloth {
+            Cloth::Slides => (DVec2::ZERO, DVec2::ZERO),
+            // The slip's rate is a + z×Rα, and a force at the lowest point adds 7/2 of itself.
+            Cloth::Rolls => ((linear + around.perp()) / -3.5, DVec2::ZERO),
+            Cloth::Stands => {
+                let cloth = around.perp() / -2.5;
+                (cloth, -(linear + cloth))
+            }
+        };
+        (cloth, roll, if self.spin { angular.z / -2.5 } else { 0.0 })
+    }
+
+    /// The movement that is left.
+    fn held(self, linear: DVec2, angular: DVec3) -> (DVec2, DVec3) {
+        let around = angular.truncate();
+        let spin = if self.spin { 0.0 } else { angular.z };
+        match self.cloth {
+            Cloth::Slides => (linear, around.extend(spin)),
+            Cloth::Stands => (DVec2::ZERO, DVec3::new(0.0, 0.0, spin)),
+            Cloth::Rolls => {
+                let force = (linear + around.perp()) / -3.5;
+                (linear + force, (around - 2.5 * force.perp()).extend(spin))
+            }
+        }
+    }
+}
+
+/// Along a contact's normal, its tangent `t = z×n` and z: forces, or rates.
+type Triple = [f64; 3];
+
+/// A contact and what is known of it.
+#[derive(Clone, Copy)]
+struct Joint {
+    first: usize,
+    second: Option<usize>,
+    n: DVec2,
+    t: DVec2,
+    /// Its first unknown.
+    at: usize,
+    /// The normal force alone, or two frictions that hold as well.
+    unknowns: usize,
+    /// Friction along t and z for each unit of the normal force, where the contact slips.
+    rub: DVec2,
+    /// What the rates have besides the accelerations' part, m/s²: two balls' courses around each other bend.
+    bias: Triple,
+}
+
+impl Joint {
+    const NONE: Self = Self {
+        first: 0,
+        second: None,
+        n: DVec2::ZERO,
+        t: DVec2::ZERO,
+        at: 0,
+        unknowns: 0,
+        rub: DVec2::ZERO,
+        bias: [0.0; 3],
+    };
+
+    /// The force of one unknown alone.
+    fn unit(&self, unknown: usize) -> Triple {
+        match unknown {
+            0 => [1.0, self.rub.x, self.rub.y],
+            1 => [0.0, 1.0, 0.0],
+            _ => [0.0, 0.0, 1.0],
+        }
+    }
+
+    /// What a force does to each of its balls: the push, which the second gets the other way, and the twist.
+    fn act(&self, [normal, along, up]: Triple) -> (DVec2, DVec3) {
+        (normal * self.n + along * self.t, (2.5 * up * self.t).extend(-2.5 * along))
+    }
+
+    fn members(&self) -> impl Iterator<Item = (usize, f64)> {
+        [(self.first, 1.0)].into_iter().chain(self.second.map(|second| (second, -1.0)))
+    }
+
+    fn rates(&self, movement: &Movement) -> Triple {
+        let (mut apart, mut around) = (movement.linear[self.first], movement.angular[self.first]);
+        if let Some(second) = self.second {
+            apart -= movement.linear[second];
+            around += movement.angular[second];
+        }
+        [apart.dot(self.n), apart.dot(self.t) - around.z, around.truncate().dot(self.t)]
+    }
+}
+
+/// The linear system of one regime in one state.
+struct Held {
+    joints: [Joint; MAX_CONTACTS],
+    contacts: usize,
+    unknowns: usize,
+    grips: [Grip; BALLS],
+    members: [bool; BALLS],
+    /// Each contact's unknowns.
+    sizes: [Triple; MAX_CONTACTS],
+}
+
+impl Held {
+    /// The system of the `contacts`; `rubs` says whether the normal force of one that slips brings its friction with it.
+    fn new(
+        table: &Table,
+        balls: &[BallState; BALLS],
+        contacts: &[Contact],
+        set: &ActiveSet,
+        rubs: impl Fn(&Contact) -> bool,
+    ) -> Self {
+        let joint = |index: usize| {
+            let contact = &contacts[index];
+            let (n, slip) = contact.normal_and_slip(table.radius, balls);
+            let t = n.perp();
+            let (mut centripetal, mut turning) = (0.0, 0.0);
+            if let Some(second) = contact.second {
+                let diameter = 2.0 * table.radius;
+                let across = contact.relative_velocity(balls).dot(t);
+                centripetal = across * across / diameter;
+                // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
+                let spin = balls[contact.first].spin + balls[second].spin;
+                turning = -table.radius * (across / diameter) * spin.truncate().dot(n);
+            }
+            let against = set.contact[index].direction(slip);
+            let mu = if rubs(contact) { coefficient(table, contact) } else { 0.0 };
+            Joint {
+                first: contact.first,
+                second: contact.second,
+                n,
+                t,
+                at: 0,
+                unknowns: if against.is_some() { 1 } else { 3 },
+                rub: -mu * against.unwrap_or(DVec2::ZERO),
+                bias: [centripetal, 0.0, turning],
+            }
+        };
+        let mut system = Self {
+            joints: [Joint::NONE; MAX_CONTACTS],
+            contacts: contacts.len(),
+            unknowns: 0,
+            grips: std::array::from_fn(|ball| Grip::of(set, ball)),
+            members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
+            sizes: [[0.0; 3]; MAX_CONTACTS],
+        };
+        for (index, place) in system.joints[..contacts.len()].iter_mut().enumerate() {
+            *place = Joint { at: system.unknowns, ..joint(index) };
+            system.unknowns += place.unknowns;
+        }
+        system
+    }
+
+    fn joints(&self) -> &[Joint] {
+        &self.joints[..self.contacts]
+    }
+
+    /// The rates of all unknowns by all unknowns, row by row.
+    fn fill(&self, matrix: &mut [f64]) {
+        for joint in self.joints() {
+            for unknown in 0..joint.unknowns {
+                let (push, twist) = joint.act(joint.unit(unknown));
+                let mut response = Movement::NONE;
+                for (ball, sense) in joint.members() {
+                    (response.linear[ball], response.angular[ball]) = self.grips[ball].held(sense * push, twist);
+                }
+                for other in self.joints() {
+                    for (row, rate) in other.rates(&response)[..other.unknowns].iter().enumerate() {
+                        matrix[(other.at + row) * self.unknowns + joint.at + unknown] = *rate;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
+    /// whether the courses' bends count. Returns the movement before the cloth holds it and after; none where the rates
+    /// cannot vanish together.
+    fn solve(&mut self, free: &Movement, bends: bool) -> Option<[Movement; 2]> {
+        let count = self.unknowns;
+        let entries = count * count;
+        let (mut near, mut far) = ([0.0; ROOM * ROOM], Vec::new());
+        let factors = if count <= ROOM {
+            &mut near[..entries]
+        } else {
+            far.resize(entries, 0.0);
+            &mut far[..]
+        };
+        let mut pivots = [0; 3 * MAX_CONTACTS];
+        let pivots = &mut pivots[..count];
+        self.fill(factors);
+        let unique = factorize(factors, pivots) > SINGULAR;
+        if unique {
+            self.sizes = [[0.0; 3]; MAX_CONTACTS];
+        } else {
+            self.fill(factors);
+            for index in 0..count {
+                factors[index * (count + 1)] += PROXIMITY;
+            }
+            factorize(factors, pivots);
+        }
+        let scale = (0..BALLS).fold(f64::MIN_POSITIVE, |scale, ball| {
+            scale.max(free.linear[ball].abs().max_element()).max(free.angular[ball].abs().max_element())
+        });
+        let mut smallest = f64::INFINITY;
+        for _ in 0..MAX_REFINEMENTS {
+            let (forced, moved) = self.moved(free);
+            let mut side = [0.0; 3 * MAX_CONTACTS];
+            let (mut residual, mut scale) = (0.0_f64, scale);
+            for (joint, sizes) in self.joints().iter().zip(&self.sizes) {
+                let rates = joint.rates(&moved);
+                for unknown in 0..joint.unknowns {
+                    let bias = if bends { joint.bias[unknown] } else { 0.0 };
+                    let rate = rates[unknown] + bias;
+                    side[joint.at + unknown] = -rate;
+                    residual = residual.max(rate.abs());
+                    scale = scale.max(sizes[unknown].abs()).max(bias.abs());
+                }
+            }
+            // Once rounding is reached, more rounds would only stir it.
+            if residual <= 16.0 * f64::EPSILON * scale
+                || (residual <= ROUNDING * scale && (unique || residual >= 0.5 * smallest))
+            {
+                return Some([forced, moved]);
+            }
+            smallest = smallest.min(residual);
+            substitute(factors, pivots, &mut side[..count]);
+            for (joint, sizes) in self.joints[..self.contacts].iter().zip(&mut self.sizes) {
+                for (size, change) in sizes[..joint.unknowns].iter_mut().zip(&side[joint.at..]) {
+                    *size += change;
+                }
+            }
+        }
+        None
+    }
+
+    /// The force in a contact.
+    fn force(&self, index: usize) -> Triple {
+        let [normal, along, up] = self.sizes[index];
+        let rub = self.joints[index].rub;
+        [normal, along + rub.x * normal, up + rub.y * normal]
+    }
+
+    /// The movement under the contacts' forces, before the cloth holds it and after.
+    fn moved(&self, free: &Movement) -> (Movement, Movement) {
+        let mut forced = *free;
+        for (index, joint) in self.joints().iter().enumerate() {
+            let (push, twist) = joint.act(self.force(index));
+            for (ball, sense) in joint.members() {
+                forced.linear[ball] += sense * push;
+                forced.angular[ball] += twist;
+            }
+        }
+        let mut moved = forced;
+        for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
+            (moved.linear[ball], moved.angular[ball]) =
+                self.grips[ball].held(forced.linear[ball], forced.angular[ball]);
+        }
+        (forced, moved)
+    }
+}
+
+/// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the regime's end,
+/// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
+pub fn forces(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
+    similar: Option<&Forces>,
+) -> Option<Forces> {
+    let mut system = Held::new(table, balls, contacts, set, |_| true);
+    if let Some(similar) = similar {
+        for (index, joint) in system.joints[..contacts.len()].iter().enumerate() {
+            let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
+            system.sizes[index] = [similar.normal[index], friction.x, friction.y];
+        }
+    }
+    let [sliding, rolling, boring] =
+        [table.sliding_friction, table.rolling_friction, table.spinning_friction].map(|mu| mu * table.gravity);
+    let mut free = Movement::NONE;
+    let members = system.members;
+    let mut forces = Forces::NONE;
+    for ball in (0..BALLS).filter(|&ball| members[ball]) {
+        let state = &balls[ball];
+        let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
+        if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
+            *linear = -sliding * against;
+            *angular = (2.5 * sliding * against.perp()).extend(0.0);
+        } else if let Some(against) = set.roll[ball].direction(state.velocity) {
+            *linear = -rolling * against;
+        }
+        if let Friction::Slips(sign) = set.spin[ball] {
+            angular.z = -2.5 * boring * sign.x;
+            if sign.x != 0.0 {
+                // A spin that has turned round has ended before.
+                forces.slack = forces.slack.min(table.radius * state.spin.z * sign.x);
+            }
+        }
+    }
+    let [unheld, moved] = system.solve(&free, true)?;
+    let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
+    for ball in (0..BALLS).filter(|&ball| members[ball]) {
+        let grip = system.grips[ball];
+        let (cloth, roll, spin) = grip.holding(unheld.linear[ball], unheld.angular[ball]);
+        (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
+        if grip.cloth != Cloth::Slides {
+            limit(sliding, cloth.length());
+        }
+        if grip.cloth == Cloth::Stands {
+            limit(rolling, roll.length());
+        }
+        if grip.spin {
+            limit(boring, spin.abs());
+        }
+        forces.linear[ball] = moved.linear[ball];
+        forces.angular[ball] = moved.angular[ball] / table.radius;
+    }
+    for (index, contact) in contacts.iter().enumerate() {
+        let [normal, along, up] = system.force(index);
+        (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
+        limit(normal, 0.0);
+        if system.joints[index].unknowns == 3 {
+            limit(coefficient(table, contact) * normal, along.hypot(up));
+        }
+    }
+    Some(forces)
+}
+
+/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
+/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something rubs where its
+/// contact slips. Where they cannot all vanish, all stay.
+pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts: &[Contact], set: &ActiveSet) {
+    // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
+    let rubs = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
+    let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), rubs);
+    let speeds =
+        Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
+    if let Some([_, stopped]) = system.solve(&speeds, false) {
+        for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
+            (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! JSON that a terminal can be shown: what it would obey is escaped by JSON's own rules.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use serde_json::{Serializer, ser::Formatter};
+
+use super::is_hidden;
+
+/// Writes `value` as JSON, without a new line at the end.
+///
+/// # Errors
+/// What the output answers, or a value that JSON has no form for.
+pub fn json(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
+    value.serialize(&mut Serializer::with_formatter(out, Escaping)).map_err(io::Error::from)
+}
+
+/// `value` as JSON, for outputs that take a line at once.
+///
+/// # Errors
+/// A value that JSON has no form for.
+pub fn json_text(value: &impl Serialize) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    json(&mut bytes, value)?;
+    String::from_utf8(bytes).map_err(io::Error::other)
+}
+
+/// The compact form. `serde_json` escapes the control characters below the blank; this one the rest too.
+struct Escaping;
+
+impl Formatter for Escaping {
+    fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> io::Result<()> {
+        let mut rest = fragment;
+        while let Some(at) = rest.find(is_hidden) {
+            out.write_all(&rest.as_bytes()[..at])?;
+            let mut characters = rest[at..].chars();
+            if let Some(hidden) = characters.next() {
+                for unit in hidden.encode_utf16(&mut [0; 2]) {
+                    write!(out, "\\u{unit:04x}")?;
+                }
+            }
+            rest = characters.as_str();
+        }
+        out.write_all(rest.as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn c1_and_bidirectional_marks_are_escaped() {
+        let text = json_text(&"a\u{1b}\u{9b}\u{202e}\u{7f}\u{e0041}é\n").unwrap();
+        assert_eq!(text, r#""a\u001b\u009b\u202e\u007f\udb40\udc41é\n""#);
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_read_back_is_what_was_written(text in any::<String>()) {
+            let written = json_text(&text).unwrap();
+            prop_assert!(!written.chars().any(is_hidden));
+            prop_assert_eq!(serde_json::from_str::<String>(&written).unwrap(), text);
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! What goes out to people and to other programs: every word on the standard output, the standard error and in the log.
+//!
+//! Names in files, arguments and answers of the system are written by anybody. A terminal obeys some characters instead of
+//! showing them (escape sequences change its title or its clipboard, and bidirectional marks turn text around), so none of
+//! those goes out: [`stdout`] and [`stderr`] are the only doors, clippy refuses the others (`clippy.toml`), and both show
+//! such a character as what it is.
+
+mod json;
+mod shown;
+mod visible;
+
+pub use self::{
+    json::{json, json_text},
+    shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},
+    visible::{OneLine, is_hidden},
+};

@@ -1,0 +1,159 @@
+//! The doors to the outside, which show control characters instead of sending them.
+
+use std::{
+    fmt::Display,
+    io::{self, IsTerminal, StderrLock, StdoutLock, Write},
+};
+
+use super::visible::{is_hidden, write_escaped};
+
+/// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
+/// pass; bytes that are no UTF-8 become U+FFFD.
+#[derive(Debug)]
+pub struct Shown<W: Write> {
+    inner: W,
+    /// The beginning of a character whose end has not been written yet.
+    begun: Vec<u8>,
+}
+
+/// The standard output.
+#[allow(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
+pub fn stdout() -> Shown<StdoutLock<'static>> {
+    Shown::new(io::stdout().lock())
+}
+
+/// The standard error.
+#[allow(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
+pub fn stderr() -> Shown<StderrLock<'static>> {
+    Shown::new(io::stderr().lock())
+}
+
+/// Whether somebody watches the standard error.
+#[allow(clippy::disallowed_methods, reason = "nothing is written")]
+pub fn is_watched() -> bool {
+    io::stderr().is_terminal()
+}
+
+/// Writes `text` over the line that stands at the terminal on the standard error.
+///
+/// # Errors
+/// What the output answers.
+pub fn redraw_line(text: impl Display) -> io::Result<()> {
+    clear_line()?;
+    write!(stderr(), "{text}")
+}
+
+/// Empties the line that stands at the terminal on the standard error.
+///
+/// # Errors
+/// What the output answers.
+pub fn clear_line() -> io::Result<()> {
+    stderr().inner.write_all(b"\r\x1b[K")
+}
+
+impl<W: Write> Shown<W> {
+    /// Gives the text on to `inner`.
+    pub const fn new(inner: W) -> Self {
+        Self { inner, begun: Vec::new() }
+    }
+
+    fn show(&mut self, text: &str) -> io::Result<()> {
+        let is_obeyed = |character: char| is_hidden(character) && !matches!(character, '\n' | '\t');
+        let mut shown = String::new();
+        let mut rest = text;
+        while let Some(at) = rest.find(is_obeyed) {
+            let mut characters = rest[at..].chars();
+            shown.push_str(&rest[..at]);
+            // Writing into a string does not fail.
+            let _ = characters.next().map(|hidden| write_escaped(&mut shown, hidden));
+            rest = characters.as_str();
+        }
+        if !shown.is_empty() {
+            self.inner.write_all(shown.as_bytes())?;
+        }
+        self.inner.write_all(rest.as_bytes())
+    }
+}
+
+impl<W: Write> Write for Shown<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let joined;
+        let bytes_now = if self.begun.is_empty() {
+            bytes
+        } else {
+            joined = [self.begun.as_slice(), bytes].concat();
+            self.begun.clear();
+            &joined
+        };
+        let mut left = bytes_now;
+        loop {
+            match std::str::from_utf8(left) {
+                Ok(text) => {
+                    self.show(text)?;
+                    return Ok(bytes.len());
+                }
+                Err(error) => {
+                    let (good, bad) = left.split_at(error.valid_up_to());
+                    self.show(std::str::from_utf8(good).unwrap_or_default())?;
+                    let Some(length) = error.error_len() else {
+                        self.begun.extend_from_slice(bad);
+                        return Ok(bytes.len());
+                    };
+                    self.show("\u{fffd}")?;
+                    left = &bad[length..];
+                }
+            }
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.inner.flush()
+    }
+}
+
+impl<W: Write> Drop for Shown<W> {
+    fn drop(&mut self) {
+        if !self.begun.is_empty() {
+            // Nobody is left to tell.
+            let _ = self.inner.write_all("\u{fffd}".as_bytes());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn shown(parts: &[&[u8]]) -> String {
+        let mut bytes = Vec::new();
+        let mut out = Shown::new(&mut bytes);
+        for part in parts {
+            out.write_all(part).unwrap();
+        }
+        drop(out);
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn escape_sequences_are_shown_however_they_are_cut() {
+        assert_eq!(shown(&[b"a\x1b[2J", b"b\r\n"]), "a\\u{1b}[2Jb\\r\n");
+        assert_eq!(shown(&[b"\xc2", b"\x9b31m"]), "\\u{9b}31m", "C1 in two writes");
+        assert_eq!(shown(&[b"\xc3\xa9\t\xff\xe2\x80"]), "\u{e9}\t\u{fffd}\u{fffd}");
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_that_a_terminal_obeys_comes_out(parts in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 0..6)) {
+            let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
+            prop_assert!(!shown(&parts).chars().any(|character| is_hidden(character) && !matches!(character, '\n' | '\t')));
+        }
+
+        #[test]
+        fn text_without_such_characters_comes_out_as_it_is(text in "[ -~äöü°±─█\n\t]{0,60}", cut in 0_usize..60) {
+            let (first, second) = text.as_bytes().split_at(cut.min(text.len()));
+            prop_assert_eq!(shown(&[first, second]), text);
+        }
+    }
+}

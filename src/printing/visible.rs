@@ -1,0 +1,66 @@
+//! Characters that a terminal obeys instead of showing, as what they are.
+
+use std::fmt::{self, Display, Write};
+
+/// Whether a terminal obeys `character` or hides it, instead of showing it: control characters (C0, DEL, C1), marks that
+/// turn the direction of text or are not seen at all, line and paragraph separators, and tags. New lines and tabs are
+/// counted too: where they belong to the text, the caller knows. The joiners of letters and pictures are none of these.
+pub fn is_hidden(character: char) -> bool {
+    character.is_control()
+        || matches!(
+            character,
+            '\u{61c}'
+                | '\u{180e}'
+                | '\u{200b}' | '\u{200e}'..='\u{200f}'
+                | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{206f}'
+                | '\u{feff}'
+                | '\u{fff9}'..='\u{fffb}'
+                | '\u{e0000}'..='\u{e007f}'
+        )
+}
+
+/// Writes `character` as Rust does in a string: `\r`, `\u{1b}`.
+pub(super) fn write_escaped(out: &mut impl Write, character: char) -> fmt::Result {
+    write!(out, "{}", character.escape_default())
+}
+
+/// Text on one line: whatever a terminal would obey, new lines too, stands as what it is. For names that others chose.
+#[derive(Clone, Copy, Debug)]
+pub struct OneLine<T>(pub T);
+
+impl<T: Display> Display for OneLine<T> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(Escaping(out), "{}", self.0)
+    }
+}
+
+struct Escaping<'a, 'b>(&'a mut fmt::Formatter<'b>);
+
+impl Write for Escaping<'_, '_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        let mut rest = text;
+        while let Some(at) = rest.find(is_hidden) {
+            self.0.write_str(&rest[..at])?;
+            let mut characters = rest[at..].chars();
+            if let Some(hidden) = characters.next() {
+                write_escaped(self.0, hidden)?;
+            }
+            rest = characters.as_str();
+        }
+        self.0.write_str(rest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_obeys_is_named_and_the_rest_stays() {
+        let title = OneLine("\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}x\n\ty\u{7f}").to_string();
+        assert_eq!(title, "\\u{1b}]0;pwn\\u{7}\\u{9b}31m\\u{202e}x\\n\\ty\\u{7f}");
+        let plain = "Größe ° ± é 台 ●▀ \"quoted\" \\";
+        assert_eq!(OneLine(plain).to_string(), plain);
+    }
+}

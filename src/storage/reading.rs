@@ -1,0 +1,90 @@
+//! Files that anybody may have put there: regular ones of a size that is no trouble. A pipe would keep the program waiting,
+//! and a device can be read for ever.
+
+use std::{
+    fs::{self, File},
+    io::{self, Read},
+    path::Path,
+};
+
+/// Largest table, settings or other small file, bytes.
+pub const SMALL: u64 = 1 << 20;
+
+/// Largest file of practice, bytes: ten thousand sessions are a tenth of it.
+pub const PRACTICE: u64 = 1 << 28;
+
+/// Largest file of weights or metrics, bytes: a checkpoint with a full memory is a tenth of it.
+pub const LARGE: u64 = 1 << 32;
+
+/// The content of the file at `path`, if it is a regular one of at most `largest` bytes.
+///
+/// # Errors
+/// Where it is not, or whatever the file system reports.
+pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
+    let file = open(path)?;
+    let mut bytes = Vec::new();
+    // What grows while it is read is no larger either.
+    file.take(largest + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > largest {
+        return Err(io::Error::new(
+            io::ErrorKind::FileTooLarge,
+            format!("it has more than {largest} bytes, which is no file of this kind"),
+        ));
+    }
+    Ok(bytes)
+}
+
+/// The same for text.
+///
+/// # Errors
+/// As [`read`], and for what is no UTF-8.
+pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
+    let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is no text: it has bytes that are no UTF-8");
+    String::from_utf8(read(path, largest)?).map_err(no_text)
+}
+
+/// The regular file at `path`, to be read.
+///
+/// # Errors
+/// Where it is none, or whatever the file system reports.
+pub fn open(path: &Path) -> io::Result<File> {
+    // Before it is opened: that alone waits where a pipe has no writer.
+    regular(&fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    regular(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Refuses what is there and is no regular file.
+///
+/// # Errors
+/// Where that is so.
+pub fn regular(found: &fs::Metadata) -> io::Result<()> {
+    if found.is_file() {
+        return Ok(());
+    }
+    let (kind, what) = if found.is_dir() {
+        (io::ErrorKind::IsADirectory, "a folder")
+    } else {
+        (io::ErrorKind::InvalidInput, "a pipe, a device or the like")
+    };
+    Err(io::Error::new(kind, format!("it is {what}; accepted is a regular file")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_of_the_size_that_is_accepted_are_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        fs::write(&path, "four").unwrap();
+        assert_eq!(read_text(&path, 4).unwrap(), "four");
+        assert!(read(&path, 3).unwrap_err().to_string().contains("more than 3 bytes"));
+        assert!(read(folder.path(), 9).unwrap_err().to_string().contains("a folder"));
+        assert!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string().contains("a device"));
+        fs::write(&path, [0xff]).unwrap();
+        assert!(read_text(&path, 4).unwrap_err().to_string().contains("UTF-8"));
+    }
+}

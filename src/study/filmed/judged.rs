@@ -1,0 +1,91 @@
+//! How far a table's model is from the film: one row of the report.
+
+use std::time::Instant;
+
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+
+use super::{
+    chains,
+    film::FilmedShot,
+    systems::{self, Natural},
+    whole,
+};
+use crate::{
+    physics::{BallState, Cushion},
+    study::statistics::Spread,
+    table::{Rail, RailModel, Table},
+};
+
+/// What a model reaches on some shots of the film.
+#[derive(Clone, Debug, Serialize)]
+pub struct Judged {
+    /// What was judged: a table and its rail's model.
+    pub model: String,
+    /// Chains of four rails, and how far from the fourth the prediction is, median diamonds.
+    pub next_rail: (usize, f64),
+    /// Chains of five rails, and how far from the fifth it is, median diamonds.
+    pub rail_after: (usize, f64),
+    /// By how much the ball comes late to the fourth and to the fifth rail, median s.
+    pub late_s: [f64; 2],
+    /// Whole shots, and the cue ball's error at 3, 4 and 5 s, median cm. None where the model is too slow.
+    pub whole_cm: Option<(usize, [f64; 3])>,
+    /// Each diamond system with its best natural stroke. None where the model is too slow.
+    pub systems: Option<Vec<Natural>>,
+    /// Time of a rail impact, ns.
+    pub impact_ns: f64,
+}
+
+/// Judges a table on the film.
+pub fn judge(name: &str, table: &Table, film: &[FilmedShot]) -> Judged {
+    let diamond = table.diamond();
+    let median = |values: Vec<f64>| Spread::of(values).map_or(f64::NAN, |spread| spread.median);
+    let [four, five] = [4, 5].map(|count| {
+        let played: Vec<_> = chains::all(table, film, count).iter().map(|chain| chain.play(table)).collect();
+        let places = played.iter().map(|played| played.places[count - 2] / diamond).collect();
+        let late = played.iter().map(|played| played.late[count - 2]).collect();
+        (played.len(), median(places), median(late))
+    });
+    let slow = table.rail.model == RailModel::Mathavan;
+    let whole_cm = (!slow).then(|| {
+        let shots: Vec<_> =
+            film.iter().filter(|shot| shot.is_long_enough()).filter_map(|shot| whole::play(table, shot)).collect();
+        let error = |index: usize| 100.0 * median(shots.iter().map(|shot| shot.errors[index]).collect());
+        (shots.len(), [0, 1, 2].map(error))
+    });
+    let systems = (!slow).then(|| systems::bundled().iter().map(|system| system.natural(table)).collect());
+    Judged {
+        model: name.to_owned(),
+        next_rail: (four.0, four.1),
+        rail_after: (five.0, five.1),
+        late_s: [four.2, five.2],
+        whole_cm,
+        systems,
+        impact_ns: impact_time(table),
+    }
+}
+
+/// Time of a rail impact, ns: the least of several rounds over balls of many speeds and spins.
+fn impact_time(table: &Table) -> f64 {
+    let cushion = Cushion::of(table, Rail::Top);
+    let count = if table.rail.model == RailModel::Mathavan { 100 } else { 20_000 };
+    let balls: Vec<BallState> = (0..count)
+        .map(|n| {
+            let [a, b, c] = [0.618, 0.755, 0.570].map(|step| (f64::from(n) * step).fract());
+            let spin = DVec3::new(60.0 * (b - 0.5), 80.0 * (c - 0.5), 90.0 * (a - 0.5));
+            BallState { position: DVec2::ZERO, velocity: DVec2::new(4.0 * (c - 0.5), 0.2 + 3.0 * a), spin }
+        })
+        .collect();
+    let round = || {
+        let begin = Instant::now();
+        let mut sum = 0.0;
+        for ball in &balls {
+            let mut ball = *ball;
+            cushion.resolve(table.radius, DVec2::NEG_Y, &mut ball);
+            sum += ball.velocity.x + ball.spin.z;
+        }
+        std::hint::black_box(sum);
+        1e9 * begin.elapsed().as_secs_f64() / f64::from(count)
+    };
+    (0..7).map(|_| round()).fold(f64::INFINITY, f64::min)
+}

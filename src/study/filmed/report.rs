@@ -1,0 +1,187 @@
+//! What models of the table reach on the film, as text, CSV and pictures.
+
+use std::fmt::Write;
+
+use glam::DVec2;
+
+use super::{
+    constants::Fitted,
+    film::FilmedShot,
+    judged::{Judged, judge},
+    lone::Follower,
+    whole,
+};
+use crate::table::{RailModel, Table};
+
+/// Rail models beside that of the `match` table, with their own best constants on the whole film by `--fit`: model, e_rail,
+/// mu_rail, (height - R)/R.
+const RIVALS: [(&str, RailModel, f64, f64, f64); 3] = [
+    ("match, rails at the equator", RailModel::Equator, 0.9153, 0.2606, 0.0),
+    ("match, sharp nose", RailModel::Nose, 0.8748, 0.2551, 0.2215),
+    ("match, Mathavan's rails", RailModel::Mathavan, 0.889, 0.213, 0.202),
+];
+
+/// The models that the report compares: the textbook's, the rivals, and the `match` table's own.
+pub fn models() -> Vec<(String, Table)> {
+    let table = Table::default();
+    let rivals = RIVALS.map(|(name, model, e, mu, sine)| {
+        let mut rival = Table { rail_restitution: e, rail_friction: mu, ..table.clone() };
+        rival.rail.model = model;
+        rival.rail.kappa = None;
+        rival.rail.height = Some(rival.radius * (1.0 + sine));
+        (name.to_owned(), rival)
+    });
+    let textbook = Table::preset("textbook").ok().map(|table| (table.name.clone(), table));
+    textbook.into_iter().chain(rivals).chain([(table.name.clone(), table)]).collect()
+}
+
+/// Judges all of them on a film.
+pub fn rows(models: &[(String, Table)], film: &[FilmedShot], mut tell: impl FnMut(&str)) -> Vec<Judged> {
+    models
+        .iter()
+        .map(|(name, table)| {
+            tell(name);
+            judge(name, table, film)
+        })
+        .collect()
+}
+
+/// The report for people.
+pub fn text(rows: &[Judged]) -> String {
+    let mut out = String::from(
+        "Rails: the motion of a ball that leaves a rail is fitted up to the second rail after; the next two are predicted.\n\
+         Whole shots: the stroke is fitted to the first two seconds. Systems: one natural stroke each, rms.\n\n",
+    );
+    let _ = writeln!(
+        out,
+        "{:<28} {:>16} {:>16} {:>15} {:>22} {:>20} {:>9}",
+        "model", "next, diamonds", "after, diamonds", "late, s", "at 3, 4, 5 s, cm", "systems, diamonds", "impact"
+    );
+    for row in rows {
+        let whole = row.whole_cm.map_or("-".to_owned(), |(count, [a, b, c])| format!("{a:.1} {b:.1} {c:.1} ({count})"));
+        let systems = row.systems.as_ref().map_or("-".to_owned(), |systems| {
+            systems.iter().map(|system| format!("{:.2}", system.rms)).collect::<Vec<_>>().join(" ")
+        });
+        let _ = writeln!(
+            out,
+            "{:<28} {:>16} {:>16} {:>15} {:>22} {:>20} {:>9}",
+            row.model,
+            format!("{:.3} ({})", row.next_rail.1, row.next_rail.0),
+            format!("{:.3} ({})", row.rail_after.1, row.rail_after.0),
+            format!("{:+.3} {:+.3}", row.late_s[0], row.late_s[1]),
+            whole,
+            systems,
+            format!("{:.0} ns", row.impact_ns),
+        );
+    }
+    out.push_str("\nMedians; in parentheses how many cases. The constants of `match` are fitted to the same film: --fit says how they do on halves.\n");
+    out
+}
+
+/// The same for programs.
+pub fn csv(rows: &[Judged]) -> String {
+    let mut out = String::from(
+        "model,chains_of_four,next_rail_diamonds,chains_of_five,rail_after_diamonds,late_next_s,late_after_s,\
+         whole_shots,cm_at_3_s,cm_at_4_s,cm_at_5_s,corner5_diamonds,plus_diamonds,seven_diamonds,impact_ns\n",
+    );
+    for row in rows {
+        let (count, cm) = row.whole_cm.map_or((String::new(), [const { String::new() }; 3]), |(count, cm)| {
+            (count.to_string(), cm.map(|value| value.to_string()))
+        });
+        let systems = row.systems.as_ref().map_or([const { String::new() }; 3], |systems| {
+            std::array::from_fn(|index| systems.get(index).map_or(String::new(), |system| system.rms.to_string()))
+        });
+        let Judged { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
+        let _ = writeln!(
+            out,
+            "\"{model}\",{},{},{},{},{},{},{count},{},{},{impact_ns:.1}",
+            next_rail.0,
+            next_rail.1,
+            rail_after.0,
+            rail_after.1,
+            late_s[0],
+            late_s[1],
+            cm.join(","),
+            systems.join(","),
+        );
+    }
+    out
+}
+
+/// What a fit found, for people.
+pub fn fit_text(fitted: &Fitted, used: &str) -> String {
+    let mut out =
+        format!("{:?} rails, fitted to {used}: {} stretches of three to five rails\n", fitted.model, fitted.stretches);
+    for (index, constant) in fitted.constants.iter().enumerate() {
+        let with =
+            fitted.correlations[index].iter().enumerate().filter(|(other, value)| *other != index && value.abs() > 0.4);
+        let with: Vec<_> = with.map(|(other, value)| format!("{} {value:+.2}", fitted.constants[other].name)).collect();
+        let with = if with.is_empty() { String::new() } else { format!("   correlated with {}", with.join(", ")) };
+        let _ = writeln!(out, "  {:<15} {:>9.5} ± {:.5}{with}", constant.name, constant.value, constant.deviation);
+    }
+    out
+}
+
+/// A picture of filmed and simulated courses: the cue ball of some shots, up to five seconds after the stroke.
+pub fn paths(table: &Table, film: &[FilmedShot]) -> String {
+    const COLUMNS: usize = 3;
+    const SCALE: f64 = 130.0;
+    let shown: Vec<&FilmedShot> = film.iter().filter(|shot| shot.is_long_enough()).step_by(8).take(12).collect();
+    let (width, height) = (SCALE * table.length + 24.0, SCALE * table.width + 44.0);
+    let rows = shown.len().div_ceil(COLUMNS);
+    let (all_width, all_height) = (width * COLUMNS as f64 + 12.0, height * rows as f64 + 40.0);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{all_width:.0}\" height=\"{all_height:.0}\" font-family=\"sans-serif\" \
+         font-size=\"12\"><rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/><text x=\"16\" y=\"22\" font-size=\"14\">Cue ball up to 5 s: \
+         filmed (dots) and simulated on \"{}\" (line), fitted to the first 2 s</text>",
+        table.name
+    );
+    for (index, shot) in shown.into_iter().enumerate() {
+        let left = 12.0 + width * (index % COLUMNS) as f64;
+        let top = 36.0 + height * (index / COLUMNS) as f64;
+        let at = |place: DVec2| {
+            (left + SCALE * (place.x + 0.5 * table.length), top + 16.0 + SCALE * (0.5 * table.width - place.y))
+        };
+        let _ = write!(
+            out,
+            "<rect x=\"{left:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"#e8f0f7\" stroke=\"#57606a\"/>",
+            top + 16.0,
+            SCALE * table.length,
+            SCALE * table.width
+        );
+        let Some(played) = whole::play(table, shot) else { continue };
+        let _ = write!(
+            out,
+            "<text x=\"{left:.1}\" y=\"{:.1}\">shot {}: {:.0} cm off at 5 s</text>",
+            top + 11.0,
+            shot.number,
+            100.0 * played.errors[2]
+        );
+        let times: Vec<f64> = (0..500).map(|step| 0.01 * f64::from(step)).collect();
+        let layout = shot.layout(table);
+        let simulated = Follower::new(&times, 0).of(table, &layout, &played.motion.impulse(table.radius));
+        let points: Vec<String> = simulated
+            .places
+            .iter()
+            .map(|place| {
+                let (x, y) = at(*place);
+                format!("{x:.1},{y:.1}")
+            })
+            .collect();
+        let _ = write!(out, "<polyline points=\"{}\" fill=\"none\" stroke=\"#0969da\"/>", points.join(" "));
+        for sample in shot.balls[0].iter().filter(|sample| sample.time < played.start + 5.0) {
+            let (x, y) = at(sample.place);
+            let _ = write!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.3\" fill=\"#d1242f\"/>");
+        }
+        for place in &layout.balls[1..] {
+            let (x, y) = at(*place);
+            let _ = write!(
+                out,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\" fill=\"none\" stroke=\"#57606a\"/>",
+                SCALE * table.radius
+            );
+        }
+    }
+    out.push_str("</svg>\n");
+    out
+}

@@ -1,0 +1,96 @@
+//! Which ball is the cue ball: each player of a game has one of the two.
+
+use std::{fmt, str::FromStr};
+
+use serde::{Deserialize, Serialize};
+
+use super::{BALL_NAMES, BALLS};
+
+/// The ball that a player plays with. In a layout it always comes first, ball 0, and the opponent's second, ball 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CueBall {
+    /// White; yellow is the opponent's.
+    #[default]
+    White,
+    /// Yellow; white is the opponent's.
+    Yellow,
+}
+
+/// A word that is no cue ball.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no cue ball \"{0}\"; use white or yellow")]
+pub struct UnknownCueBall(String);
+
+impl CueBall {
+    /// Its colour.
+    pub const fn name(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// The colours of the cue ball, the opponent's ball and the red one.
+    pub const fn names(self) -> [&'static str; BALLS] {
+        let [white, yellow, red] = BALL_NAMES;
+        match self {
+            Self::White => [white, yellow, red],
+            Self::Yellow => [yellow, white, red],
+        }
+    }
+
+    /// What belongs to white, yellow and red, in the order of the balls of a layout; and back again.
+    pub fn ordered<T>(self, mut colours: [T; BALLS]) -> [T; BALLS] {
+        if self == Self::Yellow {
+            colours.swap(0, 1);
+        }
+        colours
+    }
+
+    /// The opponent's.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::White => Self::Yellow,
+            Self::Yellow => Self::White,
+        }
+    }
+
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+    pub(crate) fn is_white(&self) -> bool {
+        *self == Self::White
+    }
+}
+
+impl fmt::Display for CueBall {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl FromStr for CueBall {
+    type Err = UnknownCueBall;
+
+    fn from_str(text: &str) -> Result<Self, UnknownCueBall> {
+        [Self::White, Self::Yellow]
+            .into_iter()
+            .find(|ball| ball.name() == text)
+            .ok_or_else(|| UnknownCueBall(text.to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_follow_the_player_and_names_are_read_back() {
+        assert_eq!(CueBall::White.names(), BALL_NAMES);
+        assert_eq!(CueBall::Yellow.names(), ["yellow", "white", "red"]);
+        for ball in [CueBall::White, CueBall::Yellow] {
+            assert_eq!(ball.name().parse(), Ok(ball));
+            assert_eq!(ball.other().other(), ball);
+            assert_eq!(ball.ordered(BALL_NAMES), ball.names());
+            assert_eq!(ball.ordered(ball.names()), BALL_NAMES);
+        }
+        assert!("red".parse::<CueBall>().unwrap_err().to_string().contains("red"));
+    }
+}

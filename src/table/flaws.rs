@@ -1,0 +1,79 @@
+//! What is wrong with the values of a table's models, if anything.
+
+use super::{Rail, Table, models::Fade};
+
+/// The first value that cannot be, with its key and what would be accepted.
+pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> {
+    let Table { rail, radius, .. } = table;
+    let restitution = |value: f64| (0.0..=1.0).contains(&value);
+    let friction = |value: f64| (0.0..=1e3).contains(&value);
+    let fade = |fade: &Fade| {
+        let Fade { from, slope, least } = *fade;
+        (0.0..=100.0).contains(&from) && (0.0..=10.0).contains(&slope) && restitution(least)
+    };
+    // The nose touches the ball between its equator and well below its top.
+    let height = |value: f64| (*radius..=1.6 * *radius).contains(&value);
+    let mut checks = vec![
+        ("c1", table.rolling_growth, (0.0..=1.0).contains(&table.rolling_growth), "0 to 1 per second"),
+        ("rail.dwell", rail.dwell, (0.0..=0.05).contains(&rail.dwell), "0 to 0.05 s"),
+        (
+            "tilt",
+            table.tilt.length(),
+            // A ball has to come to rest on the slope.
+            table.tilt.length() <= 0.5 * table.rolling_friction * table.gravity,
+            "at most half of mu_r g, or balls would not come to rest",
+        ),
+    ];
+    if let Some(kappa) = rail.kappa {
+        checks.push(("rail.kappa", kappa, kappa > 0.0 && kappa <= 2.0, "above 0 and at most 2"));
+    }
+    if let Some(value) = rail.height {
+        checks.push(("rail.height", value, height(value), "from R to 1.6 R, in metres"));
+    }
+    for own in Rail::ALL.map(|which| rail.own(which)) {
+        checks.extend(own.e.map(|e| ("rail.e", e, restitution(e), "0 to 1")));
+        checks.extend(own.mu.map(|mu| ("rail.mu", mu, friction(mu), "0 to 1000")));
+        checks.extend(own.height.map(|value| ("rail.height", value, height(value), "from R to 1.6 R, in metres")));
+    }
+    let fades = [("rail.fade", rail.fade), ("e_ball_fade", table.ball_fade)];
+    for (key, value) in fades.into_iter().filter_map(|(key, value)| value.map(|value| (key, value))) {
+        let accepted = "from 0 to 100 m/s, slope 0 to 10, least 0 to 1";
+        checks.push((key, value.slope, fade(&value), accepted));
+    }
+    if let Some(law) = table.ball_slip_friction {
+        let holds = friction(law.least) && friction(law.rise) && (0.0..=1e3).contains(&law.fade);
+        checks.push(("mu_b_slip", law.least, holds, "least, rise and fade from 0 to 1000"));
+    }
+    if let Some(mass) = table.cue_end_mass {
+        checks.push(("m_end", mass, mass > 0.0 && mass <= table.cue_mass, "above 0 and at most M"));
+    }
+    checks.into_iter().find(|(_, _, holds, _)| !holds).map(|(key, value, _, accepted)| (key, value, accepted))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::TableError;
+
+    #[test]
+    fn what_a_model_cannot_have_is_refused_by_name_and_value() {
+        let text = toml::to_string(&Table::default()).unwrap();
+        for (from, to, key) in [
+            ("height = 0.03736", "height = 0.08", "rail.height"),
+            ("height = 0.03736", "height = nan", "rail.height"),
+            ("kappa = 1.267", "kappa = 3", "rail.kappa"),
+            ("c1 = 0.0155", "c1 = -1", "c1"),
+            ("m_end = 0.005", "m_end = 0", "m_end"),
+            ("slope = 0.02", "slope = inf", "rail.fade"),
+            ("rise = 0.108", "rise = -1", "mu_b_slip"),
+            ("name = \"match\"", "name = \"leaning\"\ntilt = [0.5, 0.0]", "tilt"),
+        ] {
+            assert!(text.contains(from), "{from} in {text}");
+            let refused = Table::from_toml(&text.replacen(from, to, 1)).unwrap_err();
+            assert!(matches!(refused, TableError::Value { key: found, .. } if found == key), "{to}: {refused}");
+        }
+        let unknown = text.replace("model = \"smooth\"", "model = \"rubber\"");
+        let message = Table::from_toml(&unknown).unwrap_err().to_string();
+        assert!(message.contains("rubber") && message.contains("mathavan"), "{message}");
+    }
+}

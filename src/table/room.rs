@@ -1,0 +1,83 @@
+//! The sizes of cue and rail that decide how low the cue can be held.
+
+use serde::{Deserialize, Serialize};
+
+/// Sizes of the cue and of the rails that it has to pass over: the TOML section `[room]`. What is left out is as on a
+/// regulation table.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Room {
+    /// Width of the cue at its tip, m.
+    pub tip: f64,
+    /// By how much the cue grows wider along its length, m a metre.
+    pub taper: f64,
+    /// Length of the cue, m.
+    pub length: f64,
+    /// Height of the nose over the cloth, m; the top of the rail is level with it.
+    pub nose: f64,
+    /// Width of the rail from the nose to its outer edge, m.
+    pub rail: f64,
+}
+
+impl Default for Room {
+    /// A carom cue and the rails of a UMB table.
+    fn default() -> Self {
+        Self { tip: 0.012, taper: 0.008, length: 1.4, nose: 0.037, rail: 0.13 }
+    }
+}
+
+impl Room {
+    /// The first size that cannot be, with its key and what would be accepted, for balls of `radius`, m.
+    pub(super) fn flaw(&self, radius: f64) -> Option<(&'static str, f64, &'static str)> {
+        let checks = [
+            ("room.tip", self.tip, self.tip > 0.0 && self.tip <= 2.0 * radius, "above 0 and at most a ball's diameter"),
+            ("room.taper", self.taper, (0.0..=0.1).contains(&self.taper), "0 to 0.1 m a metre"),
+            ("room.length", self.length, self.length > 0.0 && self.length <= 10.0, "above 0 and at most 10 m"),
+            (
+                "room.nose",
+                self.nose,
+                self.nose > 0.0 && self.nose < 2.0 * radius,
+                "above 0 and less than a ball's diameter",
+            ),
+            ("room.rail", self.rail, (0.0..=1.0).contains(&self.rail), "0 to 1 m"),
+        ];
+        checks.into_iter().find(|(_, _, holds, _)| !holds).map(|(key, value, _, accepted)| (key, value, accepted))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{Table, TableError};
+
+    /// The default table with a section `[room]`.
+    fn table(room: &str) -> Result<Table, TableError> {
+        let table = Table { room: None, ..Table::default() };
+        Table::from_toml(&format!("{}\n{room}", toml::to_string(&table).unwrap()))
+    }
+
+    #[test]
+    fn a_section_names_what_it_changes_and_no_section_means_no_limits() {
+        assert_eq!(table("").unwrap().room, None);
+        assert_eq!(table("[room]").unwrap().room, Some(Room::default()));
+        let high = table("[room]\nnose = 0.04").unwrap();
+        assert_eq!(high.room, Some(Room { nose: 0.04, ..Room::default() }));
+        assert_eq!(Table::from_toml(&toml::to_string(&high).unwrap()).unwrap(), high);
+    }
+
+    #[test]
+    fn impossible_sizes_are_refused_by_name_and_value() {
+        for (line, says) in [
+            ("nose = 0.07", "room.nose = 0.07"),
+            ("nose = -1", "room.nose = -1"),
+            ("tip = nan", "room.tip = NaN"),
+            ("taper = 0.5", "0 to 0.1 m a metre"),
+            ("length = 0", "room.length = 0"),
+            ("rail = 2", "room.rail = 2"),
+            ("shaft = 1", "unknown field"),
+        ] {
+            let message = table(&format!("[room]\n{line}")).unwrap_err().to_string();
+            assert!(message.contains(says), "{line}: {message}");
+        }
+    }
+}
