@@ -127,7 +127,7 @@ fn a_symmetric_break_stays_symmetric() {
 
 #[test]
 fn in_single_precision_it_ends_as_well() {
-    for shot in random_shots(&thesis(), 20, 9) {
+    for shot in random_shots(&thesis(), 60, 9) {
         let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
         let of = |x: f64, y: f64, z: f64| Vector::new(x as f32, y as f32, z as f32);
         let places = shot.layout.balls.map(|ball| of(ball.x, ball.y, 0.0));
