@@ -183,6 +183,24 @@ mod tests {
     }
 
     #[test]
+    fn the_steepest_slope_that_a_table_may_have_is_right_to_two_thousandths_of_the_way() {
+        for (least, growth) in [(0.036, 0.0155), (0.07, 0.0)] {
+            let rolling = Rolling { least, growth };
+            for angle in 0..8 {
+                for speed in [0.05, 0.3, 1.0, 2.0] {
+                    let tilt = 0.2 * 1.4 * least * DVec2::from_angle(0.4 * f64::from(angle));
+                    let worst = off(&rolling, tilt, [DVec2::ZERO, DVec2::new(speed, 0.0), DVec2::ZERO]);
+                    let length = speed * speed / (2.0 * (least + 0.65 * growth * speed));
+                    assert!(
+                        worst.into_iter().all(|off| off < 2e-3 * length),
+                        "{angle}, {speed}: {worst:?} of {length}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_slope_along_the_way_only_changes_the_deceleration() {
         let rolling = Rolling { least: 0.05, growth: 0.0 };
         let chain = chained(&rolling, DVec2::new(7e-3, 0.0), [DVec2::ZERO, DVec2::X, DVec2::ZERO]);
