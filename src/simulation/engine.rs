@@ -179,7 +179,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         source < BALLS
             && self.balls[source].segment.motion == Motion::Rolling
             && self.balls[source].rail_after == f64::INFINITY
-            && (self.balls[source].segment.rolls_to_rest(&self.constants, self.balls[source].lasts)
+            && (self.balls[source].segment.rolls_to_rest(&self.constants)
                 || self.rolls_out(source, &self.balls[source].segment))
             && (0..self.times.len()).all(|other| other == source || self.times[other] == f64::INFINITY)
     }

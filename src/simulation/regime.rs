@@ -15,7 +15,8 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// The state without the slips that end here, and the regime that holds then; none where no contact presses.
+/// The state without the slips that end here, and the regime that holds then; none where no contact presses a ball that
+/// moves.
 pub fn lawful(
     table: &Table,
     constants: &Constants,
@@ -24,6 +25,9 @@ pub fn lawful(
     least_push: f64,
     previous: Option<&Resting>,
 ) -> Option<(State, Resolved)> {
+    if stand_on_slope(constants, balls, |ball| contacts.hold(ball)) {
+        return None;
+    }
     let tolerance = &constants.tolerance;
     let new = |contact: &Contact| {
         contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
@@ -94,6 +98,15 @@ pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Conta
     };
     let members = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball));
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
+}
+
+/// Whether balls stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
+pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(usize) -> bool) -> bool {
+    let none = constants.tolerance.still;
+    let stands = |ball: &BallState| {
+        ball.velocity.length() < none && constants.radius * ball.spin.truncate().length() < none && ball.spin.z == 0.0
+    };
+    constants.tilt != DVec2::ZERO && (0..BALLS).all(|ball| !takes_part(ball) || stands(&balls[ball]))
 }
 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count

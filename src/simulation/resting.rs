@@ -11,7 +11,7 @@ use super::{
     Constants, Rail,
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    regime::{lawful, settle, transient_pressing, without_ending_slips},
+    regime::{lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     segment::Curve,
     tolerance::Tolerance,
 };
@@ -107,9 +107,9 @@ impl Resting {
         previous: Option<&Self>,
         next_step: f64,
     ) -> Outcome {
-        let tolerance = constants.tolerance;
-        let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * tolerance.slowest_bounce);
-        let least_push = tolerance.slack + transient_pressing(constants, balls, &contacts);
+        let Tolerance { slack, slowest_bounce, .. } = constants.tolerance;
+        let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * slowest_bounce);
+        let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
             return without_ending_slips(table, constants, balls, &contacts);
         };
@@ -136,7 +136,7 @@ impl Resting {
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
-        if self.goes_on {
+        if self.goes_on && !stand_on_slope(&self.constants, &self.end, |ball| self.members[ball]) {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.advance(table);
             return true;
