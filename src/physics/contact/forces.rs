@@ -52,7 +52,7 @@ pub struct Resolved {
     pub forces: Forces,
     /// Whether frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
     pub shared: bool,
-    /// The same where frictions hold that have yielded until now, with those slips ending or sliding on.
+    /// What the frictions do if those that have yielded hold again: slips that end, or slide on against their friction.
     pub grips: Option<ActiveSet>,
     /// Whether all laws hold to rounding.
     pub converged: bool,
