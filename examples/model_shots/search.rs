@@ -55,8 +55,9 @@ fn worth_of(exercise: &Exercise, shot: &CueInputs, attempts: usize) -> f64 {
     // Between shots that are made as often the softer one is to be learnt.
     let mean = shares.iter().sum::<f64>() / 3.0 - cost(shot);
     if exercise.category == Category::Gather {
+        let gathered = gathered(exercise, &table, shot, attempts / 2);
         // Nine attempts of ten are enough: the rest is worth what the point is.
-        mean.min(gathered(exercise, &table, shot, attempts / 2) / 0.9)
+        if gathered < 0.65 { 0.0 } else { mean.min(gathered / 0.9) }
     } else {
         mean
     }

@@ -6,6 +6,7 @@ mod cue_room;
 mod impact;
 mod motion;
 mod rolling;
+mod slope;
 
 pub use contact::{
     ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
@@ -19,3 +20,4 @@ pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };
 pub use rolling::Rolling;
+pub use slope::{Stretch, roll_on_slope, slide_on_slope};

@@ -2,14 +2,14 @@
 //!
 //! Within a band the course stays a parabola. A band's deceleration stands between the one that keeps the time it takes
 //! and the one that keeps its length, and a band ends early enough that a roll from any speed to rest is right in both to
-//! a thousandth.
+//! five thousandths: far less than what is known of `c0` and `c1`, and every band costs as much as an impact.
 
 /// One over a band's share of its first speed `v` is this and this times `c1 v / a`: the relative error of a whole roll's
-/// length and of its time is then a thousandth at most.
-const SHARE: [f64; 2] = [1.4, 9.5];
+/// length and of its time is then five thousandths at most.
+const SHARE: [f64; 2] = [1.0, 4.3];
 
 /// The last band begins where `c1 v` is this share of the least deceleration.
-const LAST: f64 = 0.0118;
+const LAST: f64 = 0.059;
 
 /// The law of a rolling ball's deceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,17 +36,26 @@ impl Rolling {
             let fast = least + growth * speed;
             speed - speed * fast / (SHARE[0] * fast + SHARE[1] * growth * speed)
         };
+        (self.between(speed, end), end)
+    }
+
+    /// The constant deceleration that stands for the law between two speeds, m/s².
+    #[inline]
+    pub fn between(&self, speed: f64, end: f64) -> f64 {
+        let Self { least, growth } = *self;
         let (width, middle) = (speed - end, 0.5 * (speed + end));
         let mean = least + growth * middle;
         // The mean deceleration over the time, to second order in the width, and half of what would keep the length.
         let second = growth * width * width;
-        (mean + second * (1.0 / (24.0 * middle) - growth / (12.0 * mean)), end)
+        mean + second * (1.0 / (24.0 * middle) - growth / (12.0 * mean))
     }
 
     /// A length that no roll which begins with `speed` exceeds, m.
     pub fn longest(&self, speed: f64) -> f64 {
-        // The exact length is 2 (x - ln(1 + x)) / x² of the first factor, x = c1 v / c0, which stays below the second.
-        0.5 * speed * speed / (self.least + 0.6 * self.growth * speed) * (1.0 + 2e-3)
+        // The exact length is 2 (x - ln(1 + x)) / x² of the first factor, x = c1 v / c0, and ln(1 + x) exceeds its Padé
+        // approximant 3x (2 + x) / (6 + 6x + x²). Bands are right to five thousandths.
+        let x = self.growth * speed / self.least;
+        0.5 * speed * speed / self.least * (6.0 + 2.0 * x) / (6.0 + x * (6.0 + x)) * (1.0 + 1e-2)
     }
 
     /// Whether a roll that begins with `speed` comes to rest in its first band.
@@ -77,20 +86,17 @@ mod tests {
     }
 
     #[test]
-    fn a_roll_from_any_speed_is_right_to_a_thousandth_in_few_bands() {
+    fn a_roll_from_any_speed_is_right_to_five_thousandths_in_few_bands() {
         for (least, growth) in [(0.040, 0.016), (0.05, 0.03), (0.07, 0.002)] {
             for step in 1..200 {
                 let speed = 0.04 * f64::from(step);
                 let rolling = Rolling { least, growth };
                 let (exact, bands, count) = roll(&rolling, speed);
                 for (exact, bands) in exact.into_iter().zip(bands) {
-                    assert!(
-                        (bands / exact - 1.0).abs() < 1.05e-3,
-                        "{least} + {growth} v from {speed}: {bands}, {exact}"
-                    );
+                    assert!((bands / exact - 1.0).abs() < 5e-3, "{least} + {growth} v from {speed}: {bands}, {exact}");
                 }
                 assert!(rolling.longest(speed) > bands[0] && rolling.longest(speed) > exact[0]);
-                assert!(count <= 20, "{count} bands from {speed} m/s");
+                assert!(count <= 12, "{count} bands from {speed} m/s");
             }
         }
     }

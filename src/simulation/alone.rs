@@ -61,7 +61,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 kind = Some(EventKind::BallRail(index, *rail));
             } else {
                 if segment.motion == Motion::Rolling
-                    && (segment.rolls_to_rest(constants, *lasts)
+                    && (segment.rolls_to_rest(constants)
                         || (S::LAST_ROLLS && !O::ENDS && self.rolls_out(index, segment)))
                 {
                     break;

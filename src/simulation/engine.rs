@@ -107,6 +107,8 @@ pub(super) struct Engine<'a, S, O> {
     /// When each ball, and then each pair, has its next event, s; infinity for none.
     pub(super) times: [f64; 2 * BALLS],
     pub(super) resting: Option<Box<Resting>>,
+    /// The step that has just ended, until it is known what presses behind it.
+    pub(super) ended: Option<Box<Resting>>,
     /// Longest step that the next resting contact tries, s.
     pub(super) next_step: f64,
     /// Whether a prediction has found balls pressed together that are not yet in `resting`.
@@ -132,6 +134,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             pairs: [Meeting::unseen(0.0, false); 3],
             times: [f64::INFINITY; 2 * BALLS],
             resting: None,
+            ended: None,
             next_step: f64::INFINITY,
             pressed: false,
             last_impact: f64::NEG_INFINITY,
@@ -179,7 +182,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         source < BALLS
             && self.balls[source].segment.motion == Motion::Rolling
             && self.balls[source].rail_after == f64::INFINITY
-            && (self.balls[source].segment.rolls_to_rest(&self.constants, self.balls[source].lasts)
+            && (self.balls[source].segment.rolls_to_rest(&self.constants)
                 || self.rolls_out(source, &self.balls[source].segment))
             && (0..self.times.len()).all(|other| other == source || self.times[other] == f64::INFINITY)
     }

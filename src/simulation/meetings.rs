@@ -36,10 +36,12 @@ pub fn balls_ahead<S: Savings>(
     if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, apart) {
         return Ahead::Nothing;
     }
-    let rolls_straight = matches!(
-        (first.motion, second.motion),
-        (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
-    );
+    // On a slope a roll bends.
+    let rolls_straight = constants.tilt == DVec2::ZERO
+        && matches!(
+            (first.motion, second.motion),
+            (Motion::Rolling, Motion::Stationary) | (Motion::Stationary, Motion::Rolling)
+        );
     approach::<S>(constants, [d, dv, dk], horizon, may_rest, rolls_straight)
 }
 

@@ -22,6 +22,9 @@ mod savings;
 mod segment;
 mod tolerance;
 
+#[cfg(test)]
+mod tests;
+
 pub use crate::table::Rail;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};

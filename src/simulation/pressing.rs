@@ -39,7 +39,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         }
         // Whether they go on resting is asked of all contacts together.
         self.pressed = true;
-        self.look_ahead(now, resting.members)
+        let members = resting.members;
+        // The guard: what takes part in another contact stands still, and begins anew.
+        self.ended = (self.steps <= MOST_STEPS).then_some(resting);
+        self.look_ahead(now, members)
     }
 
     /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it
@@ -107,7 +110,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
         self.contact_step()?;
-        let previous = self.resting.take();
+        let previous = self.resting.take().or(self.ended.take());
         self.resting =
             match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
                 Outcome::Rests(resting) => {

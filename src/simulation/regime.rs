@@ -15,7 +15,8 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// The state without the slips that end here, and the regime that holds then; none where no contact presses.
+/// The state without the slips that end here, and the regime that holds then; none where no contact presses a ball that
+/// moves.
 pub fn lawful(
     table: &Table,
     constants: &Constants,
@@ -24,23 +25,16 @@ pub fn lawful(
     least_push: f64,
     previous: Option<&Resting>,
 ) -> Option<(State, Resolved)> {
+    if stand_on_slope(constants, balls, |ball| contacts.hold(ball)) {
+        return None;
+    }
     let tolerance = &constants.tolerance;
-    let new = |contact: &Contact| {
-        contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
-    };
-    let begun = table.ball_friction.is_none() && contacts.as_slice().iter().any(new);
+    let begun = contacts.as_slice().iter().any(|contact| begins_without_slip(table, contact, previous));
     let stopped = |none: f64, balls: &State, contacts: &Contacts| {
         let mut begin = *balls;
         let touching = contacts.as_slice();
         if begun {
-            // Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17),
-            // where the cloth has no time to take part.
-            let grips = |contact: Option<&Contact>| match contact {
-                Some(contact) if contact.second.is_some() => Friction::Sticks,
-                _ => Friction::Slips(DVec2::ZERO),
-            };
-            let contact = std::array::from_fn(|index| grips(touching.get(index)));
-            stop_by_impulses(table, &mut begin, touching, &ActiveSet { contact, ..ActiveSet::SLIPPING });
+            grip(table, &mut begin, touching);
         }
         let mut set = ActiveSet::of(table, &begin, touching, none);
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
@@ -48,9 +42,14 @@ pub fn lawful(
         }
         settle(table, constants, &mut begin, touching, &set);
         // Where forces are not unique they go on as they were.
-        let same = |previous: &&Resting| previous.contacts.as_slice() == touching;
+        let same = |previous: &&Resting| previous.interrupted && previous.contacts.as_slice() == touching;
         let similar = previous.filter(same).map(|previous| &previous.last);
-        let resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+        let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+        if let Some(grips) = resolved.grips {
+            set = grips;
+            settle(table, constants, &mut begin, touching, &set);
+            resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+        }
         let departs = resolved.set != set && {
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
             resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
@@ -63,6 +62,13 @@ pub fn lawful(
             return None;
         }
         let ended = stopped(tolerance.ending_slip, &balls, &contacts)?;
+        // Balls that lie still may go on pushing each other, held by the cloth; nothing comes of it.
+        let still = |(ball, state): (usize, &BallState)| {
+            !contacts.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
+        };
+        if !ended.2 && ended.0.iter().enumerate().all(still) {
+            return None;
+        }
         // What would begin to slip again at once has not ended.
         let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &balls, &contacts)? } else { ended };
         // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
@@ -77,6 +83,23 @@ pub fn lawful(
         }
         contacts = resolved.contacts;
     }
+}
+
+/// Whether this is the beginning of a contact of balls that never slip.
+fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<&Resting>) -> bool {
+    table.ball_friction.is_none()
+        && contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
+}
+
+/// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
+/// cloth has no time to take part.
+fn grip(table: &Table, balls: &mut State, contacts: &[Contact]) {
+    let grips = |contact: Option<&Contact>| match contact {
+        Some(contact) if contact.second.is_some() => Friction::Sticks,
+        _ => Friction::Slips(DVec2::ZERO),
+    };
+    let contact = std::array::from_fn(|index| grips(contacts.get(index)));
+    stop_by_impulses(table, balls, contacts, &ActiveSet { contact, ..ActiveSet::SLIPPING });
 }
 
 /// Pressing that cannot matter before the slips end that make it, m/s²: it moves nothing by as much as a speed that counts
@@ -94,6 +117,15 @@ pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Conta
     };
     let members = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball));
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
+}
+
+/// Whether balls stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
+pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(usize) -> bool) -> bool {
+    let none = constants.tolerance.still;
+    let stands = |ball: &BallState| {
+        ball.velocity.length() < none && constants.radius * ball.spin.truncate().length() < none && ball.spin.z == 0.0
+    };
+    constants.tilt != DVec2::ZERO && (0..BALLS).all(|ball| !takes_part(ball) || stands(&balls[ball]))
 }
 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count

@@ -11,7 +11,7 @@ use super::{
     Constants, Rail,
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    regime::{lawful, settle, transient_pressing, without_ending_slips},
+    regime::{lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     segment::Curve,
     tolerance::Tolerance,
 };
@@ -33,8 +33,7 @@ const STRAY: f64 = 1e-10;
 /// Longest change of speed by the cloth's friction in a step, m/s: courses along which nothing slips bend, too.
 const LONGEST_CURVE: f64 = 0.04;
 
-/// In steps shorter than this many seconds the places at both ends, rounded to 1e-16 m, say less about the velocity than
-/// the velocities themselves.
+/// In shorter steps, s, the places at both ends, rounded to 1e-16 m, say less of the velocity than the velocities do.
 const SHORTEST_QUINTIC: f64 = 1e-4;
 
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
@@ -75,6 +74,8 @@ pub struct Resting {
     shared: bool,
     /// Whether all that holds at the end is what held at the beginning.
     goes_on: bool,
+    /// Whether something else has ended the step.
+    pub(super) interrupted: bool,
     /// Step that is tried, s; behind the step the one to try next.
     pub next_step: f64,
     constants: Constants,
@@ -107,9 +108,9 @@ impl Resting {
         previous: Option<&Self>,
         next_step: f64,
     ) -> Outcome {
-        let tolerance = constants.tolerance;
-        let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * tolerance.slowest_bounce);
-        let least_push = tolerance.slack + transient_pressing(constants, balls, &contacts);
+        let Tolerance { slack, slowest_bounce, .. } = constants.tolerance;
+        let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * slowest_bounce);
+        let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
             return without_ending_slips(table, constants, balls, &contacts);
         };
@@ -127,6 +128,7 @@ impl Resting {
             last: forces,
             shared,
             goes_on: false,
+            interrupted: false,
             next_step,
             constants: *constants,
         };
@@ -136,7 +138,7 @@ impl Resting {
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
-        if self.goes_on {
+        if self.goes_on && !stand_on_slope(&self.constants, &self.end, |ball| self.members[ball]) {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.advance(table);
             return true;
@@ -266,8 +268,7 @@ impl Resting {
         self.while_it_holds(table, begin, whole)
     }
 
-    /// Finds the zero of the slack, by false position with the Illinois rule, and by halves where one end stays. Each guess
-    /// begins at the last place before.
+    /// Finds the zero of the slack, by false position (Illinois) and by halves; each guess begins at the last place before.
     fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let allowed = self.constants.tolerance.slack;
         let (mut before, mut after) = (*begin, *whole);
@@ -381,6 +382,7 @@ impl Resting {
             return;
         }
         let trial = self.until(table, time);
+        self.interrupted = true;
         (self.step, self.last) = (time, trial.forces);
         (self.end, self.goes_on) = (self.settled(table, trial.step.end.balls), false);
         if time > 0.0 {

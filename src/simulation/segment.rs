@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Constants;
-use crate::physics::{BallState, Motion, decayed_spin, slip};
+use crate::physics::{BallState, Motion, decayed_spin, roll_on_slope, slide_on_slope, slip};
 
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -86,11 +86,13 @@ impl Segment {
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();
             segment.motion = Motion::Sliding;
-            segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
-            if !constants.even {
-                segment.half_acceleration += 0.5 * constants.tilt;
+            if constants.even || constants.tilt == DVec2::ZERO {
+                segment.half_acceleration = u * (-0.5 * constants.sliding / speed);
+                return (segment, speed * constants.slide_time);
             }
-            (segment, speed * constants.slide_time)
+            let slide = slide_on_slope(constants.sliding, constants.tilt, state.velocity, u);
+            segment.half_acceleration = slide.half_acceleration;
+            (segment, slide.lasts)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
         } else {
@@ -108,26 +110,27 @@ impl Segment {
             self.half_acceleration = self.velocity * (-0.5 * constants.rolling.least / speed);
             return (self, speed * constants.roll_time);
         }
+        if constants.tilt != DVec2::ZERO {
+            let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
+            self.half_acceleration = roll.half_acceleration;
+            return (self, roll.lasts);
+        }
         let (deceleration, end) = constants.rolling.band(speed);
         self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
-        // A slope pulls a rolling ball with five sevenths of its acceleration, and helps or hinders the band's end.
-        let pull = 5.0 / 7.0 * constants.tilt;
-        self.half_acceleration += 0.5 * pull;
-        let lasts = (speed - end) * speed / (deceleration * speed - pull.dot(self.velocity));
-        (self, lasts)
+        (self, (speed - end) / deceleration)
     }
 
     /// Whether a rolling ball comes to rest at the end of this course, and does not go on in the next band of its
     /// deceleration.
     #[inline(always)]
-    pub fn rolls_to_rest(&self, constants: &Constants, lasts: f64) -> bool {
+    pub fn rolls_to_rest(&self, constants: &Constants) -> bool {
         if constants.even {
             return true;
         }
         if constants.tilt == DVec2::ZERO {
             return constants.rolling.is_last(self.velocity.length());
         }
-        self.velocity_after(lasts).length() < constants.tolerance.still
+        roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity == DVec2::ZERO
     }
 
     /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
@@ -137,18 +140,26 @@ impl Segment {
         let spin = DVec3::new(0.0, 0.0, wz);
         let start = self.start + duration;
         if self.motion == Motion::Sliding {
-            // What the slip leaves is known without its duration, which keeps the rounding small.
+            // What the slip leaves is known without its duration, which keeps the rounding small. A slope adds its part.
             let mut velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
             if !constants.even {
                 velocity += (5.0 / 7.0 * duration) * constants.tilt;
             }
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
             if velocity == DVec2::ZERO { (next, f64::INFINITY) } else { next.roll(constants) }
-        } else if !self.rolls_to_rest(constants, duration) {
-            let velocity = self.velocity_after(duration);
+        } else if !self.rolls_to_rest(constants) {
+            let velocity = if constants.tilt == DVec2::ZERO {
+                self.velocity_after(duration)
+            } else {
+                roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity
+            };
             Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) }.roll(constants)
         } else {
-            let position = self.position + 0.5 * duration * self.velocity;
+            let position = if constants.tilt == DVec2::ZERO {
+                self.position + 0.5 * duration * self.velocity
+            } else {
+                self.position_after(duration)
+            };
             (Self { start, spin, ..Self::at_rest(position) }, f64::INFINITY)
         }
     }

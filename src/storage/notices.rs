@@ -20,10 +20,11 @@ pub fn notice(places: &Places, settings: &Path) -> Option<&'static str> {
     let Places { sessions, positions, last, .. } = places;
     let holds_any = |folder: &Path| fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
     let has_saved = holds_any(sessions) || holds_any(positions) || last.exists() || settings.exists();
-    let folder = places.notices.parent().map(fs::create_dir_all);
-    if folder.is_none_or(|made| made.is_ok()) {
-        // Where it fails, the sentence comes again: better twice than never.
-        let _ = write_atomic(&places.notices, format!("{told}{MATCH_TOLD}\n").as_bytes());
+    let folder = places.notices.parent();
+    folder.map(fs::create_dir_all);
+    // Where it fails, the sentence comes again: better twice than never.
+    if write_atomic(&places.notices, format!("{told}{MATCH_TOLD}\n").as_bytes()).is_err() {
+        folder.map(fs::remove_dir);
     }
     has_saved.then_some(MATCH)
 }

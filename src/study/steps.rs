@@ -263,6 +263,14 @@ impl<'a, O: Observer> Stepper<'a, O> {
     /// Lets an event happen at the present moment.
     fn happen(&mut self, kind: EventKind) -> ControlFlow<()> {
         let c = self.constants;
+        if let EventKind::RollingStationary(index) = kind
+            && self.rolls_on(index)
+        {
+            let mut state = self.balls[index].state;
+            state.spin = rolling_spin(c.radius, state.velocity).extend(state.spin.z);
+            self.launch(index, state);
+            return ControlFlow::Continue(());
+        }
         self.last_event = self.now;
         match kind {
             EventKind::BallBall(first, second) => {
@@ -290,6 +298,12 @@ impl<'a, O: Observer> Stepper<'a, O> {
             EventKind::ContactBegins(_) | EventKind::ContactEnds(_) => {}
         }
         self.observer.event(Event { time: self.now, kind })
+    }
+
+    /// Whether a ball that has come to the end of its motion rolls on in the next band of its deceleration.
+    fn rolls_on(&self, index: usize) -> bool {
+        let segment = &self.balls[index].segment;
+        segment.motion == Motion::Rolling && !segment.rolls_to_rest(&self.constants)
     }
 
     fn launch(&mut self, index: usize, state: BallState) {

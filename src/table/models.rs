@@ -35,9 +35,6 @@ pub struct Rails {
     /// throws it back as fast.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kappa: Option<f64>,
-    /// Time that a ball spends in the rail, s, in which it moves on along it.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub dwell: f64,
     /// Restitution that falls with the speed of the impact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fade: Option<Fade>,

@@ -174,8 +174,8 @@ impl Table {
             ("mu_s", self.sliding_friction, cloth, "0.0001 to 1000"),
             ("mu_r", self.rolling_friction, cloth, "0.0001 to 1000"),
             ("mu_sp", self.spinning_friction, friction, "0 to 1000"),
-            ("mu_rail", self.rail_friction, friction, "0 to 1000"),
-            ("mu_b", self.ball_friction.unwrap_or(0.0), friction, "0 to 1000, or no mu_b at all for no slip"),
+            ("mu_rail", self.rail_friction, flaws::rubs, flaws::RUBS),
+            ("mu_b", self.ball_friction.unwrap_or(0.0), flaws::rubs, "0 to below 1, or no mu_b at all for no slip"),
             ("e_ball", self.ball_restitution, restitution, "0 to 1"),
             ("e_rail", self.rail_restitution, restitution, "0 to 1"),
             ("miscue_limit", self.miscue_limit, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1"),
@@ -282,6 +282,16 @@ mod tests {
     fn not_a_number_is_refused() {
         let text = TEXTBOOK.replace("mu_s = 0.2", "mu_s = nan");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_s", .. })));
+    }
+
+    #[test]
+    fn friction_in_contacts_whose_forces_are_not_unique_is_refused_with_a_sentence() {
+        for (from, to) in [("mu_rail = 0.2", "mu_rail = 1"), ("mu_b = 0.06", "mu_b = 10")] {
+            assert!(TEXTBOOK.contains(from));
+            let message = Table::from_toml(&TEXTBOOK.replace(from, to)).unwrap_err().to_string();
+            assert!(message.contains(to) && message.contains("accepted is 0 to below 1"), "{message}");
+        }
+        assert!(Table::from_toml(&TEXTBOOK.replace("mu_rail = 0.2", "mu_rail = 0.99")).is_ok());
     }
 
     #[test]

@@ -72,7 +72,11 @@ fn a_folder_that_cannot_be_written_is_named_and_no_file_that_is_not_there() {
 #[test]
 fn numbers_that_are_not_finite_are_an_error() {
     let home = folder();
+    // Friction that has no unique forces, and came out as NaN once, is refused; the most that is accepted is computed.
     fs::write(home.path().join("t.toml"), format!("{SLIPPERY}mu_b = 1000\n")).unwrap();
+    let refused = carom(home.path(), &["simulate", "--table", "t.toml", "--shot", "0,0,0,0,2"]);
+    assert!(refused.code == Some(2) && refused.err.contains("mu_b = 1000"), "{}", refused.err);
+    fs::write(home.path().join("t.toml"), format!("{SLIPPERY}mu_b = 0.99\n")).unwrap();
     let shot = |n: u32| {
         format!(
             r#"{{"preset":"t.toml","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{{"a":0.{},"b":-0.{},"theta_deg":{},"phi_deg":{},"speed":{}}}}}"#,

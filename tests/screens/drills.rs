@@ -85,7 +85,7 @@ fn a_stroke_is_set_with_keys() {
     check("aiming", &player);
     player.says("yellow 100 % full");
     let set = player.press("S-Left Left Left Left C-Right h h k K Up S-Up +");
-    for part in ["-84.41°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "1.0° up"] {
+    for part in ["-84.41°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "2.3° up"] {
         set.says(part);
     }
     check("aiming_set", &set);

@@ -89,7 +89,7 @@ fn a_new_run_is_filled_in_and_started() {
     let wanted = ["train", "--agent", "ddpg", "--reward", "one-cushion", "--table", "textbook", "--steps", "500007"];
     assert_eq!(arguments[..9], wanted);
     assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{NAME}"), "--run", folder]);
-    assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-thesis-one-cushion-2"), "{folder}");
+    assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-textbook-one-cushion-2"), "{folder}");
     assert_eq!(player.app.wanted().followed[0].as_deref(), Some(launch.folder.as_path()));
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player

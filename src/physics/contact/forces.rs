@@ -52,6 +52,8 @@ pub struct Resolved {
     pub forces: Forces,
     /// Whether frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
     pub shared: bool,
+    /// What the frictions do if those that have yielded hold again: slips that end, or slide on against their friction.
+    pub grips: Option<ActiveSet>,
     /// Whether all laws hold to rounding.
     pub converged: bool,
 }
@@ -74,6 +76,7 @@ pub fn resolve(
         set: *set,
         forces: Forces::of(table.radius, &problem, &solution.sizes, &accelerations),
         shared: false,
+        grips: None,
         converged: solution.converged,
     };
     let never_slips = |place: Place| {
@@ -84,6 +87,11 @@ pub fn resolve(
     let mut kept = [Friction::Sticks; MAX_CONTACTS];
     let mut count = 0;
     for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
+        if *side == Side::Holds {
+            // Balls that never slip stop at once, others slide on against their friction.
+            let ends = if never_slips(unknown.place) { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
+            resolved.grips = grip(&resolved.grips.unwrap_or(*set), unknown.place, ends).or(resolved.grips);
+        }
         let Side::Limited(force) = *side else { continue };
         let rates: [f64; 2] = std::array::from_fn(|axis| {
             if axis < unknown.count { problem.rates[unknown.first + axis].dot(&accelerations) } else { 0.0 }
@@ -119,6 +127,22 @@ pub fn resolve(
     resolved.set.contact = kept;
     resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(&problem, &solution.sizes));
     Some(resolved)
+}
+
+/// The set in which a friction that yields does something else; none where it does not yield.
+fn grip(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSet> {
+    let mut set = *set;
+    let friction = match place {
+        Place::Normal(_) | Place::Spin(_) => return None,
+        Place::Cloth(ball) => &mut set.cloth[ball],
+        Place::Roll(ball) => &mut set.roll[ball],
+        Place::Contact(index) => &mut set.contact[index],
+    };
+    if *friction != Friction::Yields {
+        return None;
+    }
+    *friction = does;
+    Some(set)
 }
 
 /// The forces where a friction yields: what holds is sought anew in every state.

@@ -358,8 +358,10 @@ pub fn forces(
             *linear = -sliding * against;
             *angular = (2.5 * sliding * against.perp()).extend(0.0);
         } else if let Some(against) = set.roll[ball].direction(state.velocity) {
-            *linear = -rolling * against;
+            let growth = 1.4 * table.rolling_growth * state.velocity.length();
+            *linear = -(rolling + growth) * against;
         }
+        *linear += table.tilt;
         if let Friction::Slips(sign) = set.spin[ball] {
             angular.z = -2.5 * boring * sign.x;
             if sign.x != 0.0 {

@@ -188,6 +188,7 @@ impl Problem {
         let sliding = table.sliding_friction * gravity;
         let resistance = table.rolling_friction * gravity + 1.4 * table.rolling_growth * state.velocity.length();
         let slips = [DVec2::X, DVec2::Y].map(|axis| Row::cloth(ball, axis));
+        self.known = self.known.with(ball, table.tilt, DVec3::ZERO);
         if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
             self.known.add(-sliding * against.x, &slips[0]);
             self.known.add(-sliding * against.y, &slips[1]);

@@ -93,7 +93,8 @@ mod tests {
     fn film_and_simulation_begin_together_and_part_as_the_study_says() {
         let table = Table::default();
         let replay = Replay::new(&table, &shot(2)).unwrap();
-        assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.002), "{:?}", replay.apart(0.0));
+        // The film is read along straight lines between pictures 20 ms apart, in one of which the ball is struck.
+        assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.02), "{:?}", replay.apart(0.0));
         let fitted = (1..20).map(|n| replay.apart(FITTED * f64::from(n) / 20.0)[0]).fold(0.0, f64::max);
         assert!(fitted < 0.03, "{fitted} m on the part that was fitted");
         let late = replay.fitted.start - replay.filmed.start;

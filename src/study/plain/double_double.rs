@@ -220,6 +220,17 @@ mod tests {
     }
 
     #[test]
+    fn exponentials_are_met_to_thirty_digits() {
+        let of = DoubleDouble::of;
+        agrees(of(1.0).exp(), decimal(2.0, [718_281_828_459.0, 045_235_360_287.0, 471_352_662_497.0]));
+        agrees(of(-3.5).exp(), decimal(0.0, [030_197_383_422.0, 318_500_739_786.0, 292_363_619_845.0]));
+        agrees(of(0.125).tanh(), decimal(0.0, [124_353_001_771.0, 596_208_054_647.0, 275_805_892_707.0]));
+        agrees(of(-0.75).tanh(), -decimal(0.0, [635_148_952_387.0, 287_319_214_434.0, 357_312_496_495.0]));
+        agrees(of(3.0).tanh(), decimal(0.0, [995_054_753_686.0, 730_451_331_880.0, 185_255_488_475.0]));
+        assert!((of(1e300).tanh() - of(1.0)).to_f64().abs() < 1e-32);
+    }
+
+    #[test]
     fn sines_are_met_to_thirty_digits_in_every_quadrant() {
         let (sine, cosine) = DoubleDouble::of(1.0).sin_cos();
         agrees(sine + DoubleDouble::of(1.0), decimal(1.0, [841_470_984_807.0, 896_506_652_502.0, 321_630_298_999.0]));

@@ -8,8 +8,9 @@ pub const COLUMNS: usize = 14;
 /// Two columns that differ by less are the same, in units of rounding: the last one is better by some orders.
 const SAME: f64 = 256.0;
 
-/// Most by which blur makes that more.
+/// Most by which blur makes that more, and the power of rounding that bounds it where numbers have few digits.
 const BLURRED: f64 = 1e6;
+const BLURRED_POWER: f64 = -0.375;
 
 /// What is integrated, its changes since a start, or its rates of change.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +61,8 @@ impl<R: Real> State<R> {
     }
 
     fn agrees(&self, other: &Self, blur: R) -> bool {
-        let (same, more, most) = (R::of(SAME * R::ROUNDING), R::of(1.0) + blur, R::of(BLURRED));
+        let (same, more, most) =
+            (R::of(SAME * R::ROUNDING), R::of(1.0) + blur, R::of(BLURRED.min(R::ROUNDING.powf(BLURRED_POWER))));
         self.numbers()
             .zip(other.numbers())
             .all(|(a, b)| (a - b).abs() <= same * (R::of(1.0) + (more * a.abs()).min(most)))

@@ -59,7 +59,8 @@ impl<R: Real> Piece<R> {
         for _ in 0..MOST_HALVINGS {
             let (end, columns) = extrapolate(&self.start, tau, blur, |state| self.rates(state));
             (self.tau, self.end) = (tau, end);
-            if let Some(columns) = columns {
+            // Where slips are hardly known, columns may agree on a time that runs backwards: no step is as long as that.
+            if let Some(columns) = columns.filter(|_| end.time > R::zero()) {
                 let growth = [1.0, 1.0, 1.5, 1.5, 2.0].get(COLUMNS - columns).unwrap_or(&4.0);
                 self.stride = ((tau / natural).to_f64() * growth).max(0.125);
                 break;

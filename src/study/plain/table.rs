@@ -97,19 +97,19 @@ impl<R: Real> Numbers<R> {
 
     /// Deceleration of a ball that begins to roll with `speed`, m/s², and the speed down to which it holds.
     ///
-    /// The law is that of `physics::rolling`: the last band begins where `c1 v` is 0.0118 `c0`, any other takes the share
-    /// `a / (1.4 a + 9.5 c1 v)` of its first speed.
+    /// The law is that of `physics::rolling`: the last band begins where `c1 v` is 0.059 `c0`, any other takes the share
+    /// `a / (a + 4.3 c1 v)` of its first speed.
     pub fn band(&self, speed: R) -> (R, R) {
         let (least, growth) = (R::ratio(5.0, 7.0) * self.roll, self.roll_growth);
         if growth <= R::zero() {
             return (least, R::zero());
         }
         let pull = growth * speed;
-        let end = if pull <= R::of(0.0118) * least {
+        let end = if pull <= R::of(0.059) * least {
             R::zero()
         } else {
             let fast = least + pull;
-            speed - speed * fast / (R::of(1.4) * fast + R::of(9.5) * pull)
+            speed - speed * fast / (fast + R::of(4.3) * pull)
         };
         let (width, middle) = (speed - end, R::of(0.5) * (speed + end));
         let mean = least + growth * middle;

@@ -8,10 +8,11 @@ use crate::{
     physics,
     simulation::EventKind,
     study::{
+        Errors, Method, Truth,
         shots::{StudyShot, random_shots},
         stability::adversarial,
     },
-    table::{BALLS, Table},
+    table::{BALLS, Fade, OneRail, RailModel, Rails, SlipFriction, Table},
 };
 
 type D = DoubleDouble;
@@ -126,13 +127,99 @@ fn a_symmetric_break_stays_symmetric() {
 
 #[test]
 fn in_single_precision_it_ends_as_well() {
-    for shot in random_shots(&thesis(), 20, 9) {
+    for shot in random_shots(&thesis(), 60, 9) {
         let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
         let of = |x: f64, y: f64, z: f64| Vector::new(x as f32, y as f32, z as f32);
         let places = shot.layout.balls.map(|ball| of(ball.x, ball.y, 0.0));
         let played = play(&Numbers::of(&thesis()), places, of(v.x, v.y, 0.0), of(w.x, w.y, w.z), by_extrema);
-        assert!(played.is_ok(), "{}", shot.command_line(&thesis()));
+        assert!(played.is_ok(), "{:?}: {}", played.err(), shot.command_line(&thesis()));
     }
+}
+
+/// Tables that have each model of a part by itself, beside `match`, which has them all but one.
+fn models() -> Vec<Table> {
+    let textbook = || Table::preset("textbook").unwrap();
+    let rails = |rail: Rails| Table { rail, ..textbook() };
+    let high = Rails { height: Some(0.0365), ..Rails::default() };
+    let fade = Some(Fade { from: 0.5, slope: 0.05, least: 0.6 });
+    let own = |e, mu, height| Some(OneRail { e: Some(e), mu: Some(mu), height: Some(height) });
+    vec![
+        Table::default(),
+        rails(Rails { model: RailModel::Nose, ..high }),
+        rails(Rails { model: RailModel::Smooth, kappa: Some(1.3), ..high }),
+        rails(Rails { model: RailModel::Equator, fade, ..high }),
+        rails(Rails {
+            model: RailModel::Smooth,
+            left: own(0.8, 0.1, 0.034),
+            right: own(0.9, 0.3, 0.038),
+            bottom: Some(OneRail { e: Some(0.7), ..OneRail::default() }),
+            top: Some(OneRail { mu: Some(0.15), ..OneRail::default() }),
+            ..high
+        }),
+        Table { rolling_growth: 0.03, ..textbook() },
+        Table { ball_fade: fade, ..textbook() },
+        Table { ball_slip_friction: Some(SlipFriction { least: 0.01, rise: 0.1, fade: 1.1 }), ..textbook() },
+    ]
+}
+
+#[test]
+fn both_engines_agree_on_every_model_of_a_table() {
+    for (index, table) in models().iter().enumerate() {
+        let shots = random_shots(table, 60, 5);
+        let mut units: Vec<f64> = Vec::new();
+        for shot in &shots {
+            let truth = Truth::of(table, shot).unwrap();
+            let run = Method::Engine.play(table, shot).unwrap();
+            let errors = Errors::of(&truth, &run);
+            assert_eq!(errors.differs_at, None, "table {index}: {}", shot.command_line(table));
+            assert!(errors.rest_units < 1e3, "table {index}, {errors:?}: {}", shot.command_line(table));
+            assert!(truth.unaccounted.abs() < 1e-29, "table {index}: {}", shot.command_line(table));
+            units.push(errors.rest_units);
+        }
+        units.sort_by(f64::total_cmp);
+        assert!(units[units.len() / 2] < 2.0, "table {index}: {units:?}");
+    }
+}
+
+#[test]
+fn a_rail_at_the_height_of_the_centre_is_the_equators() {
+    let at_centre = |model| {
+        let rail = Rails { model, height: Some(Table::default().radius), ..Rails::default() };
+        Table { rail, ..Table::default() }
+    };
+    let [nose, equator] = [RailModel::Nose, RailModel::Equator].map(at_centre);
+    for shot in random_shots(&nose, 30, 8) {
+        let [one, other] = [&nose, &equator].map(|table| played(table, &shot, [0, 1, 2], false));
+        for (one, other) in one.end.iter().zip(&other.end) {
+            assert!(distance(one.position, other.position) < 1e-22, "{}", shot.command_line(&nose));
+        }
+    }
+}
+
+#[test]
+fn a_squirting_cue_starts_the_ball_as_the_engines_does() {
+    let (table, of) = (Table::default(), D::of);
+    let numbers = Numbers::<D>::of(&table);
+    for a in [-0.49, -0.2, 0.0, 0.3, 0.49] {
+        let cue = physics::CueInputs { a, b: 0.1, theta: 0.2, phi: 1.1, speed: 3.0 };
+        let engine = physics::strike(&table, &cue);
+        let stroke = Stroke { a: of(a), b: of(0.1), theta: of(0.2).sin_cos(), phi: of(1.1).sin_cos(), speed: of(3.0) };
+        let (velocity, spin) = strike(&numbers, &stroke);
+        assert!((velocity.x.to_f64() - engine.velocity.x).abs() < 1e-15, "{a}");
+        assert!((velocity.y.to_f64() - engine.velocity.y).abs() < 1e-15, "{a}");
+        let turned = [spin.x, spin.y, spin.z].map(Real::to_f64);
+        assert!(turned.iter().zip(engine.spin.to_array()).all(|(w, known)| (w - known).abs() < 1e-13), "{a}");
+    }
+}
+
+#[test]
+fn what_the_engine_lacks_is_said_and_not_judged() {
+    let shot = random_shots(&thesis(), 1, 1)[0];
+    let rail = Rails { model: RailModel::Mathavan, height: Some(0.036), ..Rails::default() };
+    let integrated = Table { rail, ..thesis() };
+    assert_eq!(Truth::of(&integrated, &shot).unwrap_err(), Unjudged::IntegratedRail);
+    let tilted = Table { tilt: glam::DVec2::new(1e-3, 0.0), ..thesis() };
+    assert_eq!(Truth::of(&tilted, &shot).unwrap_err(), Unjudged::Slope);
 }
 
 fn judges_all(random: usize, adversarial_shots: usize) {

@@ -98,7 +98,7 @@ pub const ENTRIES: &[Entry] = &[
         group: "Game",
         key: "table",
         about: "The table that is played on.",
-        accepted: "\"match\", \"thesis\" or the path of a TOML file that is there",
+        accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there",
         choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),
         set: |settings, value| {

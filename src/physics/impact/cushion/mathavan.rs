@@ -10,7 +10,8 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 
-/// Steps of the integration for compression, and about as many for restitution: the error is some 1e-7 of the speeds.
+/// Steps of the integration for compression, and about as many for restitution: the error is some 1e-7 of the speeds where
+/// contacts slip, and a thousandth of them where one stays at the end of its slip, which the steps cross to and fro.
 const STEPS: f64 = 400.0;
 
 /// Velocity and spin in the frame of the impact: along the normal into the table, along the cushion, and up.
@@ -71,6 +72,12 @@ pub(super) fn collide(
     n: DVec2,
     ball: &mut BallState,
 ) -> f64 {
+    integrate(&Law { radius, nose, cloth, sine, cosine }, restitution, n, ball, STEPS)
+}
+
+/// The same in about `steps` steps for compression and for restitution.
+fn integrate(law: &Law, restitution: f64, n: DVec2, ball: &mut BallState, steps: f64) -> f64 {
+    let cosine = law.cosine;
     let t = n.perp();
     let into = |v: DVec2| DVec2::new(v.dot(n), v.dot(t));
     let mut motion = Motion { velocity: into(ball.velocity), spin: into(ball.spin.truncate()).extend(ball.spin.z) };
@@ -78,8 +85,7 @@ pub(super) fn collide(
     if approach <= 0.0 {
         return -approach.abs();
     }
-    let law = Law { radius, nose, cloth, sine, cosine };
-    let step = approach / STEPS;
+    let step = approach / steps;
     let (mut impulse, mut work) = (0.0, 0.0);
     // Work along the line of the impact for a step: the mean speed times the impulse, the speed being -v_n cos α.
     let worked =
@@ -117,4 +123,43 @@ pub(super) fn collide(
     ball.velocity = motion.velocity.x * n + motion.velocity.y * t;
     ball.spin = (motion.spin.x * n + motion.spin.y * t).extend(motion.spin.z);
     impulse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How far speeds at the end are from those with 64 times as many steps, m/s, for an impact at 1.5 m/s.
+    fn error(steps: f64, start: &BallState) -> f64 {
+        let sine: f64 = 0.19;
+        let law = Law { radius: 0.030_75, nose: 0.213, cloth: 0.205, sine, cosine: (1.0 - sine * sine).sqrt() };
+        let after = |steps: f64| {
+            let mut ball = *start;
+            integrate(&law, 0.889, DVec2::NEG_X, &mut ball, steps);
+            ball
+        };
+        let (coarse, fine) = (after(steps), after(64.0 * STEPS));
+        coarse.velocity.distance(fine.velocity) + law.radius * coarse.spin.distance(fine.spin)
+    }
+
+    #[test]
+    fn the_integrated_impulse_converges_as_its_steps_are_halved() {
+        let ball = |velocity: [f64; 2], spin: [f64; 3]| BallState {
+            position: DVec2::ZERO,
+            velocity: DVec2::from_array(velocity),
+            spin: DVec3::from_array(spin),
+        };
+        let slipping = [
+            ball([1.2, 0.9], [-20.0, 35.0, 40.0]),
+            ball([1.0, 1.0], [0.0, 0.0, 120.0]),
+            ball([1.0, -1.0], [-90.0, -60.0, 150.0]),
+        ];
+        for start in slipping {
+            let [coarse, middle, fine] = [0.25, 0.5, 1.0].map(|share| error(share * STEPS, &start));
+            assert!(coarse > 3.5 * middle && middle > 3.5 * fine && fine < 3e-7, "{coarse:e}, {middle:e}, {fine:e}");
+        }
+        // One that rolls straight at the rail, whose slip on the cloth is none and remains about that.
+        let rolling = error(STEPS, &ball([1.5, 0.0], [0.0, 1.5 / 0.030_75, 0.0]));
+        assert!(rolling < 2e-3, "{rolling:e}");
+    }
 }

@@ -48,7 +48,11 @@ pub(super) fn collide(
             let slips = friction * normal / slip;
             if slips < 2.0 / 7.0 { slips } else { 2.0 / 7.0 }
         }
-        Grip::Smooth { most } => most * (friction * normal / (most * slip)).tanh(),
+        Grip::Smooth { most } => {
+            // The hyperbolic tangent at half the price of the library's; beyond that it is one.
+            let grown = (2.0 * friction * normal / (most * slip)).exp();
+            if grown < 1e17 { most * (grown - 1.0) / (grown + 1.0) } else { most }
+        }
     };
     // Without slip there is no friction.
     let factor = if slip > 0.0 { factor } else { 0.0 };

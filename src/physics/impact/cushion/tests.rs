@@ -69,15 +69,10 @@ proptest! {
 }
 
 #[test]
-fn the_integrated_impulse_has_converged() {
-    // Values of the same equations with 40,000 steps a phase.
+fn the_integrated_law_has_no_speed_of_its_own() {
     let ball = BallState { position: DVec2::ZERO, velocity: DVec2::new(1.2, 0.9), spin: DVec3::new(-20.0, 35.0, 40.0) };
     let cushion = cushion(RailModel::Mathavan, 0.0365);
-    let after = hit(&cushion, &ball);
-    let fine = {
-        // A ball that meets the rail almost along it takes steps as fine as its approach is slow; compare by scaling.
-        let scaled = BallState { velocity: 1e-3 * ball.velocity, spin: 1e-3 * ball.spin, ..ball };
-        hit(&cushion, &scaled)
-    };
-    assert!((1e3 * fine.velocity).distance(after.velocity) < 1e-9, "the law has no speed of its own");
+    let slow = BallState { velocity: 1e-3 * ball.velocity, spin: 1e-3 * ball.spin, ..ball };
+    let (after, slow) = (hit(&cushion, &ball), hit(&cushion, &slow));
+    assert!((1e3 * slow.velocity).distance(after.velocity) < 1e-9);
 }

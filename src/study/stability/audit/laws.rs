@@ -1,4 +1,5 @@
-//! What the laws of impact and of free motion take of the energy, by formulas written apart from the engine's.
+//! What the laws of impact and of free motion take of the energy, by formulas written apart from the engine's. Models of a
+//! table's parts that go beyond the thesis are those of the plain engine.
 
 use super::{
     least_squares::{Column, dot},
@@ -6,7 +7,9 @@ use super::{
 };
 use crate::{
     physics::{BallState, Motion},
-    table::Table,
+    simulation::Rail,
+    study::plain::{Ball, Numbers, Vector, balls_collide, rail_collides},
+    table::{BALLS, RailModel, Table},
 };
 
 /// The restitution of a contact.
@@ -42,6 +45,26 @@ pub fn impact_loss(table: &Table, contact: &Contact, before: &Column, restitutio
     energy(before) - energy(&after)
 }
 
+/// The same for a table whose impacts go by other models: `None` for the thesis' laws, and for models that the plain engine
+/// has not.
+pub fn impact_loss_by_models(table: &Table, contact: &Contact, balls: &[BallState; BALLS]) -> Option<f64> {
+    let numbers = Numbers::<f64>::of(table);
+    let vector = |v: glam::DVec2, z: f64| Vector::new(v.x, v.y, z);
+    let plain = |state: &BallState| Ball {
+        velocity: vector(state.velocity, 0.0),
+        spin: vector(state.spin.truncate(), state.spin.z),
+        ..Ball::still(vector(state.position, 0.0))
+    };
+    let mut first = plain(&balls[contact.first]);
+    if let Some(second) = contact.second {
+        let by_speed = table.ball_fade.is_some() || table.ball_slip_friction.is_some();
+        return by_speed.then(|| balls_collide(&numbers, &mut first, &mut plain(&balls[second])));
+    }
+    let cushion = numbers.cushion(Rail::with_normal(contact.normal));
+    let is_known = table.rail != Default::default() && table.rail.model != RailModel::Mathavan;
+    is_known.then(|| rail_collides(&numbers, cushion, vector(contact.normal, 0.0), &mut first))
+}
+
 /// The work of the cloth on a ball that moves freely for `time` seconds from `state` on, m²/s² (thesis equations 1 to 8).
 pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) -> f64 {
     let (radius, g) = (table.radius, table.gravity);
@@ -59,8 +82,8 @@ pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) ->
             work(force, (v.x - radius * state.spin.y).hypot(v.y + radius * state.spin.x), 3.5 * force)
         }
         Motion::Rolling => {
-            let force = table.rolling_friction * g;
-            work(force, v.length(), 5.0 / 7.0 * force)
+            let deceleration = Numbers::<f64>::of(table).band(v.length()).0;
+            work(1.4 * deceleration, v.length(), deceleration)
         }
         Motion::Stationary | Motion::Resting => 0.0,
     }

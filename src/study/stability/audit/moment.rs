@@ -2,7 +2,7 @@
 
 use super::{
     doubt::STOPPED_SPEED,
-    laws::{friction, impact_loss, restitution},
+    laws::{friction, impact_loss, impact_loss_by_models, restitution},
     least_squares::{Column, dot, fit},
     motion::{Contact, energy, motion},
 };
@@ -108,7 +108,8 @@ impl Moment<'_> {
     /// contact, with none.
     fn one_impact(&self, contact: &Contact, before: &Column, lost: f64) -> Taken {
         let e = restitution(self.table, contact);
-        let unexplained = lost - impact_loss(self.table, contact, before, e);
+        let by_models = impact_loss_by_models(self.table, contact, &self.before);
+        let unexplained = lost - by_models.unwrap_or_else(|| impact_loss(self.table, contact, before, e));
         let [opening, ..] = contact.directions();
         let speed = e * dot(&opening, before).abs();
         let stays = |ball: usize| self.rests[ball];

@@ -18,13 +18,13 @@ const fn case(
 }
 
 pub const CASES: &[Case] = &[
-    case("random shots, table \"match\"", match_table, random::shot, Size::Random),
+    case("random shots, table \"textbook\"", textbook_table, random::shot, Size::Random),
     case("random shots, table \"thesis\"", thesis_table, random::shot, Size::Random),
-    case("adversarial shots, table \"match\"", match_table, adversarial::shot, Size::Adversarial),
+    case("adversarial shots, table \"textbook\"", textbook_table, adversarial::shot, Size::Adversarial),
     case("adversarial shots, table \"thesis\"", thesis_table, adversarial::shot, Size::Adversarial),
 ];
 
-fn match_table() -> Vec<Table> {
+fn textbook_table() -> Vec<Table> {
     Table::preset("textbook").into_iter().collect()
 }
 

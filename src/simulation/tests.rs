@@ -1,0 +1,251 @@
+//! The engine on tables whose parts go beyond the thesis.
+
+use std::ops::ControlFlow;
+
+use glam::{DVec2, DVec3};
+
+use super::{Event, EventKind, Observer, Rail, Segment, simulate};
+use crate::{
+    physics::{Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip},
+    table::{Layout, OneRail, RailModel, Rails, Table},
+};
+
+/// What happens, and the pieces of the cue ball's course with their ends.
+#[derive(Default)]
+struct Course {
+    events: Vec<Event>,
+    pieces: Vec<(Segment, f64)>,
+}
+
+impl Observer for Course {
+    const SEGMENTS: bool = true;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.events.push(event);
+        ControlFlow::Continue(())
+    }
+
+    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
+        if ball == 0 {
+            self.pieces.push((segment.clone(), end));
+        }
+    }
+}
+
+/// The course of the cue ball, and where it comes to rest; the others lie in the far corners unless `second` says otherwise.
+fn played(table: &Table, from: DVec2, velocity: DVec2, spin: DVec3, second: Option<DVec2>) -> (Course, DVec2) {
+    let corner = table.reach() - DVec2::splat(0.001);
+    among(table, [from, second.unwrap_or(-corner), DVec2::new(-corner.x, corner.y)], velocity, spin)
+}
+
+/// The same with all balls where they are said to be.
+fn among(table: &Table, balls: [DVec2; 3], velocity: DVec2, spin: DVec3) -> (Course, DVec2) {
+    let layout = Layout::new(balls);
+    let mut course = Course::default();
+    let end = simulate(table, &layout, &Impulse { velocity, spin }, &mut course);
+    (course, end.balls[0].position)
+}
+
+fn rolled(table: &Table, from: DVec2, velocity: DVec2) -> (Course, DVec2) {
+    played(table, from, velocity, rolling_spin(table.radius, velocity).extend(0.0), None)
+}
+
+#[test]
+fn each_rail_has_its_own_constants() {
+    let own = |e, mu| Some(OneRail { e: Some(e), mu: Some(mu), height: None });
+    let (left, right, bottom, top) = (own(0.6, 0.0), own(0.7, 0.01), own(0.8, 0.02), own(0.9, 0.03));
+    for model in [RailModel::Equator, RailModel::Nose] {
+        let rail = Rails { model, left, right, bottom, top, ..Rails::default() };
+        let table = Table { rail, ..Table::default() };
+        for (rail, own) in Rail::ALL.into_iter().zip([left, right, bottom, top]) {
+            let OneRail { e, mu, .. } = own.unwrap();
+            // Straight at the rail, with so much side that the friction is at its limit.
+            let from = -0.5 * rail.normal() * table.reach();
+            let (course, _) = played(&table, from, -rail.normal(), DVec3::new(0.0, 0.0, 80.0), None);
+            let hit = course.events.iter().position(|event| matches!(event.kind, EventKind::BallRail(..))).unwrap();
+            assert_eq!(course.events[hit].kind, EventKind::BallRail(0, rail));
+            let at = course.events[hit].time;
+            let before = course.pieces.iter().find(|(_, end)| *end == at).unwrap();
+            let state = before.0.state_after(&super::Constants::of(&table), at - before.0.start);
+            let speed = state.velocity.length();
+            let slip = DVec2::new(state.spin.z, state.spin.truncate().dot(rail.normal().perp()));
+            let after = course.pieces.iter().find(|(piece, _)| piece.start == at).unwrap().0.velocity;
+            assert!((after.dot(rail.normal()) / speed - e.unwrap()).abs() < 1e-12, "{model:?}, {rail:?}: {after}");
+            let aside = after.dot(rail.normal().perp()).abs();
+            let known = mu.unwrap() * (1.0 + e.unwrap()) * speed * slip.x.abs() / slip.length();
+            assert!((aside - known).abs() < 1e-12, "{model:?}, {rail:?}: {after}");
+        }
+    }
+}
+
+#[test]
+fn a_bands_edge_right_at_a_cushion_changes_nothing() {
+    let table = Table::default();
+    let rolling = Rolling { least: rolling_deceleration(&table), growth: table.rolling_growth };
+    let speed = 1.0;
+    let (deceleration, end) = rolling.band(speed);
+    let length = (speed * speed - end * end) / (2.0 * deceleration);
+    let reach = table.reach().x;
+    let hit = |from: f64| {
+        let (course, stop) = rolled(&table, DVec2::new(from, 0.1), DVec2::X * speed);
+        let first = course.events[0];
+        assert_eq!(first.kind, EventKind::BallRail(0, Rail::Right), "{from}");
+        let rails = course.events.iter().filter(|event| matches!(event.kind, EventKind::BallRail(..))).count();
+        (first.time, stop, rails)
+    };
+    let (time, stop, rails) = hit(reach - length + 1e-9);
+    assert!((time - (speed - end) / deceleration).abs() < 1e-7);
+    for offset in -40..=40 {
+        let (other, place, count) = hit(reach - length + 4e-17 * f64::from(offset).powi(3));
+        assert!((other - time).abs() < 1e-8 && place.distance(stop) < 1e-7 && count == rails, "offset {offset}");
+    }
+}
+
+#[test]
+fn slow_balls_stop_where_the_law_says() {
+    let table = Table::default();
+    let least = rolling_deceleration(&table);
+    for speed in [2.7e-2, 1e-2, 1e-3, 1e-5, 1e-7] {
+        let (course, stop) = rolled(&table, DVec2::ZERO, DVec2::new(0.6, 0.8) * speed);
+        let stops = course.events.iter().filter(|event| matches!(event.kind, EventKind::RollingStationary(0)));
+        assert_eq!((stops.count(), course.events.len()), (1, 1), "{speed}");
+        // With a resistance of c0 + c1 v, c1 v much less than c0.
+        let growth = table.rolling_growth * speed / least;
+        let known = speed * speed / least * (0.5 - growth / 3.0 + growth * growth / 4.0);
+        assert!((stop.length() / known - 1.0).abs() < 1e-3, "{speed}: {} {known}", stop.length());
+        assert!(stop.perp_dot(DVec2::new(0.6, 0.8)).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn the_last_band_stops_a_ball_where_it_is() {
+    // A ball that stopped in a band almost to rest was once put back by what was left of its speed. The last band begins here.
+    let table = Table::default();
+    for step in 0..2000 {
+        let speed = 0.0273 + 1e-7 * f64::from(step);
+        let (course, stop) = rolled(&table, DVec2::ZERO, DVec2::X * speed);
+        let (last, end) = &course.pieces[course.pieces.len() - 2];
+        assert_eq!(last.motion, Motion::Rolling);
+        assert!(last.position_after(end - last.start).distance(stop) < 1e-15, "{speed}");
+    }
+}
+
+#[test]
+fn on_a_slope_a_course_has_no_jumps_and_ends_in_rest() {
+    for name in ["match", "textbook"] {
+        let table = Table { tilt: DVec2::new(-6e-4, 8e-4), ..Table::preset(name).unwrap() };
+        let (velocity, spin) = (DVec2::new(0.9, 0.1), DVec3::new(20.0, -10.0, 30.0));
+        let (course, _) = played(&table, DVec2::new(-1.2, -0.3), velocity, spin, None);
+        let constants = super::Constants::of(&table);
+        for pair in course.pieces.windows(2) {
+            let ((one, end), (other, _)) = (&pair[0], &pair[1]);
+            assert!(one.position_after(end - one.start).distance(other.position) < 1e-14);
+            if one.motion == Motion::Sliding && other.motion == Motion::Rolling {
+                let last = one.state_after(&constants, end - one.start);
+                assert!(last.velocity.distance(other.velocity) < 1e-14);
+                assert!(slip(table.radius, last.velocity, last.spin).length() < 1e-14);
+            }
+        }
+        assert!(matches!(course.events.last().unwrap().kind, EventKind::RollingStationary(0)), "{name}");
+        let bends = course.pieces.iter().filter(|(piece, _)| piece.motion == Motion::Rolling);
+        assert!(bends.clone().count() > 8 && bends.count() < 60);
+    }
+}
+
+#[test]
+fn a_ball_that_rolls_down_a_slope_meets_another_at_its_surface() {
+    // The roll bends by some centimetres: a straight line would meet the other ball elsewhere, or not at all.
+    let table = Table { tilt: DVec2::new(0.0, 1e-3), ..Table::preset("textbook").unwrap() };
+    for aside in [0.0, 0.01, 0.03, 0.05] {
+        let second = DVec2::new(0.7, aside);
+        let velocity = DVec2::new(0.6, 0.0);
+        let spin = rolling_spin(table.radius, velocity).extend(0.0);
+        let (course, _) = played(&table, DVec2::new(-0.8, 0.0), velocity, spin, Some(second));
+        let met = course.events.iter().find(|event| event.kind == EventKind::BallBall(0, 1)).unwrap();
+        let (piece, end) = course.pieces.iter().find(|(_, end)| *end == met.time).unwrap();
+        let gap = piece.position_after(end - piece.start).distance(second) - 2.0 * table.radius;
+        assert!(gap.abs() < 1e-14, "{aside}: {gap:e}");
+    }
+}
+
+/// Shots all over the table, as `(place of the cue ball, its velocity, its spin, place of a second ball)`.
+fn shots() -> impl Iterator<Item = (DVec2, DVec2, DVec3, DVec2)> {
+    (0..40).map(|index| {
+        let turn = DVec2::from_angle(0.7 + 2.4 * f64::from(index));
+        let speed = 0.1 + 0.07 * f64::from(index);
+        let spin = DVec3::new(30.0 * turn.y, 40.0 * turn.x, 60.0 * turn.x * turn.y);
+        (DVec2::new(0.9, 0.4) * turn, speed * turn.perp(), spin, -DVec2::new(1.1, 0.5) * turn)
+    })
+}
+
+#[test]
+fn on_a_slope_no_energy_is_gained() {
+    // With 1 mm/s² as filmed, and with ten times as much.
+    for (name, tilt) in [("match", DVec2::new(-6e-4, 8e-4)), ("textbook", DVec2::new(6e-3, 8e-3))] {
+        let table = Table { tilt, ..Table::preset(name).unwrap() };
+        let constants = super::Constants::of(&table);
+        for (from, velocity, spin, _) in shots() {
+            let (course, _) = played(&table, from, velocity, spin, None);
+            // Until another ball gives or takes.
+            let met = course.events.iter().find(|event| matches!(event.kind, EventKind::BallBall(..)));
+            let until = met.map_or(f64::INFINITY, |event| event.time);
+            let pieces = course.pieces.iter().filter(|(_, end)| *end <= until);
+            let energies = pieces.flat_map(|(piece, end)| {
+                [0.0, end - piece.start].map(|time| {
+                    let state = piece.state_after(&constants, time.min(1e9));
+                    let turning = table.radius * table.radius * state.spin.length_squared() / 5.0;
+                    0.5 * state.velocity.length_squared() + turning - tilt.dot(state.position)
+                })
+            });
+            let mut last = f64::INFINITY;
+            for energy in energies {
+                // Where stretches meet, the speed across the way is right to the first order of the slope only.
+                assert!(energy < last + 1e-5, "{name}, {from}, {velocity}: {energy} after {last}");
+                last = energy;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mirrored_shot_on_a_mirrored_slope_ends_at_the_mirrored_place() {
+    let tilt = DVec2::new(-6e-4, 8e-4);
+    let mirror = DVec2::new(1.0, -1.0);
+    for name in ["match", "textbook"] {
+        let mut judged = 0;
+        let [table, mirrored] = [tilt, mirror * tilt].map(|tilt| Table { tilt, ..Table::preset(name).unwrap() });
+        for (from, velocity, spin, second) in shots() {
+            let balls = [from, second, DVec2::new(-1.2, 0.5)];
+            let (course, end) = among(&table, balls, velocity, spin);
+            // Spin is an axial vector.
+            let turned = DVec3::new(-spin.x, spin.y, -spin.z);
+            let (image, image_end) = among(&mirrored, balls.map(|ball| mirror * ball), mirror * velocity, turned);
+            // Longer shots make much of rounding.
+            if course.events.len() < 12 {
+                judged += 1;
+                assert_eq!(course.events.len(), image.events.len(), "{name}, {from}");
+                assert!(end.distance(mirror * image_end) < 1e-9, "{name}, {from}: {end} {image_end}");
+            }
+        }
+        assert!(judged > 10, "{judged}");
+    }
+}
+
+#[test]
+fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
+    for name in ["match", "textbook", "thesis"] {
+        let table = Table { tilt: DVec2::new(0.0, 2e-3), ..Table::preset(name).unwrap() };
+        let reach = table.reach();
+        for gap in [0.0, 1e-12, 1e-6, 1e-3] {
+            for aside in [0.0, 1e-9, 1e-3, -1e-3] {
+                let (course, stop) = rolled(&table, DVec2::new(-1.0, reach.y - gap), DVec2::new(0.5, aside));
+                assert!(stop.y <= reach.y + 1e-12 && stop.y > reach.y - 0.02, "{name}, {gap}, {aside}: {stop}");
+                assert!(course.events.len() <= 30, "{name}, {gap}, {aside}: {} events", course.events.len());
+                // The rail, which the ball leans on, slows it by a little.
+                let (_, level) =
+                    rolled(&Table { tilt: DVec2::ZERO, ..table.clone() }, DVec2::new(-1.0, 0.0), DVec2::X * 0.5);
+                assert!((stop.x - level.x).abs() < 0.04 * (level.x + 1.0), "{name}, {gap}, {aside}: {stop} {level}");
+            }
+        }
+    }
+}
