@@ -24,7 +24,7 @@ fn coach() -> Coach {
 
 /// A request that simulations end, not time.
 fn request(rule: Rule, simulations: u64) -> Request {
-    Request { rule, skill: Skill::EXPERT, simulations, budget: Duration::from_secs(60), ..Request::default() }
+    Request { rule, skill: Skill::EXPERT, simulations, budget: Duration::from_mins(1), ..Request::default() }
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_no
 #[test]
 fn a_search_that_is_cancelled_ends_with_the_best_so_far() {
     let coach = coach();
-    let request = Request { budget: Duration::from_secs(3600), skill: Skill::EXPERT, ..Request::default() };
+    let request = Request { budget: Duration::from_hours(1), skill: Skill::EXPERT, ..Request::default() };
     let cancel = Arc::clone(&request.cancel);
     let advice = thread::scope(|scope| {
         let search = scope.spawn(|| coach.recommend(&Layout::opening(coach.table()), &request).unwrap());
@@ -193,7 +193,7 @@ fn a_player_without_errors_never_misses() {
     let coach = coach();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
     let request = Request { skill: Skill::PERFECT, ..request(Rule::OneCushion, u64::MAX) };
-    let until = std::time::Instant::now() + Duration::from_secs(60);
+    let until = std::time::Instant::now() + Duration::from_mins(1);
     let layout = Layout::opening(coach.table());
     let played = inning(&coach, &layout, &request, 20, until, &mut rng, &mut |_, _| {}).unwrap();
     assert_eq!((played.points, played.missed), (20, false));

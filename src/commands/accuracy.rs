@@ -21,6 +21,7 @@ use crate::{
 /// time steps against the same shots in double-double, and all against reference shots of 50 digits. Takes minutes;
 /// --quick takes seconds.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// Few shots and no time steps below 1e-4 s: seconds instead of minutes.
     #[arg(long)]

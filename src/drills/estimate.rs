@@ -237,7 +237,7 @@ mod tests {
                 rule,
                 skill: Skill::EXPERT,
                 simulations: 20_000,
-                budget: Duration::from_secs(60),
+                budget: Duration::from_mins(1),
                 ..Request::default()
             };
             let shot = Some(coach.recommend(&layout, &request).unwrap().cue);

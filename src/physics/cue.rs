@@ -175,11 +175,11 @@ impl Impulse {
     /// The first problem found.
     pub fn validate(&self) -> Result<(), ImpulseError> {
         let Self { velocity, spin } = *self;
-        // Written so that NaN is refused.
-        if !(velocity.length() <= MAX_BALL_SPEED) {
+        let is_within = |length: f64, most: f64| (0.0..=most).contains(&length);
+        if !is_within(velocity.length(), MAX_BALL_SPEED) {
             return Err(ImpulseError::Velocity { x: velocity.x, y: velocity.y });
         }
-        if !(spin.length() <= MAX_SPIN) {
+        if !is_within(spin.length(), MAX_SPIN) {
             return Err(ImpulseError::Spin { x: spin.x, y: spin.y, z: spin.z });
         }
         Ok(())

@@ -12,7 +12,7 @@ use tempfile::NamedTempFile;
 const PARTIAL: [&str; 2] = [".carom-", ".partial"];
 
 /// Age from which a file that is being written has lost its writer: a few kilobytes do not take an hour.
-const ABANDONED: Duration = Duration::from_secs(3600);
+const ABANDONED: Duration = Duration::from_hours(1);
 
 /// Replaces the file at `path` by `bytes`. A reader sees the old content or the new one, never a part; missing folders
 /// are made.

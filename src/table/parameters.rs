@@ -98,7 +98,6 @@ pub struct Table {
     pub rail: Rails,
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
 fn is_level(tilt: &DVec2) -> bool {
     *tilt == DVec2::ZERO
 }

@@ -11,7 +11,7 @@ const NAME: &str = "\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}\r\u{7f}";
 
 /// As a string of JSON and of TOML.
 fn quoted() -> String {
-    NAME.chars().map(|character| format!("\\u{:04x}", character as u32)).collect()
+    NAME.chars().flat_map(|character| format!("\\u{:04x}", character as u32).into_bytes()).map(char::from).collect()
 }
 
 /// Nothing that a terminal would obey is there, and the name is shown or escaped somewhere.

@@ -56,6 +56,9 @@ struct Line {
 }
 
 /// The bundled film.
+///
+/// # Panics
+/// Never: a test reads it.
 pub fn bundled() -> Vec<FilmedShot> {
     read(FILM).expect("the bundled film is valid: a test reads it")
 }

@@ -88,8 +88,9 @@ pub fn solve<const N: usize>(mut matrix: [[f64; N]; N], mut right: [f64; N]) -> 
         right.swap(column, pivot);
         for row in column + 1..N {
             let factor = matrix[row][column] / matrix[column][column];
-            for other in column..N {
-                matrix[row][other] -= factor * matrix[column][other];
+            let upper = matrix[column];
+            for (value, above) in matrix[row].iter_mut().zip(upper).skip(column) {
+                *value -= factor * above;
             }
             right[row] -= factor * right[column];
         }

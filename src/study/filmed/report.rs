@@ -13,8 +13,8 @@ use super::{
 };
 use crate::table::{RailModel, Table};
 
-/// Rail models beside that of the `match` table, with their own best constants on the whole film by `--fit`: model, e_rail,
-/// mu_rail, (height - R)/R.
+/// Rail models beside that of the `match` table, with their own best constants on the whole film by `--fit`: model, `e_rail`,
+/// `mu_rail`, (height - R)/R.
 const RIVALS: [(&str, RailModel, f64, f64, f64); 3] = [
     ("match, rails at the equator", RailModel::Equator, 0.9153, 0.2606, 0.0),
     ("match, sharp nose", RailModel::Nose, 0.8748, 0.2551, 0.2215),

@@ -128,7 +128,7 @@ impl Case {
         let direction = place - before;
         let at_bottom = |beyond: f64| {
             let way = (before.y - radius + beyond) / -direction.y;
-            (direction.y < 0.0).then(|| before.x + way * direction.x)
+            (direction.y < 0.0).then_some(before.x + way * direction.x)
         };
         if let Some(x) = self.arrival_nose_x {
             // The ball touches the nose beside its centre.
@@ -138,7 +138,7 @@ impl Case {
         } else {
             let way = (8.0 + FRAME - before.x) / direction.x;
             (direction.x > 0.0)
-                .then(|| before.y + way * direction.y)
+                .then_some(before.y + way * direction.y)
                 .zip(self.arrival_frame_right_y)
                 .map(|(y, wanted)| y - wanted)
         }

@@ -9,7 +9,7 @@ use crate::{
     physics::{BallState, Motion},
     simulation::Rail,
     study::plain::{Ball, Numbers, Vector, balls_collide, rail_collides},
-    table::{BALLS, RailModel, Table},
+    table::{BALLS, RailModel, Rails, Table},
 };
 
 /// The restitution of a contact.
@@ -61,7 +61,7 @@ pub fn impact_loss_by_models(table: &Table, contact: &Contact, balls: &[BallStat
         return by_speed.then(|| balls_collide(&numbers, &mut first, &mut plain(&balls[second])));
     }
     let cushion = numbers.cushion(Rail::with_normal(contact.normal));
-    let is_known = table.rail != Default::default() && table.rail.model != RailModel::Mathavan;
+    let is_known = table.rail != Rails::default() && table.rail.model != RailModel::Mathavan;
     is_known.then(|| rail_collides(&numbers, cushion, vector(contact.normal, 0.0), &mut first))
 }
 
