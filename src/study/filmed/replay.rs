@@ -94,7 +94,7 @@ mod tests {
         let table = Table::default();
         let replay = Replay::new(&table, &shot(2)).unwrap();
         // The film is read along straight lines between pictures 20 ms apart, in one of which the ball is struck.
-        assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.02), "{:?}", replay.apart(0.0));
+        assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.002), "{:?}", replay.apart(0.0));
         let fitted = (1..20).map(|n| replay.apart(FITTED * f64::from(n) / 20.0)[0]).fold(0.0, f64::max);
         assert!(fitted < 0.03, "{fitted} m on the part that was fitted");
         let late = replay.fitted.start - replay.filmed.start;
