@@ -17,13 +17,14 @@ train textbook-r3-first --table textbook --reward r3 --seed 1 --steps 5000000
 near="exploration={ noise = [0.01, 0.03, 0.1], uniform = 0.05 }"
 train textbook-r3 --from "$folder/textbook-r3-first" --seed 2 --steps 3000000 --set critic_chooses=0.6 --set "$near"
 train textbook-one-cushion --table textbook --reward one-cushion --seed 1 --steps 2500000
-train textbook-three-cushion --table textbook --reward three-cushion --seed 1 --steps 8000000 --set actions=phi-v
-# What was learnt on textbook is where match begins.
+# What was learnt on textbook is where match begins, but for three cushions, where all five cue inputs are chosen.
 train match-r3-first --from "$folder/textbook-r3" --table match --seed 11 --steps 1500000
-train match-r3 --from "$folder/match-r3-first" --seed 21 --steps 3000000
+train match-r3-second --from "$folder/match-r3-first" --seed 21 --steps 3000000
+train match-r3 --from "$folder/match-r3-second" --seed 31 --steps 5000000
 train match-one-cushion-first --from "$folder/textbook-one-cushion" --table match --seed 12 --steps 1500000
 train match-one-cushion --from "$folder/match-one-cushion-first" --seed 22 --steps 3000000
-train match-three-cushion --from "$folder/textbook-three-cushion" --table match --seed 23 --steps 8000000
+train match-three-cushion-first --table match --reward three-cushion --seed 1 --steps 8000000
+train match-three-cushion --from "$folder/match-three-cushion-first" --seed 2 --steps 6000000 --set critic_chooses=0.6 --set "$near"
 train thesis-r3 --table thesis --reward r3 --seed 1 --steps 4000000
 train thesis-one-cushion --table thesis --reward one-cushion --seed 1 --steps 3000000
 train thesis-three-cushion --table thesis --reward three-cushion --seed 1 --steps 2500000
