@@ -266,8 +266,11 @@ mod tests {
     #[test]
     fn players_of_a_known_skill_are_found_again_within_the_interval() {
         let exercises = exercises();
-        let found = estimate(&logged(&exercises, 2.0, 1)).unwrap();
-        assert!(found.low <= 2.0 && 2.0 <= found.high && found.high / found.low < 2.0, "{found:?}");
+        // An interval of 95 % may miss; two of six hardly do.
+        let six = [1, 3, 4, 5, 6, 7].map(|seed| estimate(&logged(&exercises, 2.0, seed)).unwrap());
+        assert!(six.iter().filter(|found| found.low <= 2.0 && 2.0 <= found.high).count() >= 5, "{six:?}");
+        assert!(six.iter().all(|found| found.high / found.low < 2.0), "{six:?}");
+        let found = &six[0];
         assert_eq!((found.attempts, found.shots, found.left_out), (400, 8, 0));
         assert_eq!(found.skill, Some(Skill::EXPERT.scaled((100.0 * found.scale).round() / 100.0)));
         let mut faultless = logged(&exercises, 1.0, 2);

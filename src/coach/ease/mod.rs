@@ -39,14 +39,14 @@ impl Ease {
     /// hardly ever misses.
     pub const SCALE: f64 = 2.5;
 
-    /// What is in use, from `cargo run --release --example ease -- 400`. Of 200 layouts a rule that took no part in the fit,
-    /// the easiest fifth were missed by an expert 0.00, 0.08 and 1.1 % of the time (estimated: 0.01, 0.04 and 0.8), the hardest
-    /// 2.3, 4.2 and 11 % (estimated: 2.2, 4.0 and 11).
+    /// What is in use, from `cargo run --release --example ease -- 1600`. Of 800 layouts a rule that took no part in the fit,
+    /// the easiest fifth were missed by an expert 0.02, 0.18 and 1.0 % of the time (estimated: 0.01, 0.08 and 1.1), the hardest
+    /// 3.2, 3.8 and 9.7 % (estimated: 3.9, 4.0 and 9.5).
     pub const fn under(rule: Rule) -> Self {
         let (weights, power) = match rule {
-            Rule::StraightRail => ([-0.0726, 0.1605, 0.1288, -0.0577, -0.0371, 0.0698, -0.0394, 0.0396], 2.66),
-            Rule::OneCushion => ([-0.062, 0.1289, 0.2114, 0.0018, -0.0568, 0.0253, 0.0069, -0.0297], 2.6),
-            Rule::ThreeCushion => ([0.0941, 0.3796, 0.0477, -0.07, -0.0008, -0.0308, 0.0386, -0.0037], 2.95),
+            Rule::StraightRail => ([-0.0723, 0.1161, 0.1274, -0.0296, -0.0282, 0.0819, -0.0222, 0.0274], 2.58),
+            Rule::OneCushion => ([-0.0301, 0.2052, 0.0857, -0.073, -0.0186, 0.0691, 0.0008, 0.0072], 2.63),
+            Rule::ThreeCushion => ([0.1228, 0.3175, -0.0025, -0.0753, 0.0018, 0.0069, 0.0194, 0.0605], 2.78),
         };
         Self { weights, power }
     }
@@ -100,7 +100,7 @@ mod tests {
         for rule in Rule::ALL {
             let [easy, hard] =
                 [&gathered, &scattered].map(|layout| Ease::under(rule).probability(&table, layout, Skill::EXPERT));
-            assert!(hard + 0.05 < easy && easy < 1.0, "{rule}: {easy} {hard}");
+            assert!(hard + 0.02 < easy && easy < 1.0, "{rule}: {easy} {hard}");
         }
     }
 
