@@ -1,8 +1,8 @@
 //! Filmed balls: how far the simulation is from what real balls did, and which constants come nearest.
 //!
-//! The film (`tests/data/filmed`, with its source) shows the balls' places at 50 pictures a second. [`rail_hits`] finds
-//! where balls met rails; [`chains`] predicts from rail to rail, [`whole`] whole shots, [`systems`] what players count on;
-//! [`constants`] fits a table.
+//! The film (`tests/data/filmed`, with its source) shows the balls' places at 50 pictures a second. `rail_hits` finds
+//! where balls met rails; `chains` predicts from rail to rail, `whole` whole shots, `systems` what players count on;
+//! `constants` fits a table.
 
 mod chains;
 mod constants;

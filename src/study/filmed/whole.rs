@@ -28,7 +28,7 @@ pub struct Whole {
     pub start: f64,
     /// Root mean square of what is left on the fitted part, m.
     pub rms: f64,
-    /// Distance of the cue ball from where the film shows it, at the times of [`JUDGED`], m.
+    /// Distance of the cue ball from where the film shows it, at the times of `JUDGED`, m.
     pub errors: [f64; 3],
 }
 
