@@ -58,6 +58,12 @@ impl Session {
         session
     }
 
+    /// The user's home, where the session has one of its own.
+    #[allow(dead_code, reason = "not every suite looks there")]
+    pub fn home(&self) -> Option<&Path> {
+        self.home.as_ref().map(TempDir::path)
+    }
+
     pub fn start_at(home: &Path, mut command: CommandBuilder, width: u16, height: u16) -> Self {
         command.env("HOME", home);
         command.env("XDG_STATE_HOME", home.join("state"));
