@@ -1,16 +1,11 @@
-//! Looks for the model shots of the exercises of a folder anew, by simulation on each exercise's own table.
+//! Looks for the model shots of the exercises anew, by simulation on each exercise's own table.
 //!
-//! `cargo run --release --example model_shots -- saves/` looks at every exercise whose shot does not show what its category
-//! teaches, or that players make less often than its par says; names behind the folder restrict it to these exercises. Where the
-//! balls stay where they are and the best shot falls short of the par, ball 1 and ball 2 are moved by up to 0.15 m. `par` and
+//! `cargo run --release --example model_shots -- saves/*.json` looks at every exercise whose shot does not show what its category
+//! teaches, or that players make less often than its par says; names behind the files restrict it to these exercises. Where
+//! the best shot from where the balls lie falls short of the par, ball 1 and ball 2 are moved by up to 0.15 m. `par` and
 //! `grade` are written by the example `grade` afterwards.
 
-use std::{
-    env,
-    error::Error,
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{env, error::Error, fs, path::Path};
 
 use carom::{
     drills::{Exercise, LibraryFile, Par},
@@ -27,10 +22,12 @@ mod search;
 const SHORTFALL: f64 = 0.05;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut words = env::args().skip(1);
-    let folder = words.next().ok_or("say where the files are: model_shots saves/ [NAME ...]")?;
-    let names: Vec<String> = words.collect();
-    for path in files(Path::new(&folder))? {
+    let (paths, names): (Vec<String>, Vec<String>) =
+        env::args().skip(1).partition(|word| Path::new(word).extension().is_some());
+    if paths.is_empty() {
+        return Err("say which files: model_shots saves/*.json [NAME ...]".into());
+    }
+    for path in paths {
         let text = fs::read_to_string(&path)?;
         let mut file = LibraryFile::parse(&text)?;
         for exercise in &mut file.exercises {
@@ -40,19 +37,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let renewed = file.to_text()?;
         if renewed != text {
-            write_atomic(&path, renewed.as_bytes())?;
+            write_atomic(Path::new(&path), renewed.as_bytes())?;
         }
     }
     Ok(())
-}
-
-/// The JSON files of a folder, by name.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
-    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>, std::io::Error>>()?;
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
-    paths.sort();
-    Ok(paths)
 }
 
 /// Gives the exercise the best shot that was found, and says what became of it.
