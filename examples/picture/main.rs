@@ -11,12 +11,12 @@ use std::{env, error::Error, fs, path::Path};
 use carom::{
     simulation::EventKind,
     table::{Layout, Table},
-    terminal::{App, CoachNews, CoachWorker, Depth, Effect, Glyphs, Look, keys_document},
+    terminal::{App, Capabilities, CoachNews, CoachWorker, Depth, Effect, Glyphs, keys_document},
 };
 use crossterm::event::KeyCode::{self, Char, Enter};
 use ratatui::{Terminal, backend::TestBackend};
 
-const LOOK: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+const LOOK: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
 
 /// The balls, in metres: from here the coach finds a shot over three cushions between the two hits.
 const LAYOUT: &str = "-0.57,-0.43 -1.11,-0.3 0.39,0.66";

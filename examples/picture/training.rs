@@ -14,7 +14,7 @@ use carom::{
     },
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Look, Reel, Report, Slot},
+    terminal::{App, Capabilities, Reel, Report, Slot},
 };
 use crossterm::event::KeyCode::{Char, Enter};
 
@@ -25,14 +25,14 @@ const TAKEN: u64 = 150_000;
 const REPLAYED: f64 = 1.3;
 
 /// The screen of a run that is half through.
-pub fn screen(look: Look) -> Result<App, Box<dyn Error>> {
+pub fn screen(caps: Capabilities) -> Result<App, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let runs = folder.path().join("runs");
     let place = runs.join("first-steps");
     let plan = Plan { reward: Reward::R3, seed: 1, shots: PLANNED };
     let learner = (AGENTS[0].start)(plan, Table::default(), serde_json::json!({}))?;
     let mut run = Run::create(&place, learner, Schedule::new(10_000, 1_000), None)?;
-    let mut camera = Camera { runs, place, look, app: None };
+    let mut camera = Camera { runs, place, caps, app: None };
     let is_taken = std::cell::Cell::new(false);
     // The run stops at the first turn after the picture, which is taken while it trains.
     let limits = Limits { time: None, stop: &|| is_taken.get() };
@@ -44,7 +44,7 @@ pub fn screen(look: Look) -> Result<App, Box<dyn Error>> {
 struct Camera {
     runs: PathBuf,
     place: PathBuf,
-    look: Look,
+    caps: Capabilities,
     app: Option<Result<App, Box<dyn Error>>>,
 }
 
@@ -52,7 +52,7 @@ impl Camera {
     fn take(&self) -> Result<App, Box<dyn Error>> {
         let table = Table::default();
         let places = Places { runs: self.runs.clone(), policies: self.runs.clone(), ..Places::of_this_user() };
-        let mut app = App::new(table.clone(), Layout::opening(&table), self.look, 1)?.with_places(places);
+        let mut app = App::new(table.clone(), Layout::opening(&table), self.caps, 1)?.with_places(places);
         app.handle(&Char('t').into());
         app.receive_report(Report::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
         app.handle(&Enter.into());

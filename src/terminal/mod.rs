@@ -3,44 +3,17 @@
 //! [`App`] holds the state and knows no terminal: keys go in, pictures come out, and what it wants done outside comes
 //! back as an [`Effect`]. [`run`] is the loop around it.
 
-mod advice;
 mod app;
-mod canvas;
-mod chart;
-mod chord;
-mod coach;
-mod drills;
-mod errands;
-mod film;
-mod finder;
-mod geometry;
-mod history;
-mod inbox;
-mod input;
+mod capabilities;
+mod config;
+mod effect;
+mod host;
 mod keymap;
-mod last;
-mod log;
-mod look;
-mod pace;
-mod painter;
-mod placing;
+mod pages;
 mod plain;
-mod playback;
-mod recommender;
-mod runner;
-mod screens;
-mod session;
-mod settings;
-mod sgr;
 mod shot;
-mod signals;
-mod spin;
-mod sprites;
-mod status;
-mod theme;
-mod toasts;
-mod training;
-mod widgets;
+mod tasks;
+mod ui;
 mod words;
 
 use std::{
@@ -58,26 +31,45 @@ use crate::{
     table::{Layout, LayoutError, Table},
 };
 
-pub use advice::{Advice, Effort, Proposal, Study, Tutor};
-pub use app::{App, Effect, Mode, Overlay, Screen};
-pub use coach::{Advised, View};
-pub use drills::{DrillReport, Errand, Loaded, Outcome, Position, Stroke, Taught};
-pub use errands::PracticeWorker;
-pub use film::FilmScene;
-pub use finder::{Command, Finder};
-pub use geometry::Mapping;
-pub use keymap::{
-    Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, SettingsAction,
-    SettingsPlace, SettingsWhen, TrainingAction, TrainingWhen, When, document as keys_document,
+pub use app::{
+    App, Overlay,
+    bindings::{Action, Condition, KeyContext},
+    document::document as keys_document,
+    palette::{Command, CommandPalette},
+    palette_keys::PaletteAction,
 };
-pub use last::Last;
-pub use look::{Depth, Glyphs, Look};
-pub use recommender::{Answer, CoachNews, CoachWorker, Job};
-pub use settings::{Change, Complaint, Keys, Settings, SettingsErrand, SettingsFile, SettingsReport, SettingsScreen};
-pub use shot::Shot;
-pub use theme::{Palette, UnknownPalette};
-pub use toasts::{Toast, Toasts};
-pub use training::{Failure, Keeping, Kept, Launch, Reel, Report, Scene, Slot, Wanted};
+pub use capabilities::{Capabilities, Depth, Glyphs};
+pub use config::{
+    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, saved_session::SavedSession,
+};
+pub use effect::{Effect, PageId};
+pub use keymap::remap::Keys;
+pub use pages::{
+    coach::{
+        AdviceState, Mode, View,
+        keys::{CoachAction, CoachCondition},
+    },
+    drills::keys::{DrillAction, DrillCondition, DrillContext},
+    settings::{
+        SettingsPage,
+        keys::{SettingsAction, SettingsCondition, SettingsContext},
+    },
+    training::keys::{TrainingAction, TrainingCondition, TrainingContext},
+};
+pub use shot::{Shot, film::FilmScene};
+pub use tasks::{
+    PracticeWorker,
+    advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
+    drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
+    recommender::{Answer, CoachNews, CoachWorker, Job},
+    reel::{Reel, Scene},
+    training::{Failure, Keeping, Kept, Launch, Report, Slot, Subscriptions},
+};
+pub use ui::{
+    geometry::Mapping,
+    theme::{Palette, UnknownPalette},
+    toasts::{Toast, Toasts},
+};
 
 /// Why the terminal program cannot run.
 #[derive(Debug, thiserror::Error)]
@@ -114,11 +106,11 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Resul
     let app = App::new(table, layout, detect(settings), seed())?
         .with_detection(detect)
         .with_settings(settings)
-        .with_last(Last::load(&places.last))
+        .with_last(SavedSession::load(&places.last))
         .with_own_skill(own.map(|own| own.skill))
         .with_notice(storage::notice(&places, &Settings::path()))
         .with_complaints(&Settings::path(), complaints);
-    Ok(runner::run(app, places)?)
+    Ok(host::runner::run(app, places)?)
 }
 
 /// The coach as a conversation in lines, on the standard input and output.
@@ -133,8 +125,8 @@ pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
 }
 
 /// What the terminal can show.
-fn detect(settings: &Settings) -> Look {
-    Look::detect(|name| std::env::var(name).ok(), settings)
+fn detect(settings: &Settings) -> Capabilities {
+    Capabilities::detect(|name| std::env::var(name).ok(), (settings.depth, settings.glyphs))
 }
 
 /// Any number does: it only makes random layouts differ from one start to the next.
@@ -144,7 +136,7 @@ fn seed() -> u64 {
 
 /// Whether there is a terminal on both sides that can show pictures.
 pub fn is_there() -> bool {
-    session::has_terminal()
+    host::has_terminal()
 }
 
 /// The training screen, following `run`, or with the runs in `list`, by default the user's, to choose from.
@@ -160,5 +152,5 @@ pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalErro
         .with_detection(detect)
         .with_settings(&settings)
         .with_complaints(&Settings::path(), &complaints);
-    Ok(runner::run(app, Places::of_this_user())?)
+    Ok(host::runner::run(app, Places::of_this_user())?)
 }

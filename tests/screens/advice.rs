@@ -66,8 +66,8 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     player.app.receive(Answer { id: job.id, news: CoachNews::Better(so_far) });
     assert!(player.app.shot().is_some());
     let mut player = player.press("d p Esc");
-    assert_eq!(job.tutor.skill, Skill::EXPERT);
-    assert_ne!(player.app.coach().tutor.skill, Skill::EXPERT);
+    assert_eq!(job.query.skill, Skill::EXPERT);
+    assert_ne!(player.app.coach().query.skill, Skill::EXPERT);
     assert!(player.app.shot().is_none(), "the best shot so far is an expert's");
     let effect = player.app.receive(Answer { id: job.id, news: CoachNews::Advice(advice(&job)) });
     assert!(effect.is_none() && player.app.shot().is_none());
@@ -75,7 +75,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     // It is kept for the player whose shot it is.
     let study = (0..Skill::NAMED.len()).find_map(|_| player.event(&key("S")));
     assert!(matches!(study, Some(Effect::Study(_))));
-    assert_eq!(player.app.coach().tutor.skill, Skill::EXPERT);
+    assert_eq!(player.app.coach().query.skill, Skill::EXPERT);
     player.says("the player: expert; the shot for it is known");
 }
 
@@ -92,9 +92,9 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         let text = player.text(80, 24);
         assert!(text.contains(words) && text.contains(header), "{keys}\n{text}");
         assert!(player.app.shot().is_none(), "{keys}");
-        let tutor = &player.press("Enter").asked.unwrap().tutor;
-        assert_eq!(tutor.plan, keys != "P");
-        assert_eq!(tutor.skill == Skill::PERFECT, keys.contains("S S S"));
+        let query = &player.press("Enter").asked.unwrap().query;
+        assert_eq!(query.plan, keys != "P");
+        assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S"));
     }
     let player = Player::new().press("Enter").answer();
     let player = player.press("R S");
@@ -104,7 +104,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     let player = player.press("R R S S S");
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
     let asked = player.press("R R Enter").asked.unwrap();
-    assert_eq!(asked.tutor.rule, Rule::ThreeCushion);
+    assert_eq!(asked.query.rule, Rule::ThreeCushion);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::{
 };
 use carom::{
     physics::CueInputs,
-    terminal::{Advice, CoachNews, Effect, Effort, Proposal, Screen, Shot},
+    terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
 };
 use proptest::prelude::*;
 use ratatui::style::Color;
@@ -157,8 +157,8 @@ fn the_help_lists_every_key() {
 
 #[test]
 fn without_colours_letters_tell_everything() {
-    for (name, look) in [("no_colour", NO_COLOUR), ("ascii", ASCII)] {
-        let player = Player::with(look).press("Enter").answer().press(". .");
+    for (name, caps) in [("no_colour", NO_COLOUR), ("ascii", ASCII)] {
+        let player = Player::with(caps).press("Enter").answer().press(". .");
         check(name, &player);
         let player = player.press("2");
         check(&format!("{name}_placing"), &player);
@@ -205,7 +205,7 @@ fn keys_do_nothing_that_nobody_can_see() {
     player.picture(60, 20);
     let before = *player.app.layout();
     let mut player = player.press("Right Enter d F5 :");
-    assert_eq!((*player.app.layout(), player.app.screen()), (before, Screen::Coach));
+    assert_eq!((*player.app.layout(), player.app.screen()), (before, PageId::Coach));
     assert!(player.asked.is_none());
     assert!(matches!(player.app.handle(&key("q")), Some(Effect::Quit)), "but one can leave");
     player.picture(80, 24);

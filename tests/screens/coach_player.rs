@@ -7,15 +7,15 @@ use carom::{
     learning::evaluation::SuccessRate,
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{Advice, Answer, App, CoachNews, CoachWorker, Depth, Effect, Glyphs, Job, Look, Proposal, Shot},
+    terminal::{Advice, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, Effect, Glyphs, Job, Proposal, Shot},
 };
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
 
 use crate::keys::key;
 
-pub const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-pub const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-pub const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+pub const NO_COLOUR: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+pub const ASCII: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
 
 /// A shot that makes the point from the opening position, so that the pictures do not change with the coach, two others,
 /// and one that makes the point from where the first leaves the balls.
@@ -56,9 +56,9 @@ pub fn advice(job: &Job) -> Advice {
 }
 
 impl Player {
-    pub fn with(look: Look) -> Self {
+    pub fn with(caps: Capabilities) -> Self {
         let table = Table::default();
-        let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap();
+        let app = App::new(table.clone(), Layout::opening(&table), caps, 7).unwrap();
         Self { app, asked: None, study: None }
     }
 
@@ -108,7 +108,7 @@ impl Player {
     /// The closer look at the shot that is shown, by the real coach, but for the next shot, which is [`NEXT`].
     pub fn studied(mut self) -> Self {
         // Even if nobody waits for it any more.
-        let job = Job { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
+        let job = Job { cancel: Arc::default(), ..*self.study.take().expect("a closer caps is wanted") };
         let mut study = None;
         CoachWorker::unhurried(1).answer(&job, |answer| {
             if let CoachNews::Study(found) = answer.news {

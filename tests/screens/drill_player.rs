@@ -9,7 +9,7 @@ use carom::{
     physics::CueInputs,
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Depth, DrillReport, Effect, Errand, Glyphs, Look, PracticeWorker},
+    terminal::{App, Capabilities, Depth, DrillReport, DrillTask, Effect, Glyphs, PracticeWorker},
 };
 use crossterm::event::KeyEvent;
 use ratatui::{Terminal, backend::TestBackend};
@@ -17,9 +17,9 @@ use tempfile::TempDir;
 
 use crate::{coach_player::is_toast, keys::key};
 
-pub const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-pub const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-pub const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+pub const NO_COLOUR: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+pub const ASCII: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
 
 /// A stroke that makes the point from the opening position.
 pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
@@ -65,7 +65,7 @@ pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
 
 impl Player {
     /// At the library, with these positions and sessions on the disk.
-    pub fn with(look: Look, positions: &[Exercise], sessions: &[Session]) -> Self {
+    pub fn with(caps: Capabilities, positions: &[Exercise], sessions: &[Session]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::new(&places(&folder));
         for position in positions {
@@ -74,19 +74,19 @@ impl Player {
         for session in sessions {
             store.save(session).unwrap();
         }
-        Self::at_coach(look, folder).press("d")
+        Self::at_coach(caps, folder).press("d")
     }
 
     /// At the coach, with what is in `folder` on the disk.
-    pub fn at_coach(look: Look, folder: TempDir) -> Self {
+    pub fn at_coach(caps: Capabilities, folder: TempDir) -> Self {
         let table = Table::default();
-        let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap().with_places(places(&folder));
+        let app = App::new(table.clone(), Layout::opening(&table), caps, 7).unwrap().with_places(places(&folder));
         Self { app, copied: Vec::new(), practice: PracticeWorker::default(), folder }
     }
 
     /// At the exercise from the opening.
-    pub fn practising(look: Look) -> Self {
-        Self::with(look, &[exercise("opening", "From the opening")], &[]).press("Left Enter")
+    pub fn practising(caps: Capabilities) -> Self {
+        Self::with(caps, &[exercise("opening", "From the opening")], &[]).press("Left Enter")
     }
 
     pub fn store(&self) -> Store {
@@ -110,7 +110,7 @@ impl Player {
     /// One key; gives what is none of the drill screens' business.
     pub fn event(&mut self, event: &KeyEvent) -> Option<Effect> {
         match self.app.handle(event)? {
-            Effect::Drill(errands) => self.run(errands),
+            Effect::Drill(tasks) => self.run(tasks),
             Effect::Copy(text) => self.copied.push(text),
             Effect::Settings(_) => {}
             other => return Some(other),
@@ -128,15 +128,15 @@ impl Player {
     }
 
     /// Does errands, and what comes of them.
-    pub fn run(&mut self, errands: Vec<Errand>) {
-        for errand in errands {
+    pub fn run(&mut self, tasks: Vec<DrillTask>) {
+        for task in tasks {
             let mut reports = Vec::new();
-            match errand {
+            match task {
                 // What the coach finds depends on how fast the machine is.
-                Errand::Advise(position) if position.own.is_none() => {
-                    reports.push(DrillReport::Advised(position.id, Ok(None)));
+                DrillTask::Advise(position) if position.own.is_none() => {
+                    reports.push(DrillReport::AdviceState(position.id, Ok(None)));
                 }
-                errand => self.practice.run(errand, &mut |report| reports.push(report)),
+                task => self.practice.run(task, &mut |report| reports.push(report)),
             }
             for report in reports {
                 let more = self.app.receive_drill(report);

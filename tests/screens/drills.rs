@@ -9,7 +9,7 @@ use carom::{
     drills::{Exercise, Goal, Venue, decode, store::Store},
     game::Rule,
     table::Layout,
-    terminal::{DrillPlace, DrillReport, DrillWhen, Effect, Errand, Place, When},
+    terminal::{Condition, DrillCondition, DrillContext, DrillReport, DrillTask, Effect, KeyContext},
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
@@ -61,7 +61,7 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
         let ends = [&exercise.point, "expert", "you: not tried yet"];
         assert!(ends.into_iter().all(|words| beside.contains(words)), "{}: {beside}", exercise.name);
         player = player.press("Enter");
-        assert_eq!(player.app.place(), Place::Drill(DrillPlace::Exercise), "{}", exercise.name);
+        assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Exercise), "{}", exercise.name);
         player.says("set the stroke and play it");
         player = player.press("Esc Down");
     }
@@ -72,7 +72,7 @@ fn words_are_looked_for_while_they_are_typed() {
     let player = Player::with(TRUE_COLOUR, &many(), &[]).press("Left /").type_in("number 17");
     check("search", &player);
     let found = player.press("Enter");
-    assert_eq!(found.app.place(), Place::Drill(DrillPlace::Library));
+    assert_eq!(found.app.place(), KeyContext::Drill(DrillContext::Library));
     found.says("Position number 17").is_silent_on("Position number 18");
     let none = found.press("/").type_in("zzz");
     none.says("No exercise is like that");
@@ -203,19 +203,19 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     let mut player = Player::with(TRUE_COLOUR, &[], &[]).press("e");
     for n in 1..=20 {
         player.says(&format!("exercise {n} of 20"));
-        let hint = player.app.refusal(When::Drill(DrillWhen::Advised));
+        let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::AdviceState));
         assert_eq!(hint, Some("an exam gives no hints"));
         player = player.press("Space Enter Enter");
     }
     player.says("Grade: ").says("of 20 made").says("beginner");
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Result));
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Result));
     assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
     let left = player.press("Enter e Space Enter Enter Esc");
     left.says("leave the exam after 1 of 20 exercises?");
     let stays = left.press("n c");
-    assert_eq!(stays.app.place(), Place::Drill(DrillPlace::Exercise), "the coach would give the answer");
+    assert_eq!(stays.app.place(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");
     stays.says("an exam is under way");
-    assert_eq!(stays.press("Esc y").app.place(), Place::Drill(DrillPlace::Library));
+    assert_eq!(stays.press("Esc y").app.place(), KeyContext::Drill(DrillContext::Library));
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn the_records() {
     let skill = kept.store().own_skill().unwrap().unwrap().skill;
     let played = kept.app.drills().player.skill;
     assert_eq!(played.to_string(), skill.to_string());
-    assert_eq!(kept.press("Esc Esc Esc").app.coach().tutor.skill, played, "the same player everywhere");
+    assert_eq!(kept.press("Esc Esc Esc").app.coach().query.skill, played, "the same player everywhere");
 }
 
 #[test]
@@ -245,15 +245,15 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
     let own = player.store().own_skill().unwrap().unwrap().skill;
     player.says("player: own skill");
     let back = player.press("Esc");
-    assert_eq!(back.app.coach().tutor.skill, Skill::EXPERT);
+    assert_eq!(back.app.coach().query.skill, Skill::EXPERT);
     let again = back.press("d");
     again.says("player: own skill");
     let cycled = again.press("Esc S S S");
-    assert_eq!(cycled.app.coach().tutor.skill, own);
+    assert_eq!(cycled.app.coach().query.skill, own);
     let perfect = cycled.press("S d");
     perfect.says("player: perfect");
     let chosen = perfect.press("p Esc");
-    assert_eq!(chosen.app.coach().tutor.skill, own);
+    assert_eq!(chosen.app.coach().query.skill, own);
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     let folder = tempfile::tempdir().unwrap();
     let player = Player::at_coach(TRUE_COLOUR, folder).press("Right s");
     check("save", &player);
-    assert_eq!(player.press("Esc").app.place(), Place::Coach);
+    assert_eq!(player.press("Esc").app.place(), KeyContext::Coach);
     let player = Player::at_coach(TRUE_COLOUR, tempfile::tempdir().unwrap()).press("Right s");
     let refused = player.type_in("??").press("Enter");
     refused.says("makes no name");
@@ -298,7 +298,7 @@ fn a_code_that_was_cut_is_refused_and_can_be_mended() {
     player.app.paste(&code[..code.len() - 3]);
     let refused = player.press("Enter");
     check("code_refused", &refused);
-    assert_eq!(refused.app.place(), Place::Drill(DrillPlace::Text));
+    assert_eq!(refused.app.place(), KeyContext::Drill(DrillContext::Text));
     let mended = refused.type_in(&code[code.len() - 3..]).press("Enter");
     mended.says("saved as opening");
 }
@@ -347,9 +347,9 @@ fn an_exercise_goes_to_the_coachs_table() {
     let player = Player::practising(TRUE_COLOUR).press("x Space Enter Enter");
     let layout = player.app.drills().turn.as_ref().unwrap().layout;
     let coach = player.press("c");
-    assert_eq!((coach.app.place(), *coach.app.layout()), (Place::Coach, layout));
+    assert_eq!((coach.app.place(), *coach.app.layout()), (KeyContext::Coach, layout));
     // The exercise is still there.
-    assert_eq!(coach.press("d").app.place(), Place::Drill(DrillPlace::Exercise));
+    assert_eq!(coach.press("d").app.place(), KeyContext::Drill(DrillContext::Exercise));
     let from_list = Player::with(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
     assert_eq!(*from_list.app.layout(), exercise("opening", "x").layout);
     assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills().player.skill, Skill::PERFECT);
@@ -396,9 +396,9 @@ proptest! {
 }
 
 /// What a key asks for outside, as long as nobody has done it.
-fn asked(player: &mut Player, name: &str) -> Vec<Errand> {
+fn asked(player: &mut Player, name: &str) -> Vec<DrillTask> {
     match player.app.handle(&key(name)) {
-        Some(Effect::Drill(errands)) => errands,
+        Some(Effect::Drill(tasks)) => tasks,
         other => panic!("{name} gives {other:?}"),
     }
 }
@@ -407,8 +407,8 @@ fn asked(player: &mut Player, name: &str) -> Vec<Errand> {
 fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
     let mut player = Player::practising(TRUE_COLOUR);
     let noted = |player: &mut Player, name: &str| {
-        let saved = asked(player, name).into_iter().find_map(|errand| match errand {
-            Errand::Save(session) => Some(session),
+        let saved = asked(player, name).into_iter().find_map(|task| match task {
+            DrillTask::Save(session) => Some(session),
             _ => None,
         });
         saved.expect("a session is saved")
@@ -423,9 +423,9 @@ fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
 #[test]
 fn no_two_questions_to_the_coach_have_the_same_number_and_they_are_about_whoever_plays() {
     let mut player = Player::practising(TRUE_COLOUR);
-    let position = |errands: Vec<Errand>| {
-        let asked = errands.into_iter().find_map(|errand| match errand {
-            Errand::Advise(position) => Some((position.id, position.skill)),
+    let position = |tasks: Vec<DrillTask>| {
+        let asked = tasks.into_iter().find_map(|task| match task {
+            DrillTask::Advise(position) => Some((position.id, position.skill)),
             _ => None,
         });
         asked.expect("the coach is asked")

@@ -1,9 +1,9 @@
 //! Filmed shots as one sees them: keys go through the real app, strokes are fitted, and the pictures are compared.
 
 use crate::drill_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
-use carom::terminal::{Depth, DrillPlace, Effect, Errand, Glyphs, Look, Place};
+use carom::terminal::{Capabilities, Depth, DrillContext, DrillTask, Effect, Glyphs, KeyContext};
 
-const HALF_BLOCKS: Look = Look { depth: Depth::Ansi, glyphs: Glyphs::Half, unicode: true };
+const HALF_BLOCKS: Capabilities = Capabilities { depth: Depth::Ansi, glyphs: Glyphs::Half, unicode: true };
 
 fn check(name: &str, player: &Player) {
     for (width, height) in [(80, 24), (120, 40)] {
@@ -11,13 +11,13 @@ fn check(name: &str, player: &Player) {
     }
 }
 
-fn list(look: Look) -> Player {
-    Player::with(look, &[], &[]).press("f")
+fn list(caps: Capabilities) -> Player {
+    Player::with(caps, &[], &[]).press("f")
 }
 
 /// The second shot of the film, a point.
-fn watching(look: Look) -> Player {
-    list(look).press("Down Enter")
+fn watching(caps: Capabilities) -> Player {
+    list(caps).press("Down Enter")
 }
 
 /// What the status line says, from that word on.
@@ -36,7 +36,7 @@ fn white(player: &Player) -> f64 {
 #[test]
 fn the_list_of_filmed_shots() {
     let player = list(TRUE_COLOUR);
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films));
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
     check("list", &player);
     check("list_ascii", &list(ASCII).press("End"));
     player.says("91 shots of a match, 21 points");
@@ -46,7 +46,7 @@ fn the_list_of_filmed_shots() {
 #[test]
 fn a_filmed_shot_and_its_simulation_move_together() {
     let player = watching(TRUE_COLOUR);
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Film));
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Film));
     assert!(player.app.frame_interval().is_some(), "it plays at once");
     let early = player.wait(1.5);
     early.says("within the fitted 2 s");
@@ -64,8 +64,8 @@ fn a_filmed_shot_and_its_simulation_move_together() {
 
 #[test]
 fn the_film_shows_in_letters_and_in_half_blocks_too() {
-    for (name, look) in [("no_colour", NO_COLOUR), ("ascii", ASCII), ("half_blocks", HALF_BLOCKS)] {
-        check(&format!("watching_{name}"), &watching(look).wait(5.5).press("Space"));
+    for (name, caps) in [("no_colour", NO_COLOUR), ("ascii", ASCII), ("half_blocks", HALF_BLOCKS)] {
+        check(&format!("watching_{name}"), &watching(caps).wait(5.5).press("Space"));
     }
     // The other player's ball, where nothing has met it yet, hides its outline.
     let picture = watching(NO_COLOUR).wait(5.5).text(80, 24);
@@ -79,10 +79,10 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     let player = player.press("[ [ [");
     player.says("filmed shot 0");
     let mut player = player.press("Esc");
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films));
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
     // Two are asked for before the first is there.
     let ask = |player: &mut Player, word: &str| match player.app.handle(&crate::keys::key(word)) {
-        Some(Effect::Drill(errands)) => errands,
+        Some(Effect::Drill(tasks)) => tasks,
         other => panic!("{other:?}"),
     };
     let first = ask(&mut player, "Enter");
@@ -90,7 +90,7 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     player = player.press("Space");
     player.says("there is no filmed shot on the table yet");
     let second = ask(&mut player, "]");
-    assert!(matches!((&first[..], &second[..]), ([Errand::Film(_)], [Errand::Film(_)])));
+    assert!(matches!((&first[..], &second[..]), ([DrillTask::Film(_)], [DrillTask::Film(_)])));
     player.run(first);
     player.says("the stroke is being fitted").says("filmed shot 2");
     player.run(second);
@@ -105,10 +105,10 @@ fn events_and_speeds_are_those_of_any_shot_and_back_leads_to_the_library() {
     let player = player.press("+ Space").wait(0.1).press("Esc");
     assert_eq!(player.app.frame_interval(), None, "nobody watches");
     let player = player.press("Esc");
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Library));
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Library));
     let player = player.press("F2 f");
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films), "from the coach's table as well");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
     let player = player.press("Enter F2 f");
-    assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films), "not the page over itself");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "not the page over itself");
     player.press("Esc").says("choose an exercise");
 }

@@ -1,7 +1,7 @@
 //! The command palette through the real app: what it lists, how it is narrowed, and what it does.
 
 use crate::coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
-use carom::terminal::Look;
+use carom::terminal::Capabilities;
 use ratatui::style::Modifier;
 
 /// Compares the picture at two sizes.
@@ -11,8 +11,8 @@ fn check(name: &str, player: &Player) {
     }
 }
 
-fn opened(look: Look) -> Player {
-    Player::with(look).press("Left :")
+fn opened(caps: Capabilities) -> Player {
+    Player::with(caps).press("Left :")
 }
 
 #[test]
@@ -30,7 +30,7 @@ fn words_narrow_it_and_enter_does_what_is_marked() {
     let moved = *player.app.layout();
     let player = player.press("Enter");
     assert_ne!(*player.app.layout(), moved, "the move was taken back");
-    assert_eq!(player.app.finder().map(|_| ()), None);
+    assert_eq!(player.app.command_palette().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
     player.warns("there is nothing to take back");
 }
@@ -41,11 +41,11 @@ fn what_may_not_be_used_now_says_why_and_stays() {
     assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
     let player = player.press("p l a y Space p a u s e Enter");
     player.warns("there is no shot yet; Enter asks the coach");
-    assert!(player.app.finder().is_some() && player.app.shot().is_none());
+    assert!(player.app.command_palette().is_some() && player.app.shot().is_none());
     let player = player.press("x x x x");
     assert!(player.text(80, 24).contains("nothing here is called like that"));
     let player = player.press("Enter Esc");
-    assert!(player.app.finder().is_none());
+    assert!(player.app.command_palette().is_none());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::coach_player::{NO_COLOUR, Player, TRUE_COLOUR};
 use carom::{
     table::Table,
-    terminal::{Advised, App, Mapping, Overlay, Report, Screen},
+    terminal::{AdviceState, App, Mapping, Overlay, PageId, Report},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -114,9 +114,9 @@ fn the_wheel_over_the_table_changes_the_speed() {
 
 #[test]
 fn a_click_on_a_shot_of_the_list_shows_it() {
-    for (look, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
-        let player = at_the_table(Player::with(look).press("Enter").answer().press(views));
-        let chosen = |player: &Player| player.app.coach().advised().map(Advised::chosen);
+    for (caps, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
+        let player = at_the_table(Player::with(caps).press("Enter").answer().press(views));
+        let chosen = |player: &Player| player.app.coach().advised().map(AdviceState::chosen);
         let text = player.text(120, 40);
         let row = text.lines().position(|line| line.contains("62 %")).unwrap() as u16;
         let player = player.point(PRESS, (5, row));
@@ -131,14 +131,14 @@ fn the_wheel_scrolls_the_help_and_moves_the_mark_of_the_commands() {
     assert_eq!(player.app.help(), Some((Overlay::Help, 3)));
     assert_eq!(player.point(PRESS, (60, 15)).app.help(), Some((Overlay::Help, 3)), "what lies below is not reached");
     let player = at_the_table(Player::new().press(":")).point(MouseEventKind::ScrollDown, (3, 3));
-    assert_eq!(player.app.finder().unwrap().mark(9), 1);
+    assert_eq!(player.app.command_palette().unwrap().mark(9), 1);
 }
 
 #[test]
 fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
     for width in [80, 120, 200] {
         let mut player = Player::new();
-        for screen in [Screen::Settings, Screen::Drills, Screen::Training, Screen::Coach] {
+        for screen in [PageId::Settings, PageId::Drills, PageId::Training, PageId::Coach] {
             player.picture(width, 40);
             let row = player.text(width, 40).lines().next().unwrap().to_owned();
             // The text has quotes around its lines.
@@ -147,7 +147,7 @@ fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
             assert_eq!(player.app.screen(), screen, "{width}");
         }
         player.picture(width, 40);
-        assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen(), Screen::Coach);
+        assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen(), PageId::Coach);
     }
 }
 

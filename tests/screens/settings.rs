@@ -9,7 +9,7 @@ use crate::{
 use carom::{
     game::Rule,
     table::{Layout, Table},
-    terminal::{App, Depth, Effect, Glyphs, Look, Place, Screen, Settings, SettingsFile, SettingsPlace},
+    terminal::{App, Capabilities, Depth, Effect, Glyphs, KeyContext, PageId, Settings, SettingsContext, SettingsFile},
 };
 use proptest::prelude::*;
 use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
@@ -24,13 +24,13 @@ struct Player {
 
 impl Player {
     /// At the settings, whose file has this text.
-    fn with(look: Look, text: &str) -> Self {
+    fn with(caps: Capabilities, text: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("config.toml");
         fs::write(&path, text).unwrap();
         let table = Table::default();
         let (settings, complaints) = Settings::load(&path);
-        let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap();
+        let app = App::new(table.clone(), Layout::opening(&table), caps, 7).unwrap();
         let app = app.with_settings(&settings).with_complaints(&path, &complaints);
         let app = app.with_settings_file(PathBuf::from("/home/player/.config/carom/config.toml"));
         Self { app, file: SettingsFile::default(), folder }.press("F5")
@@ -50,10 +50,10 @@ impl Player {
 
     fn take(&mut self, effect: Option<Effect>) {
         // What other screens want is another matter.
-        if let Some(Effect::Settings(mut errand)) = effect {
+        if let Some(Effect::Settings(mut task)) = effect {
             // What is shown does not depend on where the tests run.
-            errand.path = self.path();
-            let report = self.file.run(&errand);
+            task.path = self.path();
+            let report = self.file.run(&task);
             self.app.receive_settings(report);
         }
     }
@@ -126,8 +126,8 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     let player = player
         .press("Down Down Down Right Down Right Right Down Left Down Right Down Left Down Right Down Right Down l");
     assert_eq!(player.app.table().name, "textbook");
-    let tutor = &player.app.coach().tutor;
-    assert_eq!((tutor.rule, tutor.plan), (Rule::ThreeCushion, false));
+    let query = &player.app.coach().query;
+    assert_eq!((query.rule, query.plan), (Rule::ThreeCushion, false));
     assert_eq!((player.app.step_mm(), player.app.playback().speed(), player.app.wants_mouse()), (50.0, 2.0, false));
     let (settings, complaints) = Settings::load(&player.path());
     assert_eq!((settings.think_ms, settings.rule, complaints.len()), (500, Rule::ThreeCushion, 0));
@@ -152,7 +152,7 @@ fn the_table_comes_back_with_a_step_back() {
 fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let player = Player::new().press("Down Down Down Down Down Down Down Enter").type_in("5");
     check("settings_typing", &player);
-    assert_eq!(player.app.place(), Place::Settings(SettingsPlace::Typing));
+    assert_eq!(player.app.place(), KeyContext::Settings(SettingsContext::Typing));
     let player = player.press("Enter");
     player.says("think_ms = 5; accepted is 10 to 60000");
     check("settings_refused", &player);
@@ -207,18 +207,18 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     let text = "# mine\nrule = \"straight\" # at home\n";
     let player = Player::with(TRUE_COLOUR, text).press("F2 R R S P + F5");
     player.says("three-cushion now; the file has straight");
-    let tutor = &player.app.coach().tutor;
+    let query = &player.app.coach().query;
     let skill = Settings::default().skill;
-    assert_eq!((tutor.rule, tutor.plan, tutor.skill == skill), (Rule::ThreeCushion, false, false));
+    assert_eq!((query.rule, query.plan, query.skill == skill), (Rule::ThreeCushion, false, false));
     assert_eq!(player.app.step_mm(), 50.0, "it was opened, and nothing has changed");
     assert_eq!(player.text_of_file(), text);
     // On from three cushions, around the end and once more; all else stays as it is.
     let player = player.press("Home Down Down Down Down");
     check("settings_session", &player);
     let player = player.press("Right Right");
-    assert_eq!(player.app.coach().tutor.rule, Rule::OneCushion);
+    assert_eq!(player.app.coach().query.rule, Rule::OneCushion);
     assert_eq!(player.text_of_file(), "# mine\nrule = \"one-cushion\" # at home\n");
-    assert_eq!((player.app.coach().tutor.plan, player.app.step_mm()), (false, 50.0));
+    assert_eq!((player.app.coach().query.plan, player.app.step_mm()), (false, 50.0));
     // What is in force is kept as it is.
     let player = player.press("Down Down Enter");
     player.says("plan = _ Enter alone keeps false");
@@ -242,7 +242,7 @@ fn themes_and_characters_of_the_session_are_shown_too() {
     player.says("high-contrast ▸ now; the file has dark");
     let player = player.press("Enter Enter");
     assert_eq!(Settings::load(&player.path()).0.palette.name(), "high-contrast");
-    assert_eq!(player.app.look().glyphs, Glyphs::Half);
+    assert_eq!(player.app.caps().glyphs, Glyphs::Half);
     let player = Player::with(NO_COLOUR, "").press("T");
     player.says("no colours here: NO_COLOR is set or the terminal has none");
     assert_eq!(player.app.settings().settings, Settings::default());
@@ -259,17 +259,17 @@ fn every_mistake_of_the_file_is_kept_to_be_read() {
 
 #[test]
 fn colours_and_characters_are_found_out_anew() {
-    fn detect(settings: &Settings) -> Look {
+    fn detect(settings: &Settings) -> Capabilities {
         let variable = |name: &str| (name == "LANG").then(|| "C.UTF-8".to_owned());
-        Look::detect(variable, settings)
+        Capabilities::detect(variable, (settings.depth, settings.glyphs))
     }
     let mut player = Player::new();
     player.app = player.app.with_detection(detect);
     let player = player.press("Down Right Down Right Right Right");
-    assert_eq!(player.app.look(), Look { depth: Depth::True, glyphs: Glyphs::Half, unicode: true });
+    assert_eq!(player.app.caps(), Capabilities { depth: Depth::True, glyphs: Glyphs::Half, unicode: true });
     let player = player.press("Up Right");
-    assert_eq!(player.app.look().depth, Depth::Indexed);
-    assert_eq!(player.press("Delete").app.look().depth, Depth::Ansi, "nothing is known of the terminal");
+    assert_eq!(player.app.caps().depth, Depth::Indexed);
+    assert_eq!(player.press("Delete").app.caps().depth, Depth::Ansi, "nothing is known of the terminal");
 }
 
 #[test]
@@ -280,7 +280,7 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     check("keys_ascii", &Player::with(ASCII, "[keys]\nx = \"Enter\"\n").press("Tab Right Right"));
     // Behind the first command is the one that moves a ball to the left.
     let asked = player.press("Down Enter");
-    assert_eq!(asked.app.place(), Place::Settings(SettingsPlace::Pressing));
+    assert_eq!(asked.app.place(), KeyContext::Settings(SettingsContext::Pressing));
     asked.says("press the key that is to do this: move the ball left by one step");
     let refused = asked.press("Enter");
     refused.says("Enter keeps its work");
@@ -309,12 +309,12 @@ fn keys_of_the_header_and_the_hints_are_the_users_own() {
     assert!(first(80).contains(" x straight S expert P plan"), "{}", first(80));
     assert!(first(120).contains(" F7 Coach  F3 Drills  F4 Training  F5 Settings "), "{}", first(120));
     let player = player.press("x");
-    assert_eq!(player.app.coach().tutor.rule, Rule::OneCushion);
+    assert_eq!(player.app.coach().query.rule, Rule::OneCushion);
 }
 
 #[test]
 fn escape_goes_back_to_the_screen_before() {
-    for (keys, screen) in [("F2 F5 Tab Esc", Screen::Coach), ("F4 F5 Esc", Screen::Training)] {
+    for (keys, screen) in [("F2 F5 Tab Esc", PageId::Coach), ("F4 F5 Esc", PageId::Training)] {
         assert_eq!(Player::new().press(keys).app.screen(), screen, "{keys}");
     }
 }
@@ -380,7 +380,7 @@ proptest! {
         let mut player = Player::with(TRUE_COLOUR, "# mine\nodd = 1\nplan = false # behind\n[keys]\n\"Hyper-x\" = \"q\"\n");
         for key in keys {
             // What ends the program is another matter.
-            if KEYS[key] != "q" || player.app.place() == Place::Settings(SettingsPlace::Pressing) {
+            if KEYS[key] != "q" || player.app.place() == KeyContext::Settings(SettingsContext::Pressing) {
                 player = player.press(KEYS[key]);
             }
         }

@@ -40,7 +40,7 @@ fn taking_the_other_ball_moves_and_repaints_none() {
     assert_eq!(selected.app.selected(), 0, "yellow is ball 0 now");
     let back = selected.press("u");
     assert_eq!(*back.app.layout(), layout);
-    assert_eq!(back.app.cue_ball().name(), "white");
+    assert_eq!(back.app.page().cue_ball().name(), "white");
 }
 
 #[test]
@@ -57,5 +57,5 @@ fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own
     missed.says("white: 0 in 1 innings");
     let next = missed.press("Enter");
     next.says("The stroke of yellow");
-    assert_eq!(next.app.cue_ball().name(), "yellow");
+    assert_eq!(next.app.page().cue_ball().name(), "yellow");
 }

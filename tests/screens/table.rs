@@ -4,17 +4,17 @@ use std::sync::Arc;
 
 use carom::{
     physics::CueInputs,
-    terminal::{Advice, CoachNews, Glyphs, Look, Proposal, Shot},
+    terminal::{Advice, Capabilities, CoachNews, Glyphs, Proposal, Shot},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
 use crate::coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
 
-const OCTANTS: Look = Look { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
+const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
 
 /// A player to whom the coach has shown this shot.
-fn shown(look: Look, cue: &str) -> Player {
-    let mut player = Player::with(look).press("Enter");
+fn shown(caps: Capabilities, cue: &str) -> Player {
+    let mut player = Player::with(caps).press("Enter");
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
     let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
@@ -58,8 +58,8 @@ fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
 
 #[test]
 fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
-    for (name, look) in [("spin", TRUE_COLOUR), ("spin_no_colour", NO_COLOUR), ("spin_ascii", ASCII)] {
-        let player = shown(look, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
+    for (name, caps) in [("spin", TRUE_COLOUR), ("spin_no_colour", NO_COLOUR), ("spin_ascii", ASCII)] {
+        let player = shown(caps, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
         for (width, height) in [(80, 24), (120, 40)] {
             let text = player.text(width, height);
             insta::assert_snapshot!(format!("{name}_{width}x{height}"), text);

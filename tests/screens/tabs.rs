@@ -4,7 +4,7 @@ use crate::{
     coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR},
     drill_player, training_player,
 };
-use carom::terminal::{App, DrillPlace, Effect, Look, Place, Screen};
+use carom::terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext};
 use ratatui::style::Modifier;
 
 fn first_row(text: &str) -> String {
@@ -31,9 +31,9 @@ fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
 
 #[test]
 fn the_open_tab_is_told_without_colours_too() {
-    for look in [TRUE_COLOUR, NO_COLOUR] {
+    for caps in [TRUE_COLOUR, NO_COLOUR] {
         for (keys, screen) in [("F2", "Coach"), ("F3", "Drills"), ("F4", "Training"), ("F5", "Settings")] {
-            let picture = Player::with(look).press(keys).picture(80, 24);
+            let picture = Player::with(caps).press(keys).picture(80, 24);
             let reversed = |x: &u16| picture[(*x, 0)].modifier.contains(Modifier::REVERSED);
             let open: String = (0..80).filter(reversed).map(|x| picture[(x, 0)].symbol().to_owned()).collect();
             assert_eq!(open, format!(" {screen} "));
@@ -60,18 +60,18 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
     let time = |player: &drill_player::Player| player.app.drills().playback().unwrap().time;
     let before = time(&player);
     let player = player.press("F2 F5 F3");
-    assert_eq!((player.app.place(), time(&player)), (Place::Drill(DrillPlace::Exercise), before));
+    assert_eq!((player.app.place(), time(&player)), (KeyContext::Drill(DrillContext::Exercise), before));
     player.wait(60.0).says("your hand: ");
     let exam = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("e Space Enter Enter F2 s");
     exam.says("save the balls as");
     let exam = exam.type_in("mine").press("Enter");
     exam.says("saved as mine").says("exercise 2 of 20");
-    assert_eq!(exam.press("F2 s Esc").app.place(), Place::Coach, "one has come from there");
+    assert_eq!(exam.press("F2 s Esc").app.place(), KeyContext::Coach, "one has come from there");
     let typing = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("a").type_in("carom:half");
     let typing = typing.press("F5 F3");
     typing.says("carom:half_");
     let form = training_player::Player::new().press("n Down Down Down 7 F2 t");
-    assert_eq!(form.app.place(), Place::Form);
+    assert_eq!(form.app.place(), KeyContext::Training(TrainingContext::Form));
     form.says("50,000,007");
 }
 
@@ -79,8 +79,8 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
 fn palette_and_help_close_on_the_way() {
     for keys in [": x F3", "? F3", "F6 F3"] {
         let player = Player::new().press(keys);
-        assert_eq!((player.app.screen(), player.app.help()), (Screen::Drills, None), "{keys}");
-        assert!(player.app.finder().is_none());
+        assert_eq!((player.app.screen(), player.app.help()), (PageId::Drills, None), "{keys}");
+        assert!(player.app.command_palette().is_none());
     }
 }
 
@@ -95,10 +95,10 @@ fn help_and_messages_open_where_letters_are_typed_and_lead_back_there() {
 
 #[test]
 fn carom_watch_has_no_tabs() {
-    let look: Look = TRUE_COLOUR;
-    let mut app = App::watching(look, None, None).unwrap();
+    let caps: Capabilities = TRUE_COLOUR;
+    let mut app = App::watching(caps, None, None).unwrap();
     let effect: Option<Effect> = app.handle(&crate::keys::key("F2"));
-    assert!(effect.is_none() && app.screen() == Screen::Training);
+    assert!(effect.is_none() && app.screen() == PageId::Training);
     assert!(app.toasts().shown()[0].text.contains("carom watch has no other screens"));
     let mut terminal = ratatui::Terminal::new(ratatui::backend::TestBackend::new(80, 24)).unwrap();
     terminal.draw(|frame| app.draw(frame)).unwrap();

@@ -34,8 +34,8 @@ fn they_stand_over_the_picture_and_long_ones_are_broken() {
     let picture = player.picture(80, 24);
     let warning = Color::Rgb(0xff, 0x8a, 0x70);
     assert!((0..24).any(|y| picture[(79, y)].fg == warning && picture[(79, y)].symbol() == "│"));
-    for (name, look) in [("toasts_no_colour", NO_COLOUR), ("toasts_ascii", ASCII)] {
-        let player = refused(Player::with(look), &[0, 5]).press("u");
+    for (name, caps) in [("toasts_no_colour", NO_COLOUR), ("toasts_ascii", ASCII)] {
+        let player = refused(Player::with(caps), &[0, 5]).press("u");
         check(name, |width, height| player.text(width, height));
     }
     assert!(refused(Player::with(ASCII), &[0, 5]).text(80, 24).is_ascii());

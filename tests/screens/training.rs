@@ -17,7 +17,7 @@ use carom::{
         },
     },
     table::Table,
-    terminal::{App, CoachWorker, Effect, Failure, Kept, Launch, Place, Report, Slot},
+    terminal::{App, CoachWorker, Effect, Failure, Kept, KeyContext, Launch, Report, Slot, TrainingContext},
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
@@ -219,7 +219,7 @@ fn a_run_is_steered_by_requests() {
 fn a_question_ends_with_what_it_is_about() {
     for (keys, condition) in [("A", Condition::Is(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)] {
         let player = Player::watching(TRUE_COLOUR).press(keys).condition(condition, None);
-        assert_eq!(player.app.place(), Place::Watch, "{keys}");
+        assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch), "{keys}");
         let player = player.press("y Enter");
         assert!(player.effects.is_empty(), "{keys}: {:?}", player.effects);
     }
@@ -267,7 +267,7 @@ fn weights_that_are_not_there_are_not_offered() {
     assert!(!hints.contains("w use") && !hints.contains("k keep"), "{hints}");
     for key in ["w", "k"] {
         let player = finished().has_policy(false).press(key);
-        assert!(player.effects.is_empty() && player.app.place() == Place::Watch);
+        assert!(player.effects.is_empty() && player.app.place() == KeyContext::Training(TrainingContext::Watch));
         player.says("the run has no policy for the coach");
     }
 }
@@ -287,7 +287,7 @@ fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
         assert!(player.effects.is_empty());
         player.says("config.json of the run cannot be read");
     }
-    assert_eq!(broken().press("c").app.place(), Place::Compare);
+    assert_eq!(broken().press("c").app.place(), KeyContext::Training(TrainingContext::Compare));
 }
 
 #[test]
@@ -298,7 +298,7 @@ fn the_coach_takes_the_bundled_weights_again() {
     let config = Some(Box::new(config("three-cushion")));
     let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, Update { config, ..Update::default() });
     let player = player.report(Report::Policy(folder, Ok(Arc::new(policy))));
-    let asked = |player: &Player| (player.app.coach().tutor.name().to_owned(), player.app.coach().tutor.rule);
+    let asked = |player: &Player| (player.app.coach().query.name().to_owned(), player.app.coach().query.rule);
     assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
     player.says("b bundled");
     let player = player.press("b");
@@ -320,10 +320,10 @@ fn a_reward_that_is_no_success_is_not_called_one() {
 fn abandoning_asks_first_and_says_what_is_lost() {
     let player = Player::watching(TRUE_COLOUR).press("A");
     check("abandon", &player);
-    assert_eq!(player.app.place(), Place::Question);
+    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
     let player = player.press("x q");
     assert!(player.effects.is_empty(), "q is no here, and leaves nothing");
-    assert_eq!(player.app.place(), Place::Watch);
+    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch));
 }
 
 #[test]
@@ -363,11 +363,11 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     none.says("the run has no policy");
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
     let mut player = none.report(Report::Policy(folder, Ok(Arc::new(policy))));
-    assert_eq!((player.app.place(), player.app.table()), (Place::Coach, &thesis));
+    assert_eq!((player.app.place(), player.app.table()), (KeyContext::Coach, &thesis));
     insta::assert_snapshot!("used_in_the_coach", player.text(120, 40));
     player = player.press("Enter");
     let Some(Effect::Recommend(job)) = player.effects.pop() else { panic!("the coach is not asked") };
-    assert_eq!(job.tutor.rule, Rule::ThreeCushion);
+    assert_eq!(job.query.rule, Rule::ThreeCushion);
     CoachWorker::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
     assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
 }
@@ -375,15 +375,15 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
 #[test]
 fn escape_goes_back_page_by_page_to_the_coach_or_to_the_shell() {
     let player = Player::watching(TRUE_COLOUR).press("c Esc Esc n Esc");
-    assert_eq!(player.app.place(), Place::Runs);
+    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Runs));
     assert_eq!(player.app.wanted().followed, [None, None], "nobody watches any more");
     let player = player.press("Esc");
-    assert_eq!((player.app.place(), player.app.wanted().runs), (Place::Coach, None));
+    assert_eq!((player.app.place(), player.app.wanted().runs), (KeyContext::Coach, None));
     let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(NAME)), None).unwrap();
-    assert_eq!(alone.place(), Place::Watch);
+    assert_eq!(alone.place(), KeyContext::Training(TrainingContext::Watch));
     let escape = KeyEvent::from(KeyCode::Esc);
     assert!(alone.handle(&escape).is_none());
-    assert_eq!(alone.place(), Place::Runs);
+    assert_eq!(alone.place(), KeyContext::Training(TrainingContext::Runs));
     assert!(matches!(alone.handle(&escape), Some(Effect::Quit)));
 }
 

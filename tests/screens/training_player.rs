@@ -14,16 +14,16 @@ use carom::{
     physics::CueInputs,
     storage::Places,
     table::{Layout, Table},
-    terminal::{App, Depth, Effect, Glyphs, Look, Reel, Report, Slot},
+    terminal::{App, Capabilities, Depth, Effect, Glyphs, Reel, Report, Slot},
 };
 use ratatui::{Terminal, backend::TestBackend};
 use serde_json::json;
 
 use crate::{coach_player::is_toast, keys::key};
 
-pub const TRUE_COLOUR: Look = Look { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
-pub const NO_COLOUR: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
-pub const ASCII: Look = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+pub const NO_COLOUR: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+pub const ASCII: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
 
 pub const RUNS: &str = "/runs";
 pub const NAME: &str = "20261120-091500-ddpg-match-r3-1";
@@ -35,10 +35,10 @@ pub struct Player {
 }
 
 impl Player {
-    pub fn with(look: Look) -> Self {
+    pub fn with(caps: Capabilities) -> Self {
         let table = Table::default();
         let places = Places { runs: RUNS.into(), policies: "/policies".into(), ..Places::of_this_user() };
-        let app = App::new(table.clone(), Layout::opening(&table), look, 7).unwrap().with_places(places);
+        let app = App::new(table.clone(), Layout::opening(&table), caps, 7).unwrap().with_places(places);
         Self { app, effects: Vec::new() }.press("t")
     }
 
@@ -48,8 +48,8 @@ impl Player {
     }
 
     /// At a run that has played 1.2 of 5 million shots.
-    pub fn watching(look: Look) -> Self {
-        let player = Self::with(look).report(Report::Runs(Ok(summaries().into()))).press("Enter").has_policy(true);
+    pub fn watching(caps: Capabilities) -> Self {
+        let player = Self::with(caps).report(Report::Runs(Ok(summaries().into()))).press("Enter").has_policy(true);
         player.update(Slot::Main, NAME, known()).quiet()
     }
 

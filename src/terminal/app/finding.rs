@@ -1,30 +1,36 @@
 //! The command palette as the app has it: what it lists, and what each of its keys does.
 
-use super::{App, Effect};
 use crate::terminal::{
-    finder::{Command, Finder, commands},
-    keymap::FinderAction,
+    app::{
+        App,
+        palette::{Command, CommandPalette, commands},
+        palette_keys::PaletteAction,
+    },
+    effect::Effect,
 };
 
 impl App {
     /// Does what an action of the command palette asks for.
-    pub(super) fn find(&mut self, action: FinderAction) -> Option<Effect> {
-        let found = self.finder.as_ref().map_or_else(Vec::new, |finder| finder.found(self.commands()));
-        let Some(finder) = &mut self.finder else {
-            self.finder = (action == FinderAction::Open).then(Finder::default);
+    pub(super) fn find(&mut self, action: PaletteAction) -> Option<Effect> {
+        let found = self
+            .command_palette
+            .as_ref()
+            .map_or_else(Vec::new, |command_palette| command_palette.found(self.commands()));
+        let Some(command_palette) = &mut self.command_palette else {
+            self.command_palette = (action == PaletteAction::Open).then(CommandPalette::default);
             return None;
         };
         match action {
-            FinderAction::Open | FinderAction::Close => self.finder = None,
-            FinderAction::Line(lines) => finder.move_mark(lines, found.len()),
-            FinderAction::Erase => finder.erase(),
-            FinderAction::Choose => {
-                let command = found.get(finder.mark(found.len()))?;
-                if let Some(reason) = self.refusal(command.when) {
+            PaletteAction::Open | PaletteAction::Close => self.command_palette = None,
+            PaletteAction::Line(lines) => command_palette.move_mark(lines, found.len()),
+            PaletteAction::Erase => command_palette.erase(),
+            PaletteAction::Choose => {
+                let command = found.get(command_palette.mark(found.len()))?;
+                if let Some(reason) = self.disabled_reason(command.when) {
                     self.toasts.push(reason.to_owned(), true);
                     return None;
                 }
-                self.finder = None;
+                self.command_palette = None;
                 return self.update(command.action);
             }
         }
@@ -33,8 +39,8 @@ impl App {
 
     /// What can be done at the place below the command palette, what may be used now first.
     pub fn commands(&self) -> Vec<Command> {
-        let mut commands = commands(self.place_below(), self.keys(), self.look);
-        commands.sort_by_key(|command| self.refusal(command.when).is_some());
+        let mut commands = commands(self.place_below(), self.keys(), self.caps);
+        commands.sort_by_key(|command| self.disabled_reason(command.when).is_some());
         commands
     }
 }

@@ -2,11 +2,14 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-use super::{App, Effect, Screen};
 use crate::terminal::{
-    keymap::{self, Action, Place, When},
-    screens,
-    settings::Input,
+    app::{
+        App,
+        bindings::{self, Action, Condition, KeyContext},
+        view,
+    },
+    effect::{Effect, PageId},
+    pages::settings::Input,
 };
 
 impl App {
@@ -26,41 +29,27 @@ impl App {
             return self.update(Action::Quit);
         }
         if self.is_blind() {
-            let refuse_help = |when| (when == When::Help).then_some("");
-            return match keymap::find(&self.keys().translate(key), Place::Coach, refuse_help) {
+            let refuse_help = |when| (when == Condition::Help).then_some("");
+            return match bindings::find(&self.keys().translate(key), KeyContext::Coach, refuse_help) {
                 Some(Ok(action @ (Action::Quit | Action::Suspend))) => self.update(action),
                 _ => None,
             };
         }
-        if let Some(finder) = &mut self.finder {
-            if finder.take_key(key) {
-                *self.message_mut() = None;
-                self.toasts.go_on();
-                return None;
-            }
-        } else if self.help.is_none() {
-            let typed = match self.screen {
-                Screen::Coach => false,
-                Screen::Training => self.training.typed(key),
-                Screen::Drills => self.drills.typed(key),
-                Screen::Settings => self.settings.typed(key),
-            };
-            if typed {
-                self.toasts.go_on();
-                return None;
-            }
+        if typed(key).is_some_and(|letter| self.take_text(letter.encode_utf8(&mut [0; 4]))) {
+            self.toasts.go_on();
+            return None;
         }
         // Where a key is asked for, each is an answer that means nothing else.
         let is_answer = self.is_asked_for_a_key();
         let meant = if is_answer { *key } else { self.keys().translate(key) };
-        let found = keymap::find(&meant, self.place(), |when| self.refusal(when));
+        let found = bindings::find(&meant, self.place(), |when| self.disabled_reason(when));
         if is_answer && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
             self.toasts.go_on();
             let effect = self.settings.pressed(key);
             return self.set(effect);
         }
         let found = found?;
-        *self.message_mut() = None;
+        *self.page_mut().message_mut() = None;
         self.toasts.go_on();
         if meant.code == KeyCode::Esc {
             self.toasts.clear();
@@ -76,57 +65,65 @@ impl App {
 
     /// Whether nothing could be seen of what a key does, for want of room.
     pub(super) fn is_blind(&self) -> bool {
-        !self.area.get().is_empty() && screens::is_too_small(self.area.get())
+        !self.area.get().is_empty() && view::is_too_small(self.area.get())
     }
 
     const fn is_asked_for_a_key(&self) -> bool {
-        matches!((self.screen, &self.settings.input), (Screen::Settings, Some(Input::Key)))
+        matches!((self.screen, &self.settings.input), (PageId::Settings, Some(Input::Key)))
             && self.help.is_none()
-            && self.finder.is_none()
+            && self.command_palette.is_none()
     }
 
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
-        if let Some(finder) = &mut self.finder {
-            finder.take_text(text);
-        } else if self.help.is_none() {
-            match self.screen {
-                Screen::Drills => self.drills.pasted(text),
-                Screen::Settings => drop(self.settings.pasted(text)),
-                Screen::Coach | Screen::Training => {}
-            }
+        self.take_text(text);
+    }
+
+    /// Takes text that was typed or pasted where text is typed; `false` where none is.
+    fn take_text(&mut self, text: &str) -> bool {
+        if let Some(command_palette) = &mut self.command_palette {
+            command_palette.take_text(text);
+            *self.page_mut().message_mut() = None;
+            return true;
         }
+        self.help.is_none() && self.page_mut().take_text(text)
     }
 
     /// Why a binding may not be used now; `None` where it may.
-    pub fn refusal(&self, when: When) -> Option<&'static str> {
+    pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         match when {
-            When::Help => self.help.is_none().then_some("the help is not open"),
-            When::Tabs => self.stands_alone().then_some("carom watch has no other screens; carom has them all"),
+            Condition::Help => self.help.is_none().then_some("the help is not open"),
+            Condition::Tabs => self.stands_alone().then_some("carom watch has no other screens; carom has them all"),
             _ if self.help.is_some() => Some("close the help first: Esc"),
-            When::Always => None,
-            When::Coach(when) => self.coach.refusal(when),
-            When::Training(when) => self.training.refusal(when),
-            When::Drill(when) => self.drills.refusal(when),
-            When::Settings(when) => self.settings.refusal(when),
+            Condition::Always => None,
+            Condition::Coach(when) => self.coach.disabled_reason(when),
+            Condition::Training(when) => self.training.disabled_reason(when),
+            Condition::Drill(when) => self.drills.disabled_reason(when),
+            Condition::Settings(when) => self.settings.disabled_reason(when),
         }
     }
 
     /// What is on the screen. The help is that of what lies below it.
-    pub fn place(&self) -> Place {
-        if self.finder.is_some() { Place::Finder } else { self.place_below() }
+    pub fn place(&self) -> KeyContext {
+        if self.command_palette.is_some() { KeyContext::CommandPalette } else { self.place_below() }
     }
 
     /// The same without the command palette.
-    pub(super) fn place_below(&self) -> Place {
+    pub(super) fn place_below(&self) -> KeyContext {
         match self.screen {
-            Screen::Coach => Place::Coach,
-            Screen::Training if self.help.is_some() => self.training.page().place(),
-            Screen::Training => self.training.place(),
-            Screen::Drills if self.help.is_some() => Place::Drill(self.drills.page_place()),
-            Screen::Drills => Place::Drill(self.drills.place()),
-            Screen::Settings if self.help.is_some() => Place::Settings(self.settings.page_place()),
-            Screen::Settings => Place::Settings(self.settings.place()),
+            PageId::Coach => KeyContext::Coach,
+            PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page().place()),
+            PageId::Training => KeyContext::Training(self.training.place()),
+            PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page_place()),
+            PageId::Drills => KeyContext::Drill(self.drills.place()),
+            PageId::Settings if self.help.is_some() => KeyContext::Settings(self.settings.page_place()),
+            PageId::Settings => KeyContext::Settings(self.settings.place()),
         }
     }
+}
+
+/// The letter that a key types, if it types one.
+fn typed(key: &KeyEvent) -> Option<char> {
+    let KeyCode::Char(letter) = key.code else { return None };
+    (key.modifiers - KeyModifiers::SHIFT).is_empty().then_some(letter)
 }

@@ -2,11 +2,16 @@
 //!
 //! What its screens share is here; each screen has a state of its own. [`view`] is what drawing reads.
 
+pub mod bindings;
+pub mod document;
 mod finding;
 mod keys;
 mod mouse;
 mod news;
+pub mod palette;
+pub mod palette_keys;
 mod settings;
+mod state;
 mod tabs;
 mod view;
 
@@ -17,90 +22,28 @@ use std::{
 
 use ratatui::{Frame, layout::Rect};
 
-use super::{
-    coach::CoachScreen,
-    drills::{Balls, DrillScreen, Errand},
-    finder::Finder,
-    keymap::{Action, CoachAction},
-    last::Last,
-    look::{Glyphs, Look},
-    recommender::Job,
-    screens,
-    settings::{Complaint, Settings, SettingsErrand, SettingsScreen},
-    theme::{Palette, Theme},
-    toasts::Toasts,
-    training::{Keeping, Launch, TrainingScreen, Wanted},
-};
 use crate::{
     coach::Skill,
-    learning::run::request::Request,
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
+    terminal::{
+        app::{bindings::Action, palette::CommandPalette},
+        capabilities::{Capabilities, Glyphs},
+        config::{Complaint, Settings, saved_session::SavedSession},
+        effect::{Effect, PageId},
+        pages::{
+            coach::{CoachPage, keys::CoachAction},
+            drills::{Balls, DrillsPage},
+            settings::SettingsPage,
+            training::TrainingPage,
+        },
+        tasks::training::Subscriptions,
+        ui::{
+            theme::{Palette, Theme},
+            toasts::Toasts,
+        },
+    },
 };
-
-/// What the arrow keys are for on the coach's screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// They move balls.
-    Placing,
-    /// They step through a shot.
-    Watching,
-}
-
-/// What the program around the app has to do.
-#[derive(Clone, Debug)]
-pub enum Effect {
-    /// Ask the coach and hand the answer to [`App::receive`].
-    Recommend(Box<Job>),
-    /// Ask it for a closer look at the shot that is shown, in the same way.
-    Study(Box<Job>),
-    /// Start a process that trains; how it ends goes to [`App::receive_report`], as do the answers to what follows.
-    Train(Box<Launch>),
-    /// Ask a run for something.
-    Send(Request, PathBuf),
-    /// Keep a policy under a name.
-    Keep(Box<Keeping>),
-    /// Read the policy of the run in this folder.
-    LoadPolicy(PathBuf),
-    /// Do these, one after the other; what comes of them goes to [`App::receive_drill`].
-    Drill(Vec<Errand>),
-    /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`].
-    Settings(Box<SettingsErrand>),
-    /// Put a text into the terminal's clipboard, where it allows that.
-    Copy(String),
-    /// Stop until the shell continues the program.
-    Suspend,
-    /// End.
-    Quit,
-}
-
-/// The screens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Screen {
-    /// The table, and what the coach recommends.
-    Coach,
-    /// Exercises, and the player at them.
-    Drills,
-    /// Runs, and how they learn.
-    Training,
-    /// What is set once and for all.
-    Settings,
-}
-
-impl Screen {
-    /// All of them, in the order of their tabs.
-    pub const ALL: [Self; 4] = [Self::Coach, Self::Drills, Self::Training, Self::Settings];
-
-    /// What stands on its tab.
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::Coach => "Coach",
-            Self::Drills => "Drills",
-            Self::Training => "Training",
-            Self::Settings => "Settings",
-        }
-    }
-}
 
 /// A page that lies over the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,29 +57,29 @@ pub enum Overlay {
 /// The whole state of the terminal program.
 #[derive(Debug)]
 pub struct App {
-    screen: Screen,
-    coach: CoachScreen,
-    training: TrainingScreen,
-    drills: DrillScreen,
-    settings: SettingsScreen,
+    screen: PageId,
+    coach: CoachPage,
+    training: TrainingPage,
+    drills: DrillsPage,
+    settings: SettingsPage,
     /// The settings that hold.
     in_force: Settings,
     /// The screen before the settings.
-    before: Screen,
+    before: PageId,
     /// The page that lies over the screen, and its first line.
     help: Option<(Overlay, u16)>,
     /// The first line of that page when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
     help_end: Cell<u16>,
     /// The command palette while it is open.
-    finder: Option<Finder>,
+    command_palette: Option<CommandPalette>,
     toasts: Toasts,
     /// Where the screen was drawn, to find what the mouse points at.
     area: Cell<Rect>,
     /// Whether the mouse is wanted.
     mouse: bool,
-    look: Look,
+    caps: Capabilities,
     /// The look with any palette that has colours.
-    full_look: Look,
+    full_look: Capabilities,
     /// The finest characters to draw with: octants only where they were asked for.
     finest: Glyphs,
     theme: Theme,
@@ -144,7 +87,7 @@ pub struct App {
     yellow_theme: Theme,
     palette: Palette,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
-    detect: Option<fn(&Settings) -> Look>,
+    detect: Option<fn(&Settings) -> Capabilities>,
 }
 
 impl App {
@@ -152,26 +95,26 @@ impl App {
     ///
     /// # Errors
     /// A layout that is not possible on the table.
-    pub fn new(table: Table, layout: Layout, look: Look, seed: u64) -> Result<Self, LayoutError> {
+    pub fn new(table: Table, layout: Layout, caps: Capabilities, seed: u64) -> Result<Self, LayoutError> {
         Ok(Self {
-            screen: Screen::Coach,
-            coach: CoachScreen::new(table, layout, seed)?,
-            training: TrainingScreen::new(Places::of_this_user()),
-            drills: DrillScreen::new(Places::of_this_user(), seed),
-            settings: SettingsScreen::new(Settings::path()),
+            screen: PageId::Coach,
+            coach: CoachPage::new(table, layout, seed)?,
+            training: TrainingPage::new(Places::of_this_user()),
+            drills: DrillsPage::new(Places::of_this_user(), seed),
+            settings: SettingsPage::new(Settings::path(), bindings::key_pages()),
             in_force: Settings::default(),
-            before: Screen::Coach,
+            before: PageId::Coach,
             help: None,
             help_end: Cell::new(u16::MAX),
-            finder: None,
+            command_palette: None,
             toasts: Toasts::default(),
             area: Cell::default(),
             mouse: true,
-            look,
-            full_look: look,
-            finest: look.finest(),
-            theme: Theme::new(look.depth),
-            yellow_theme: Theme::new(look.depth).with_cue_ball(CueBall::Yellow),
+            caps,
+            full_look: caps,
+            finest: caps.finest(),
+            theme: Theme::new(caps.depth),
+            yellow_theme: Theme::new(caps.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
             detect: None,
         })
@@ -182,11 +125,11 @@ impl App {
     ///
     /// # Errors
     /// None with the default table, whose opening position is possible.
-    pub fn watching(look: Look, run: Option<PathBuf>, list: Option<PathBuf>) -> Result<Self, LayoutError> {
+    pub fn watching(caps: Capabilities, run: Option<PathBuf>, list: Option<PathBuf>) -> Result<Self, LayoutError> {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let mut app = Self::new(table, layout, look, 0)?;
-        app.screen = Screen::Training;
+        let mut app = Self::new(table, layout, caps, 0)?;
+        app.screen = PageId::Training;
         app.training.open_alone(run, list);
         Ok(app)
     }
@@ -220,14 +163,14 @@ impl App {
 
     /// The same program, which asks `detect` what the terminal can show whenever that is set otherwise.
     #[must_use]
-    pub fn with_detection(mut self, detect: fn(&Settings) -> Look) -> Self {
+    pub fn with_detection(mut self, detect: fn(&Settings) -> Capabilities) -> Self {
         self.detect = Some(detect);
         self
     }
 
     /// The same program with the way back to where the last session ended.
     #[must_use]
-    pub fn with_last(mut self, last: Option<Last>) -> Self {
+    pub fn with_last(mut self, last: Option<SavedSession>) -> Self {
         self.coach.offer(last);
         self
     }
@@ -240,8 +183,8 @@ impl App {
     }
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
-    pub fn last(&self) -> Option<Last> {
-        let practice = if self.screen == Screen::Drills { self.drills.unfinished() } else { None };
+    pub fn last(&self) -> Option<SavedSession> {
+        let practice = if self.screen == PageId::Drills { self.drills.unfinished() } else { None };
         self.coach.last(practice.cloned())
     }
 
@@ -274,31 +217,33 @@ impl App {
             Action::NextGlyphs => self.next_glyphs(),
             Action::NextPalette => self.next_palette(),
             Action::Open(screen) => return self.open(screen),
-            Action::SavePosition => {
+            Action::Coach(CoachAction::SavePosition) => {
                 self.coach.playback.pause();
-                self.screen = Screen::Drills;
+                self.screen = PageId::Drills;
                 let shot = self.coach.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
                 let (table, layout) = (self.coach.table().clone(), *self.coach.layout());
-                let balls = Balls { table, layout, rule: self.coach.tutor.rule };
-                return Some(self.drills.open_to_save(balls, self.coach.tutor.skill, shot));
+                let balls = Balls { table, layout, rule: self.coach.query.rule };
+                return Some(self.drills.open_to_save(balls, self.coach.query.skill, shot));
             }
-            Action::OpenFilms => {
-                let effect = self.open(Screen::Drills);
+            Action::Coach(CoachAction::OpenDrills) => return self.open(PageId::Drills),
+            Action::Coach(CoachAction::OpenTraining) => return self.open(PageId::Training),
+            Action::Coach(CoachAction::OpenFilms) => {
+                let effect = self.open(PageId::Drills);
                 self.drills.open_films();
                 return effect;
             }
-            Action::Finder(action) => return self.find(action),
+            Action::CommandPalette(action) => return self.find(action),
             Action::Coach(CoachAction::Resume) => {
                 let practice = self.coach.resume()?;
-                self.screen = Screen::Drills;
-                return Some(self.drills.resume(practice, self.coach.tutor.skill));
+                self.screen = PageId::Drills;
+                return Some(self.drills.resume(practice, self.coach.query.skill));
             }
             Action::Coach(action) => return self.coach.update(action),
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
                 let balls = self.drills.take_for_coach();
                 if balls.is_some() || self.drills.is_left() {
-                    self.open(Screen::Coach);
+                    self.open(PageId::Coach);
                 }
                 if let Some(Balls { table, layout, rule }) = balls {
                     self.coach.take_position(&table, layout, rule);
@@ -324,34 +269,24 @@ impl App {
     }
 
     /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_report`].
-    pub fn wanted(&self) -> Wanted {
-        if self.screen == Screen::Training { self.training.wanted() } else { Wanted::default() }
+    pub fn wanted(&self) -> Subscriptions {
+        if self.screen == PageId::Training { self.training.wanted() } else { Subscriptions::default() }
     }
 
     /// Lets `seconds` pass for whatever moves on the screen.
     pub fn tick(&mut self, seconds: f64) {
         self.toasts.tick(seconds);
-        match self.screen {
-            Screen::Coach => self.coach.tick(seconds),
-            Screen::Training => self.training.tick(seconds),
-            Screen::Drills => self.drills.tick(seconds),
-            Screen::Settings => {}
-        }
+        self.page_mut().tick(seconds);
     }
 
     /// Seconds until the next picture; `None` while nothing moves by itself.
     pub fn frame_interval(&self) -> Option<f64> {
-        match self.screen {
-            Screen::Coach => self.coach.frame_interval(),
-            Screen::Training => self.training.frame_interval(),
-            Screen::Drills => self.drills.frame_interval(),
-            Screen::Settings => None,
-        }
+        self.page().frame_interval()
     }
 
     /// Draws the screen.
     pub fn draw(&self, frame: &mut Frame) {
         self.area.set(frame.area());
-        screens::draw(self, frame.area(), frame.buffer_mut());
+        view::draw(self, frame.area(), frame.buffer_mut());
     }
 }

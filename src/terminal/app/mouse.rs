@@ -2,15 +2,25 @@
 
 use crossterm::event::{MouseButton::Left, MouseEvent, MouseEventKind as Kind};
 
-use super::{App, Effect};
 use crate::terminal::{
-    geometry::Mapping,
-    keymap::{
-        Action, CoachAction, CoachWhen, DrillAction, DrillPlace, DrillWhen, FinderAction, Place, SettingsAction,
-        SettingsWhen, TrainingAction, TrainingWhen, When,
+    app::{
+        App,
+        bindings::{Action, Condition, KeyContext},
+        palette_keys::PaletteAction,
+        view::{Pointed, pointed_at},
     },
-    screens::{Target, table_mapping, target},
-    widgets::ball_at,
+    effect::Effect,
+    pages::{
+        Target,
+        coach::{
+            keys::{CoachAction, CoachCondition},
+            view::table_mapping,
+        },
+        drills::keys::{DrillAction, DrillCondition, DrillContext},
+        settings::keys::{SettingsAction, SettingsCondition},
+        training::keys::{TrainingAction, TrainingCondition},
+    },
+    ui::{geometry::Mapping, table::ball_at},
 };
 
 /// Lines of the help that a notch of the wheel scrolls.
@@ -37,8 +47,8 @@ impl App {
             Kind::Down(Left) => self.click(event),
             Kind::ScrollUp => self.wheel(event, -1),
             Kind::ScrollDown => self.wheel(event, 1),
-            Kind::Drag(Left) if self.place() == Place::Coach && self.help.is_none() => {
-                let pointer = table_mapping(self, self.area.get()).nearest_metres(event.column, event.row)?;
+            Kind::Drag(Left) if self.place() == KeyContext::Coach && self.help.is_none() => {
+                let pointer = table_mapping(&self.coach, self.area.get()).nearest_metres(event.column, event.row)?;
                 self.coach.drag_ball(pointer)
             }
             Kind::Up(Left) => {
@@ -51,47 +61,49 @@ impl App {
 
     fn click(&mut self, event: MouseEvent) -> Option<Effect> {
         match self.target(event)? {
-            Target::Tab(screen) => self.attempt(When::Tabs, Action::Open(screen)),
-            Target::Table(mapping) => self.take_ball(&mapping, event),
-            Target::Shot(shot) => self.attempt(When::Coach(CoachWhen::Choice), Action::Coach(CoachAction::Show(shot))),
-            Target::List(lines) => self.move_mark(lines?),
+            Pointed::Tab(screen) => self.attempt(Condition::Tabs, Action::Open(screen)),
+            Pointed::Page(Target::Table(mapping)) => self.take_ball(&mapping, event),
+            Pointed::Page(Target::Shot(shot)) => {
+                self.attempt(Condition::Coach(CoachCondition::Choice), Action::Coach(CoachAction::Show(shot)))
+            }
+            Pointed::Page(Target::List(lines)) => self.move_mark(lines?),
         }
     }
 
     /// The wheel was turned by a notch, down where positive.
     fn wheel(&mut self, event: MouseEvent, notch: i8) -> Option<Effect> {
-        if self.finder.is_some() {
-            return self.update(Action::Finder(FinderAction::Line(isize::from(notch))));
+        if self.command_palette.is_some() {
+            return self.update(Action::CommandPalette(PaletteAction::Line(isize::from(notch))));
         }
         if self.help.is_some() {
             return self.update(Action::ScrollHelp(i16::from(notch) * HELP_LINES));
         }
         match self.target(event)? {
-            Target::Table(_) => {
+            Pointed::Page(Target::Table(_)) => {
                 let action = if notch < 0 { CoachAction::Faster } else { CoachAction::Slower };
-                self.attempt(When::Coach(CoachWhen::Watching), Action::Coach(action))
+                self.attempt(Condition::Coach(CoachCondition::Watching), Action::Coach(action))
             }
-            Target::Shot(_) | Target::Tab(_) => None,
-            Target::List(_) => self.move_mark(isize::from(notch)),
+            Pointed::Page(Target::Shot(_)) | Pointed::Tab(_) => None,
+            Pointed::Page(Target::List(_)) => self.move_mark(isize::from(notch)),
         }
     }
 
-    fn target(&self, event: MouseEvent) -> Option<Target> {
-        let is_covered = self.help.is_some() || self.finder.is_some();
-        if is_covered { None } else { target(self, self.area.get(), (event.column, event.row).into()) }
+    fn target(&self, event: MouseEvent) -> Option<Pointed> {
+        let is_covered = self.help.is_some() || self.command_palette.is_some();
+        if is_covered { None } else { pointed_at(self, self.area.get(), (event.column, event.row).into()) }
     }
 
     /// Selects the ball that is drawn where the mouse is, and holds it.
     fn take_ball(&mut self, mapping: &Mapping, event: MouseEvent) -> Option<Effect> {
         let time = self.playback().time;
         let balls = self.watched().map_or(self.layout().balls, |shot| shot.recording.positions(time));
-        let ball = ball_at(balls, mapping, self.look.glyphs, (event.column, event.row))?;
+        let ball = ball_at(balls, mapping, self.caps.glyphs, (event.column, event.row))?;
         let colour = self.coach.cue_ball().ordered([0, 1, 2])[ball];
         // As long as a shot has not begun the balls lie where they can be taken.
         let is_moving = self.watched().is_some() && time > 0.0;
-        let when = if is_moving { CoachWhen::Placing } else { CoachWhen::Idle };
-        let effect = self.attempt(When::Coach(when), Action::Coach(CoachAction::Select(colour)));
-        if self.refusal(When::Coach(CoachWhen::Placing)).is_none() {
+        let when = if is_moving { CoachCondition::Placing } else { CoachCondition::Idle };
+        let effect = self.attempt(Condition::Coach(when), Action::Coach(CoachAction::Select(colour)));
+        if self.disabled_reason(Condition::Coach(CoachCondition::Placing)).is_none() {
             self.coach.take_ball(mapping.nearest_metres(event.column, event.row)?);
         }
         effect
@@ -100,19 +112,23 @@ impl App {
     /// Moves the mark of the list that is shown, by lines.
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let (when, action) = match self.place() {
-            Place::Drill(DrillPlace::Films) => (When::Drill(DrillWhen::Here), Action::Drill(DrillAction::Line(lines))),
-            Place::Drill(_) => (When::Drill(DrillWhen::Marked), Action::Drill(DrillAction::Line(lines))),
-            Place::Settings(_) => (When::Settings(SettingsWhen::Here), Action::Settings(SettingsAction::Line(lines))),
-            _ => (When::Training(TrainingWhen::Marked), Action::Training(TrainingAction::Line(lines))),
+            KeyContext::Drill(DrillContext::Films) => {
+                (Condition::Drill(DrillCondition::Here), Action::Drill(DrillAction::Line(lines)))
+            }
+            KeyContext::Drill(_) => (Condition::Drill(DrillCondition::Marked), Action::Drill(DrillAction::Line(lines))),
+            KeyContext::Settings(_) => {
+                (Condition::Settings(SettingsCondition::Here), Action::Settings(SettingsAction::Line(lines)))
+            }
+            _ => (Condition::Training(TrainingCondition::Marked), Action::Training(TrainingAction::Line(lines))),
         };
         self.attempt(when, action)
     }
 
     /// Does what a key would do that may be used at such a time, or says why not.
-    fn attempt(&mut self, when: When, action: Action) -> Option<Effect> {
-        *self.message_mut() = None;
+    fn attempt(&mut self, when: Condition, action: Action) -> Option<Effect> {
+        *self.page_mut().message_mut() = None;
         self.toasts.go_on();
-        if let Some(reason) = self.refusal(when) {
+        if let Some(reason) = self.disabled_reason(when) {
             self.toasts.push(reason.to_owned(), true);
             return None;
         }

@@ -1,12 +1,14 @@
 //! What comes from outside, and what is told of it: sentences on the status line, refusals and failures as toasts.
 
-use super::{App, Screen};
 use crate::terminal::{
-    app::Effect,
-    drills::{DrillReport, Errand},
-    recommender::Answer,
-    toasts::Toasts,
-    training::Report,
+    app::App,
+    effect::{Effect, PageId},
+    tasks::{
+        drills::{DrillReport, DrillTask},
+        recommender::Answer,
+        training::Report,
+    },
+    ui::toasts::Toasts,
 };
 
 impl App {
@@ -30,22 +32,22 @@ impl App {
 
     /// Something has come of what the training screen wanted.
     pub fn receive_report(&mut self, report: Report) {
-        if let Some((table, tutor)) = self.training.receive(report) {
-            self.coach.take_tutor(&table, tutor);
+        if let Some((table, query)) = self.training.receive(report) {
+            self.coach.take_query(&table, query);
             self.training.alone = false;
-            self.screen = Screen::Coach;
+            self.screen = PageId::Coach;
             self.help = None;
-            self.finder = None;
+            self.command_palette = None;
         }
         self.gather(false);
     }
 
     /// Something has come of an errand of the drill screens; gives what is to be done next.
-    pub fn receive_drill(&mut self, report: DrillReport) -> Vec<Errand> {
-        let errands = self.drills.receive(report);
+    pub fn receive_drill(&mut self, report: DrillReport) -> Vec<DrillTask> {
+        let tasks = self.drills.receive(report);
         self.coach.own = self.drills.player.own.or(self.coach.own);
         self.gather(false);
-        errands
+        tasks
     }
 
     /// Makes toasts of what is refused or has failed since: the answer to a key, or something that came by itself.

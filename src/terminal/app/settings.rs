@@ -1,15 +1,17 @@
 //! What is set holds at once; what keys change for the session alone is shown among the settings.
 
-use super::{App, Effect};
 use crate::{
-    table::CueBall,
-    table::{PRESETS, Table},
+    table::{CueBall, PRESETS, Table},
     terminal::{
-        advice::Tutor,
-        look::{Depth, Glyphs, Look},
-        settings::{Settings, SettingsReport},
-        status::Message,
-        theme::{Palette, Theme},
+        app::App,
+        capabilities::{Capabilities, Depth, Glyphs},
+        config::{Settings, SettingsReport},
+        effect::Effect,
+        tasks::advice::CoachQuery,
+        ui::{
+            message::Message,
+            theme::{Palette, Theme},
+        },
     },
 };
 
@@ -47,7 +49,7 @@ impl App {
 
     /// Lets the settings' screen show what keys of other screens have changed since; nothing else changes.
     pub(super) fn show_session(&mut self) {
-        let Tutor { rule, skill, plan, .. } = self.coach.tutor;
+        let CoachQuery { rule, skill, plan, .. } = self.coach.query;
         let (step_mm, speed) = (self.coach.step_mm(), self.coach.playback.speed());
         let settings = Settings { palette: self.palette, rule, skill, plan, step_mm, speed, ..self.in_force.clone() };
         let is_played = |table: Result<Table, _>| table.is_ok_and(|table| table == *self.coach.table());
@@ -72,15 +74,15 @@ impl App {
             self.show_session();
             format!("theme: {}, for this session; F5 keeps it", self.palette)
         };
-        *self.message_mut() = Some(Message::plain(message));
+        *self.page_mut().message_mut() = Some(Message::plain(message));
     }
 
     /// The next characters that the terminal can show, for this session.
     pub(super) fn next_glyphs(&mut self) {
-        let look = self.look.with_next_glyphs(self.finest);
-        if look != self.look && self.palette != Palette::Mono {
-            (self.look, self.full_look) = (look, look);
-            self.in_force.glyphs = Some(look.glyphs);
+        let caps = self.caps.with_next_glyphs(self.finest);
+        if caps != self.caps && self.palette != Palette::Mono {
+            (self.caps, self.full_look) = (caps, caps);
+            self.in_force.glyphs = Some(caps.glyphs);
             self.show_session();
         }
     }
@@ -88,9 +90,9 @@ impl App {
     /// Draws with these colours from now on.
     pub(super) fn choose_palette(&mut self, palette: Palette) {
         self.palette = palette;
-        let mono = Look { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
-        self.look = if palette == Palette::Mono { mono } else { self.full_look };
-        self.theme = Theme::of(palette, self.look.depth);
+        let mono = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, ..self.full_look };
+        self.caps = if palette == Palette::Mono { mono } else { self.full_look };
+        self.theme = Theme::of(palette, self.caps.depth);
         self.yellow_theme = self.theme.with_cue_ball(CueBall::Yellow);
     }
 }

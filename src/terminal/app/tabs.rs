@@ -1,34 +1,37 @@
 //! Going from screen to screen.
 
-use super::{App, Effect, Overlay, Screen};
+use crate::terminal::{
+    app::{App, Overlay},
+    effect::{Effect, PageId},
+};
 
 impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {
-        self.finder = None;
+        self.command_palette = None;
         self.help = Some((page, 0));
         self.help_end.set(u16::MAX);
     }
 
     /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.
-    pub(super) fn open(&mut self, screen: Screen) -> Option<Effect> {
-        (self.help, self.finder) = (None, None);
+    pub(super) fn open(&mut self, screen: PageId) -> Option<Effect> {
+        (self.help, self.command_palette) = (None, None);
         // What nobody watches does not play on.
         self.coach.playback.pause();
         self.coach.drop_ball();
         let before = std::mem::replace(&mut self.screen, screen);
-        if before == Screen::Drills {
+        if before == PageId::Drills {
             // Whoever was chosen there plays at the coach's table too.
             self.coach.take_skill(self.drills.player.at_coach);
         }
         match screen {
             _ if before == screen => None,
-            Screen::Coach => None,
-            Screen::Drills => Some(self.drills.open(self.coach.tutor.skill)),
-            Screen::Training => {
+            PageId::Coach => None,
+            PageId::Drills => Some(self.drills.open(self.coach.query.skill)),
+            PageId::Training => {
                 self.training.open();
                 None
             }
-            Screen::Settings => {
+            PageId::Settings => {
                 self.before = before;
                 self.show_session();
                 Some(self.settings.open())
@@ -41,7 +44,7 @@ impl App {
         if self.training.alone {
             return Some(Effect::Quit);
         }
-        self.screen = Screen::Coach;
+        self.screen = PageId::Coach;
         None
     }
 

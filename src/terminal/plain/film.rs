@@ -1,11 +1,11 @@
 //! Filmed shots in sentences: which there are, and how far the simulated balls are from the filmed ones.
 
-use super::speech;
 use crate::{
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
-        film::{FilmScene, listed, table},
+        plain::speech,
+        shot::film::{FilmScene, listed, table},
         words::fixed,
     },
 };

@@ -12,8 +12,6 @@ use std::{
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use self::order::{HELP, Order};
-use super::{history::History, placing::slide, settings::Settings};
 use crate::{
     coach::{Coach, Kind, Request, aim, margins},
     game::Point,
@@ -21,6 +19,11 @@ use crate::{
     physics::CueInputs,
     simulation::Recording,
     table::{CueBall, Layout, Side, Table},
+    terminal::{
+        config::Settings,
+        plain::order::{HELP, Order},
+        shot::{history::History, placing::slide},
+    },
 };
 
 /// A shot that was found.

@@ -1,0 +1,399 @@
+//! All keys of the program: what each page's tables say, as one kind of action, with the keys that all pages have.
+
+use crossterm::event::{
+    KeyCode::{Char, Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
+    KeyEvent,
+};
+
+use super::palette_keys::{self, PaletteAction};
+use crate::terminal::{
+    effect::PageId,
+    keymap::{
+        Binding, KeyEntry, KeyPage,
+        Section::{self, Program},
+        bind,
+        chord::Chord,
+        chord_of, ctrl, key, letter,
+    },
+    pages::{
+        coach::keys::{self as coach, CoachAction, CoachCondition},
+        drills::keys::{self as drills, DrillAction, DrillCondition, DrillContext},
+        settings::keys::{self as settings, SettingsAction, SettingsCondition, SettingsContext},
+        training::keys::{self as training, TrainingAction, TrainingCondition, TrainingContext},
+    },
+};
+
+use Action as A;
+
+/// What a key does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Action {
+    /// Ends the program.
+    Quit,
+    /// Stops the program until the shell continues it.
+    Suspend,
+    /// Opens the help.
+    OpenHelp,
+    /// Closes the help.
+    CloseHelp,
+    /// Scrolls the help by lines, down where positive.
+    ScrollHelp(i16),
+    /// Something in the command palette, or opening it.
+    CommandPalette(PaletteAction),
+    /// Draws the table with the next simpler set of characters.
+    NextGlyphs,
+    /// Shows the next of the themes.
+    NextPalette,
+    /// Opens a screen, where it was left.
+    Open(PageId),
+    /// Shows what was refused or has failed so far.
+    OpenMessages,
+    /// Something on the coach's screen.
+    Coach(CoachAction),
+    /// Something on the training screen.
+    Training(TrainingAction),
+    /// Something on the drill screens.
+    Drill(DrillAction),
+    /// Something on the settings' screen.
+    Settings(SettingsAction),
+}
+
+/// When a binding may be used; the app knows whether it holds, and why not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// Whatever is on the screen.
+    Always,
+    /// While the help is open.
+    Help,
+    /// Where there are other screens to go to.
+    Tabs,
+    /// As the coach's screen says.
+    Coach(CoachCondition),
+    /// As the training screen says.
+    Training(TrainingCondition),
+    /// As the drill screens say.
+    Drill(DrillCondition),
+    /// As the settings' screen says.
+    Settings(SettingsCondition),
+}
+
+/// What is on the screen: each has its own keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyContext {
+    /// The coach.
+    Coach,
+    /// One of the training pages, or what is asked there.
+    Training(TrainingContext),
+    /// One of the drill screens.
+    Drill(DrillContext),
+    /// One of the settings' pages, or what is asked there.
+    Settings(SettingsContext),
+    /// The command palette, over any of them.
+    CommandPalette,
+}
+
+impl KeyContext {
+    /// The pages with their names, in the order of the screens.
+    pub const PAGES: [(Self, &'static str); 13] = [
+        (Self::Coach, "Coach"),
+        (Self::Drill(DrillContext::Library), "Drills: library"),
+        (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
+        (Self::Drill(DrillContext::Result), "Drills: result of an exam"),
+        (Self::Drill(DrillContext::Record), "Drills: record"),
+        (Self::Drill(DrillContext::Films), "Drills: filmed shots"),
+        (Self::Drill(DrillContext::Film), "Drills: a filmed shot"),
+        (Self::Training(TrainingContext::Runs), "Training: runs"),
+        (Self::Training(TrainingContext::Form), "Training: new run"),
+        (Self::Training(TrainingContext::Watch), "Training: a run"),
+        (Self::Training(TrainingContext::Compare), "Training: compare"),
+        (Self::Settings(SettingsContext::Values), "Settings"),
+        (Self::Settings(SettingsContext::Keys), "Settings: keys"),
+    ];
+
+    /// Whether letters are typed there, or answers.
+    pub const fn takes_letters(self) -> bool {
+        match self {
+            Self::Coach => false,
+            Self::Training(place) => place.takes_letters(),
+            Self::Drill(place) => place.takes_letters(),
+            Self::Settings(place) => place.takes_letters(),
+            Self::CommandPalette => true,
+        }
+    }
+
+    /// Whether `pressed` is typed there, whatever work of another key it was given.
+    pub fn types(self, pressed: Chord) -> bool {
+        let event = pressed.event();
+        let Char(letter) = event.code else { return false };
+        event.modifiers.is_empty()
+            && match self {
+                Self::Training(TrainingContext::Name)
+                | Self::CommandPalette
+                | Self::Drill(DrillContext::Search | DrillContext::Text)
+                | Self::Settings(SettingsContext::Typing) => true,
+                Self::Training(TrainingContext::Form) => letter.is_ascii_digit(),
+                _ => false,
+            }
+    }
+}
+
+/// One line of a page's table, as the app reads it.
+#[derive(Debug)]
+pub struct Bound {
+    /// The keys, each with what it does, and the words for that.
+    pub keys: Vec<(Chord, Action, &'static str)>,
+    /// Its word in the hint line, and how many of the keys stand before it there.
+    pub hint: Option<(&'static str, usize)>,
+    /// What the help says.
+    pub description: &'static str,
+    /// When it may be used.
+    pub when: Condition,
+    /// Its heading in the help.
+    pub section: Section,
+}
+
+/// Adds the lines of a page's table; `words` are those of one of a line's actions by itself.
+fn take<B: Copy + PartialEq, W: Copy>(
+    all: &mut Vec<Bound>,
+    table: &[Binding<B, W>],
+    action: fn(B) -> Action,
+    when: fn(W) -> Condition,
+    words: fn(B, Section) -> Option<&'static str>,
+) {
+    all.extend(table.iter().map(|binding| {
+        let is_one = binding.keys.iter().all(|(_, other)| *other == binding.keys[0].1);
+        let words = |of: B| if is_one { None } else { words(of, binding.section) }.unwrap_or(binding.description);
+        Bound {
+            keys: binding.keys.iter().map(|(chord, of)| (*chord, action(*of), words(*of))).collect(),
+            hint: binding.hint,
+            description: binding.description,
+            when: when(binding.when),
+            section: binding.section,
+        }
+    }));
+}
+
+/// The keys of the help while it is open.
+#[rustfmt::skip]
+const HELP: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Help, &[key(Esc, A::CloseHelp), letter('?', A::CloseHelp), letter('q', A::CloseHelp),
+        key(Enter, A::CloseHelp), key(F(1), A::CloseHelp)], Some(("close", 1)), "close the help"),
+    bind(Program, Condition::Help, &[key(Down, A::ScrollHelp(1)), key(Up, A::ScrollHelp(-1)), letter('j', A::ScrollHelp(1)),
+        letter('k', A::ScrollHelp(-1)), key(PageDown, A::ScrollHelp(10)), key(PageUp, A::ScrollHelp(-10)),
+        key(End, A::ScrollHelp(i16::MAX)), key(Home, A::ScrollHelp(i16::MIN))], Some(("scroll", 2)), "scroll the help"),
+];
+
+/// The keys that all screens have, where letters are typed too.
+#[rustfmt::skip]
+const TABS: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Tabs, &[key(F(2), A::Open(PageId::Coach))], None, "the coach's table, as it was left"),
+    bind(Program, Condition::Tabs, &[key(F(3), A::Open(PageId::Drills))], None, "the drills, as they were left"),
+    bind(Program, Condition::Tabs, &[key(F(4), A::Open(PageId::Training))], None, "the training, as it was left"),
+    bind(Program, Condition::Tabs, &[key(F(5), A::Open(PageId::Settings))], None, "the settings, and keys of your own"),
+];
+
+/// The keys that all screens have.
+#[rustfmt::skip]
+const PROGRAM: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Always, &[letter('?', A::OpenHelp), key(F(1), A::OpenHelp)], Some(("help", 1)), "open this help"),
+    bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
+    palette_keys::OPEN,
+    bind(Program, Condition::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
+    bind(Program, Condition::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
+    bind(Program, Condition::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
+    bind(Program, Condition::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
+];
+
+/// Those of them that mean nothing else where letters are answers.
+#[rustfmt::skip]
+const LEAVE: &[Binding<Action, Condition>] = &[
+    bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
+    bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
+    bind(Program, Condition::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
+    bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
+];
+
+/// All keys at `place`. The first enabled binding with a key wins; the hint line shows as many as fit, in this order.
+pub fn bindings(place: KeyContext) -> Vec<Bound> {
+    let mut all = Vec::new();
+    let program = |all: &mut Vec<Bound>, table| take(all, table, |action| action, |when| when, palette_keys::words);
+    let (help, leave) = match place {
+        _ if place.takes_letters() => (&[][..], LEAVE),
+        _ => (HELP, PROGRAM),
+    };
+    program(&mut all, help);
+    match place {
+        KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
+        KeyContext::Training(place) => {
+            take(&mut all, place.bindings(), A::Training, Condition::Training, training::words)
+        }
+        KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill, drills::words),
+        KeyContext::Settings(place) => {
+            take(&mut all, place.bindings(), A::Settings, Condition::Settings, settings::words)
+        }
+        KeyContext::CommandPalette => program(&mut all, palette_keys::PALETTE),
+    }
+    program(&mut all, TABS);
+    program(&mut all, leave);
+    all
+}
+
+/// What keys do on each page, for lists of keys.
+pub fn key_pages() -> Vec<KeyPage> {
+    KeyContext::PAGES.iter().map(|(place, name)| KeyPage { name, entries: entries(*place) }).collect()
+}
+
+fn entries(place: KeyContext) -> Vec<KeyEntry> {
+    let mut entries: Vec<KeyEntry> = Vec::new();
+    for binding in bindings(place).iter().filter(|binding| binding.when != Condition::Help) {
+        let from = entries.len();
+        for (chord, _, words) in &binding.keys {
+            match entries[from..].iter_mut().find(|entry| entry.words == *words) {
+                Some(entry) => entry.chords.push(*chord),
+                None => entries.push(KeyEntry {
+                    chords: vec![*chord],
+                    words,
+                    group: binding.description,
+                    hint: binding.hint.map_or("", |(word, _)| word),
+                    section: binding.section,
+                }),
+            }
+        }
+    }
+    entries
+}
+
+/// The key that opens `screen` from everywhere.
+pub fn chord_of_tab(screen: PageId) -> Option<Chord> {
+    chord_of(TABS, &Action::Open(screen))
+}
+
+/// What `event` asks for at `place`: the first binding that may be used now, or else the reason why the last one may
+/// not, since the more particular ones come first.
+/// `None` where no binding has the key. `disabled_reason` says why a binding may not be used.
+pub fn find<'a>(
+    event: &KeyEvent,
+    place: KeyContext,
+    disabled_reason: impl Fn(Condition) -> Option<&'a str>,
+) -> Option<Result<Action, &'a str>> {
+    let mut refused = None;
+    for binding in bindings(place) {
+        let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
+        match disabled_reason(binding.when) {
+            None => return Some(Ok(*action)),
+            // Who has not opened the help does not press its keys.
+            Some(_) if binding.when == Condition::Help => {}
+            Some(reason) => refused = Some(Err(reason)),
+        }
+    }
+    refused
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::keymap::works_of;
+
+    fn places() -> impl Iterator<Item = KeyContext> {
+        [KeyContext::Coach, KeyContext::CommandPalette]
+            .into_iter()
+            .chain(TrainingContext::ALL.map(KeyContext::Training))
+            .chain(DrillContext::ALL.map(KeyContext::Drill))
+            .chain(SettingsContext::ALL.map(KeyContext::Settings))
+    }
+
+    #[test]
+    fn no_two_bindings_with_the_same_condition_share_a_key() {
+        for place in places() {
+            let all = bindings(place);
+            for (n, one) in all.iter().enumerate() {
+                for other in all[n + 1..].iter().filter(|other| other.when == one.when) {
+                    for (chord, ..) in &one.keys {
+                        let free = other.keys.iter().all(|(theirs, ..)| theirs != chord);
+                        assert!(free, "{place:?} {chord:?}: {}", other.description);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_refused_key_says_why_and_an_unknown_one_nothing() {
+        let refuse_all = |_| Some("not now");
+        let press = |letter| KeyEvent::from(Char(letter));
+        assert_eq!(find(&press('u'), KeyContext::Coach, refuse_all), Some(Err("not now")));
+        assert_eq!(find(&press('u'), KeyContext::Coach, |_| None), Some(Ok(Action::Coach(CoachAction::Undo))));
+        assert_eq!(find(&press('%'), KeyContext::Coach, refuse_all), None);
+    }
+
+    #[test]
+    fn the_program_and_each_screen_can_be_left_from_everywhere() {
+        let event = KeyEvent::new(Char('c'), crossterm::event::KeyModifiers::CONTROL);
+        for place in places() {
+            assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
+            for (number, screen) in (2..).zip(PageId::ALL) {
+                let event = KeyEvent::from(F(number));
+                assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Open(screen))), "{place:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn keys_of_the_help_alone_say_nothing_while_it_is_closed() {
+        let refuse_all = |_| Some("not now");
+        assert_eq!(find(&KeyEvent::from(End), KeyContext::Training(TrainingContext::Form), refuse_all), None);
+        let end = Some(Ok(Action::ScrollHelp(i16::MAX)));
+        for place in KeyContext::PAGES.map(|(place, _)| place) {
+            assert_eq!(find(&KeyEvent::from(End), place, |_| None), end, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn letters_are_typed_where_words_are_and_digits_in_the_form() {
+        let typed =
+            |place: KeyContext, text: &str| text.chars().filter(|letter| place.types(Chord::char(*letter))).count();
+        for place in places() {
+            let most = if place == KeyContext::Training(TrainingContext::Form) { 1 } else { 3 };
+            assert!([0, most].contains(&typed(place, "z 1")), "{place:?}");
+            assert!(!place.types(Chord::ctrl(Char('z'))) && !place.types(Chord::plain(Enter)), "{place:?}");
+        }
+        let words = [
+            KeyContext::Training(TrainingContext::Name),
+            KeyContext::CommandPalette,
+            KeyContext::Drill(DrillContext::Search),
+            KeyContext::Drill(DrillContext::Text),
+        ];
+        assert!(words.iter().all(|place| typed(*place, "z 1") == 3));
+        assert_eq!(typed(KeyContext::Settings(SettingsContext::Typing), "z 1"), 3);
+        assert_eq!(
+            (
+                typed(KeyContext::Training(TrainingContext::Form), "z 1"),
+                typed(KeyContext::Training(TrainingContext::Question), "z 1")
+            ),
+            (1, 0)
+        );
+    }
+
+    #[test]
+    fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
+        let all = key_pages();
+        let pages = |letter| works_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
+        assert_eq!(pages('u'), ["Coach", "Drills: exercise"]);
+        assert_eq!(works_of(&all, Chord::char('q')).len(), 1, "quitting");
+        assert!(pages('%').is_empty());
+    }
+
+    #[test]
+    fn no_two_things_that_can_be_done_at_a_place_have_the_same_words() {
+        for place in places() {
+            let is_own = |binding: &Bound| binding.when != Condition::Help;
+            for binding in bindings(place).into_iter().filter(is_own) {
+                for (_, action, words) in &binding.keys {
+                    let other = bindings(place).into_iter().filter(is_own).flat_map(|binding| binding.keys);
+                    let same = other.into_iter().find(|(_, other, its)| its == words && other != action);
+                    assert!(same.is_none(), "{place:?}: {words}: {action:?} and {same:?}");
+                }
+            }
+        }
+    }
+}

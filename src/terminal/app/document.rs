@@ -1,0 +1,41 @@
+//! The keys as a page of the documentation.
+
+use std::fmt::Write;
+
+use crate::terminal::{
+    app::bindings::{Bound, Condition, KeyContext, bindings},
+    capabilities::{Capabilities, Depth, Glyphs},
+    keymap::chord::keys_text,
+};
+
+/// A table of all keys in Markdown, page by page; what all pages have comes last, once.
+pub fn document() -> String {
+    let mut text = String::from(
+        "# Keys\n\nWritten from the program's own tables by `cargo run --release --example picture -- docs/`. Keys of your own: F5, \
+         then Tab; or `[keys]` in the file that `carom config` prints.\n",
+    );
+    let pages: Vec<Vec<Bound>> = KeyContext::PAGES.iter().map(|(place, _)| own(*place)).collect();
+    let is_everywhere =
+        |binding: &Bound| pages.iter().all(|page| page.iter().any(|other| other.description == binding.description));
+    for ((_, name), page) in KeyContext::PAGES.iter().zip(&pages) {
+        write_page(&mut text, name, page.iter().filter(|binding| !is_everywhere(binding)));
+    }
+    let common = pages.first().into_iter().flatten().filter(|binding| is_everywhere(binding));
+    write_page(&mut text, "On every page", common);
+    text
+}
+
+/// What the help lists at `place`.
+fn own(place: KeyContext) -> Vec<Bound> {
+    bindings(place).into_iter().filter(|binding| binding.when != Condition::Help).collect()
+}
+
+fn write_page<'a>(text: &mut String, name: &str, bindings: impl Iterator<Item = &'a Bound>) {
+    let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+    // Writing into a text never fails.
+    let _ = write!(text, "\n## {name}\n\n| keys | what they do |\n|---|---|\n");
+    for binding in bindings {
+        let keys = keys_text(binding.keys.iter().map(|(chord, ..)| *chord), caps).replace('|', "\\|");
+        let _ = writeln!(text, "| `{keys}` | {} |", binding.description);
+    }
+}

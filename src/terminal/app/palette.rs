@@ -1,0 +1,189 @@
+//! The command palette: everything that the keys do at a place, narrowed by typed words.
+
+use crate::terminal::{
+    app::{
+        bindings::{Action, Condition, KeyContext, bindings},
+        palette_keys::PaletteAction,
+    },
+    capabilities::Capabilities,
+    keymap::{
+        chord::{Chord, keys_text},
+        remap::Keys,
+    },
+};
+
+/// One thing that can be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    /// Its keys as they are written on the screen.
+    pub keys: String,
+    /// The keys that it has by default.
+    pub chords: Vec<Chord>,
+    /// What it does.
+    pub description: &'static str,
+    /// What the help says of the binding, which may do other things as well.
+    pub group: &'static str,
+    /// Its word in the hint line, or nothing.
+    pub hint: &'static str,
+    /// Its heading in the help.
+    pub title: &'static str,
+    /// What it asks for.
+    pub action: Action,
+    /// When it may be used.
+    pub when: Condition,
+}
+
+impl Command {
+    /// Whether all `words`, in small letters, occur in what is said of it alone.
+    fn is_called(&self, words: &[String]) -> bool {
+        let Self { keys, description, title, .. } = self;
+        has(&format!("{description} {title} {keys}"), words)
+    }
+
+    /// The same, with what is said of all that its binding does.
+    fn is_among(&self, words: &[String]) -> bool {
+        let Self { keys, description, group, hint, title, .. } = self;
+        has(&format!("{description} {group} {hint} {title} {keys}"), words)
+    }
+}
+
+fn has(text: &str, words: &[String]) -> bool {
+    let text = text.to_lowercase();
+    words.iter().all(|word| text.contains(word))
+}
+
+/// The commands at `place`, one for each thing that a binding does.
+pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
+    let mut commands: Vec<Command> = Vec::new();
+    for binding in bindings(place).iter().filter(|binding| binding.when != Condition::Help) {
+        let from = commands.len();
+        for (_, action, words) in
+            binding.keys.iter().filter(|(_, action, _)| *action != Action::CommandPalette(PaletteAction::Open))
+        {
+            if commands[from..].iter().any(|known| known.action == *action) {
+                continue;
+            }
+            let chords: Vec<Chord> =
+                binding.keys.iter().filter(|(_, other, _)| other == action).map(|(chord, ..)| *chord).collect();
+            commands.push(Command {
+                keys: keys_text(chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps),
+                chords,
+                description: words,
+                group: binding.description,
+                hint: binding.hint.map_or("", |(word, _)| word),
+                title: binding.section.title(),
+                action: *action,
+                when: binding.when,
+            });
+        }
+    }
+    commands
+}
+
+/// The palette while it is open: what is typed, and the mark among what is found.
+#[derive(Clone, Debug, Default)]
+pub struct CommandPalette {
+    typed: String,
+    mark: usize,
+}
+
+impl CommandPalette {
+    /// What is typed.
+    pub fn typed(&self) -> &str {
+        &self.typed
+    }
+
+    /// The commands that have all typed words, in their order. What a binding's keys do together finds them all, unless the
+    /// words are those of some of them alone.
+    pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
+        let words: Vec<String> = self.typed.split_whitespace().map(str::to_lowercase).collect();
+        let called: Vec<_> = commands.iter().filter(|one| one.is_called(&words)).map(|one| one.group).collect();
+        commands.retain(|one| one.is_called(&words) || !called.contains(&one.group) && one.is_among(&words));
+        commands
+    }
+
+    /// KeyContext of the mark among `count` that are found; the screen below may have changed since it was set.
+    pub fn mark(&self, count: usize) -> usize {
+        self.mark.min(count.saturating_sub(1))
+    }
+
+    /// Moves the mark among `count` commands by lines, down where positive.
+    pub fn move_mark(&mut self, lines: isize, count: usize) {
+        self.mark = self.mark(count).saturating_add_signed(lines).min(count.saturating_sub(1));
+    }
+
+    /// Takes text that was typed or pasted.
+    pub fn take_text(&mut self, text: &str) {
+        self.typed.extend(text.chars().filter(|letter| !letter.is_control()));
+        self.mark = 0;
+    }
+
+    /// Takes the last letter back.
+    pub fn erase(&mut self) {
+        self.typed.pop();
+        self.mark = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::{
+        capabilities::{Depth, Glyphs},
+        pages::coach::keys::CoachAction,
+    };
+
+    const LOOK: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+
+    fn found(typed: &str) -> Vec<Command> {
+        let mut command_palette = CommandPalette::default();
+        command_palette.take_text(typed);
+        command_palette.found(commands(KeyContext::Coach, &Keys::default(), LOOK))
+    }
+
+    #[test]
+    fn all_words_have_to_occur_in_any_order_and_case() {
+        let undo = found("CHANGE back last");
+        assert_eq!(undo.len(), 1, "{undo:?}");
+        assert_eq!((undo[0].action, undo[0].keys.as_str()), (Action::Coach(CoachAction::Undo), "u"));
+        assert_eq!(found("undo"), undo, "the word of the hint line is known as well");
+        assert!(found("back nonsense").is_empty());
+        assert!(found("ctrl-r").iter().all(|command| command.keys.contains("Ctrl-r")));
+        assert!(found("placing").iter().all(|command| command.title == "Placing the balls"));
+    }
+
+    #[test]
+    fn each_thing_that_a_binding_does_has_a_line_with_its_keys() {
+        let keys: Vec<_> = found("by one step").into_iter().map(|command| command.keys).collect();
+        assert_eq!(keys, ["← h", "↓ j", "↑ k", "→ l"]);
+    }
+
+    #[test]
+    fn one_of_the_things_that_a_binding_does_is_found_by_its_own_words() {
+        let keys = |typed| found(typed).into_iter().map(|command| command.keys).collect::<Vec<_>>();
+        assert_eq!(keys("smaller step"), ["-"]);
+        assert_eq!(keys("yellow"), ["2"]);
+        assert_eq!(keys("player"), ["S"]);
+        assert_eq!(keys("white yellow"), ["Tab", "Shift-Tab", "1", "2", "3"], "by what they do together");
+    }
+
+    #[test]
+    fn it_does_not_list_itself() {
+        assert!(found("").iter().all(|command| !matches!(command.action, Action::CommandPalette(_))));
+    }
+
+    #[test]
+    fn the_mark_stays_among_what_is_found() {
+        let mut command_palette = CommandPalette::default();
+        command_palette.move_mark(isize::MAX, 4);
+        assert_eq!(command_palette.mark(4), 3);
+        assert_eq!(command_palette.mark(2), 1);
+        command_palette.move_mark(-1, 2);
+        assert_eq!(command_palette.mark(9), 0);
+        command_palette.move_mark(5, 0);
+        assert_eq!(command_palette.mark(0), 0);
+        command_palette.move_mark(1, 3);
+        command_palette.take_text("x\n");
+        assert_eq!((command_palette.mark(3), command_palette.typed()), (0, "x"));
+    }
+}

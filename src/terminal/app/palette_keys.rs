@@ -1,0 +1,65 @@
+//! The keys of the command palette.
+
+use crossterm::event::KeyCode::{Backspace, Down, End, Enter, Esc, Home, PageDown, PageUp, Up};
+
+use super::bindings::{Action, Condition};
+use crate::terminal::keymap::{
+    Binding,
+    Section::{self, Program},
+    chord::Chord,
+    ctrl, letter, mark,
+};
+
+use PaletteAction as A;
+
+/// What a key does in the command palette.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PaletteAction {
+    /// Opens it.
+    Open,
+    /// Closes it.
+    Close,
+    /// Does what is marked.
+    Choose,
+    /// Moves the mark by lines, down where positive.
+    Line(isize),
+    /// Takes the last letter back.
+    Erase,
+}
+
+const fn bind(
+    keys: &'static [(Chord, Action)],
+    hint: Option<(&'static str, usize)>,
+    description: &'static str,
+) -> Binding<Action, Condition> {
+    crate::terminal::keymap::bind(Program, Condition::Always, keys, hint, description)
+}
+
+const fn key(code: crossterm::event::KeyCode, action: A) -> (Chord, Action) {
+    (Chord::plain(code), Action::CommandPalette(action))
+}
+
+/// What opens it, wherever letters are not typed.
+pub const OPEN: Binding<Action, Condition> = bind(
+    &[letter(':', Action::CommandPalette(A::Open)), ctrl('p', Action::CommandPalette(A::Open))],
+    Some(("commands", 1)),
+    "find what can be done here by its words, and do it",
+);
+
+/// The keys while it is open.
+#[rustfmt::skip]
+pub const PALETTE: &[Binding<Action, Condition>] = &[
+    bind(&[key(Enter, A::Choose)], Some(("do it", 1)), "do what is marked"),
+    bind(&[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)),
+        key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN))], Some(("choose", 2)), "mark another command"),
+    bind(&[key(Backspace, A::Erase)], None, "take a letter back"),
+    bind(&[key(Esc, A::Close)], Some(("close", 1)), "close the list"),
+];
+
+/// The words of `action` by itself, where its binding does several things.
+pub const fn words(action: Action, _: Section) -> Option<&'static str> {
+    match action {
+        Action::CommandPalette(A::Line(lines)) => mark!(lines, "command"),
+        _ => None,
+    }
+}

@@ -1,0 +1,169 @@
+//! The pages that lie over a screen: every key with what it does, read from the table of keys, and a few words on what is
+//! drawn; or all that was refused or has failed so far.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    learning::run::quantity::Quantity,
+    terminal::{
+        app::{
+            App, Overlay,
+            bindings::{Condition, KeyContext, bindings},
+        },
+        keymap::{Section, chord::keys_text},
+        pages::{PageArea, drills::keys::DrillContext},
+        ui::{Ui, text::wrap},
+    },
+};
+
+/// Columns of the keys.
+const KEYS: usize = 22;
+
+/// Each is a paragraph.
+const COACH_NOTES: [&str; 6] = [
+    "Places are measured from the middle of the table, x to the right, y up. The dots are the predicted paths; rings are \
+     where the cue ball first meets each ball and where the balls stop. While a shot plays, a ball trails bright dots for 0.4 s; \
+     those before them are pale. On a small screen the balls are drawn larger than they are; they roll \
+     and touch at their true size.",
+    "Chances are those of the player in the first row, from attempts that took no part in the choice, with their 95 % \
+     interval. Shots that are made less than half as often as the best are not listed.",
+    "Margins: how far one input may be off while the others are as meant, beside the player's standard errors. The maps show \
+     what comes of the stroke over two inputs, left and right as the shooter sees them; the ring is twice the standard \
+     errors.",
+    "The plan: dots show where the balls stop in 100 attempts, as far as they make the point, and the cue ball's way in the \
+     next shot, if all goes as meant.",
+    "Tip: the cue ball from behind the cue; in its grey part the tip would slip off. Sight: the first object ball as the cue \
+     ball comes on, and how much of it that covers. Spin, while a shot plays: the cue ball from behind along its way, with the \
+     place where a level cue would have to meet it to give it the spin that it has at its speed; a rolling ball has it two \
+     fifths above the middle.",
+    "a, b are in ball radii, V0 and w0 what the stroke gives the ball: (x, y) and (x, y, z).",
+];
+
+const SETTINGS_NOTES: [&str; 3] = [
+    "Whatever is set holds at once and stands in the file that is named above, where comments, order and all that carom does \
+     not understand stay as they are. What somebody else has changed there meanwhile is read, and never written over.",
+    "A setting without a mark is as it is by default. carom config prints all of them, with what each means and accepts.",
+    "A key of your own does the work of the one that it is given, on every page; what it did itself it does no more.",
+];
+
+const TRAINING_NOTES: [&str; 4] = [
+    "Training goes on in a process of its own: it needs neither this screen nor this terminal.",
+    "Held-out figures are of the agent's own choice on layouts that it has not trained on, with Wilson's 95 % interval. \
+     Shots of a run that trains are replayed once, as they were measured.",
+    "A chart shows the smallest and largest value where many lines share a column, so that no peak is lost; what is no \
+     number is a gap. Smoothing is over shots, and never looks ahead.",
+    "The quantities and their keys:",
+];
+
+const DRILL_NOTES: [&str; 5] = [
+    "The line of aim is straight and ends where the cue ball meets the first ball or cushion, at the ring. It knows nothing \
+     of swerve, and nothing of what comes after. A ball is hit 100 % full head-on, 0 % where it is only grazed.",
+    "Strokes are played with the errors of the player who is named above. How often a stroke makes the point is from 1000 \
+     simulated strokes of that player.",
+    "An attempt for which the hint was shown counts like any other; the score tells how many there were.",
+    "Grades go from 1, the easiest, to 5; par is how often a beginner, a club player and an expert make the shot that is \
+     taught. An average is points an inning, and each miss ends an inning.",
+    "What you note at a real table tells your skill, as long as you play the shot that is taught. Every attempt is on the \
+     disk before it is shown.",
+];
+
+const FILM_NOTES: [&str; 3] = [
+    "Every second shot of a match, filmed at 50 pictures a second; the places are those of github.com/erdo100/3cushiontool \
+     (Apache-2.0). The full balls and the paths are the simulation's, the outlines, or small letters, the film's: where they \
+     agree, the ball hides its outline.",
+    "The stroke is fitted to the cue ball's first 2 s. All that comes later is predicted, and all that the object balls do.",
+    "The cue ball is drawn white, the other player's yellow. Whether a shot is a point, and how fast it is, is what the film \
+     shows. The tip is where a level cue would have met the ball to give it what was fitted.",
+];
+
+/// What the help says of the picture at `place`.
+fn notes(place: KeyContext) -> Vec<String> {
+    match place {
+        KeyContext::Coach => return COACH_NOTES.map(str::to_owned).to_vec(),
+        KeyContext::Drill(DrillContext::Films | DrillContext::Film) => return FILM_NOTES.map(str::to_owned).to_vec(),
+        KeyContext::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
+        KeyContext::Settings(_) => return SETTINGS_NOTES.map(str::to_owned).to_vec(),
+        _ => {}
+    }
+    let quantities: Vec<_> =
+        Quantity::ALL.iter().enumerate().map(|(n, one)| format!("{} {}", n + 1, one.name())).collect();
+    let rows = quantities.chunks(4).map(|row| row.join(", "));
+    TRAINING_NOTES.map(str::to_owned).into_iter().chain(rows).collect()
+}
+
+/// Draws the page `what` from its line `top` on; gives the first row of what stands below it.
+pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -> u16 {
+    let area = parts.screen;
+    let page = Rect::new(area.x + 2, area.y + 2, area.width.saturating_sub(4), area.height.saturating_sub(4));
+    let lines = match what {
+        Overlay::Help => lines(app, usize::from(page.width)),
+        Overlay::Messages => messages(app, usize::from(page.width)),
+    };
+    let last = lines.len().saturating_sub(usize::from(page.height));
+    app.set_help_end(last as u16);
+    let first = usize::from(top).min(last);
+    for (line, row) in lines[first..].iter().zip(page.y..page.bottom()) {
+        ui.buffer.set_line(page.x, row, line, page.width);
+    }
+    let hidden = last - first;
+    if hidden > 0 {
+        let more = format!("{hidden} more lines below");
+        ui.buffer.set_string(page.x, page.bottom(), more, ui.theme.faint());
+    }
+    page.bottom()
+}
+
+/// What was refused or has failed so far, the newest first.
+fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
+    let (theme, caps) = (app.theme(), app.caps());
+    let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];
+    if app.toasts().past().len() == 0 {
+        lines.push(Line::styled("Nothing was refused, and nothing has failed so far.", theme.text()));
+    }
+    for text in app.toasts().past() {
+        for (n, line) in wrap(text, width.saturating_sub(2)).into_iter().enumerate() {
+            let mark = if n == 0 { caps.pick("•", "-") } else { " " };
+            lines.push(Line::from(vec![
+                Span::styled(format!("{mark} "), theme.warning()),
+                Span::styled(line, theme.text()),
+            ]));
+        }
+    }
+    lines.push(Line::default());
+    let log = format!("With their times, and from earlier sessions too: {}", app.training().places.log.display());
+    lines.extend(wrap(&log, width).into_iter().map(|line| Line::styled(line, theme.faint())));
+    lines
+}
+
+fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
+    let (theme, caps) = (app.theme(), app.caps());
+    let (mut lines, all) = (Vec::new(), bindings(app.place()));
+    for section in Section::ALL {
+        let own: Vec<_> =
+            all.iter().filter(|binding| binding.section == section && binding.when != Condition::Help).collect();
+        if own.is_empty() {
+            continue;
+        }
+        lines.push(Line::styled(section.title(), theme.good()));
+        for binding in own {
+            let keys = keys_text(binding.keys.iter().flat_map(|(chord, ..)| app.keys().for_work_of(*chord)), caps);
+            let keys = wrap(&keys, KEYS - 1);
+            let words = wrap(binding.description, width.saturating_sub(KEYS + 2));
+            for n in 0..keys.len().max(words.len()) {
+                let line = |column: &[String]| column.get(n).cloned().unwrap_or_default();
+                lines.push(Line::from(vec![
+                    Span::styled(format!("  {:<KEYS$}", line(&keys)), theme.accent()),
+                    Span::styled(line(&words), theme.text()),
+                ]));
+            }
+        }
+        lines.push(Line::default());
+    }
+    lines.push(Line::styled("What is drawn", theme.good()));
+    let notes = notes(app.place()).into_iter().flat_map(|note| wrap(&note, width.saturating_sub(2)));
+    lines.extend(notes.map(|note| Line::styled(format!("  {note}"), theme.text())));
+    lines
+}

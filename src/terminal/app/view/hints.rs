@@ -1,0 +1,72 @@
+//! The last row: the keys that may be used now.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    app::{
+        App,
+        bindings::{Action, Bound, Condition, KeyContext, bindings},
+        palette_keys::PaletteAction,
+    },
+    keymap::{
+        Section,
+        chord::{Chord, keys_text},
+    },
+    pages::settings::keys::SettingsContext,
+    ui::Ui,
+};
+
+/// Columns between two hints.
+const GAP: usize = 3;
+
+/// Draws the keys that may be used now, as many as fit.
+pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
+    let all = bindings(app.place());
+    let mut hints: Vec<(&Bound, Line)> = all
+        .iter()
+        .filter(|binding| app.disabled_reason(binding.when).is_none())
+        .filter_map(|binding| Some((binding, hint(app, binding)?)))
+        .collect();
+    let room = usize::from(area.width.saturating_sub(1));
+    let width = |hints: &[(&Bound, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
+    // The keys of the program itself stay to the last, but for the command palette's and the way from the coach to another
+    // screen; the others go from the end.
+    let is_palette = |binding: &Bound| binding.keys[0].1 == Action::CommandPalette(PaletteAction::Open);
+    let stays = |binding: &Bound| {
+        binding.section == Section::Program && !matches!(binding.when, Condition::Coach(_)) && !is_palette(binding)
+    };
+    while width(&hints) > room + GAP {
+        let last = hints.iter().rposition(|(binding, _)| !stays(binding));
+        hints.remove(last.unwrap_or(hints.len() - 1));
+    }
+    let mut x = area.x + 1;
+    ui.buffer.set_style(area, ui.theme.text());
+    for (_, line) in hints {
+        x = ui.buffer.set_line(x, area.y, &line, area.right().saturating_sub(x)).0 + GAP as u16;
+    }
+}
+
+fn hint(app: &App, binding: &Bound) -> Option<Line<'static>> {
+    let (words, keys) = binding.hint?;
+    let keys = keys_text(binding.keys.iter().take(keys).filter_map(|(chord, ..)| working(app, *chord)), app.caps());
+    if keys.is_empty() {
+        return None;
+    }
+    Some(Line::from(vec![
+        Span::styled(keys, app.theme().accent()),
+        Span::styled(format!(" {words}"), app.theme().faint()),
+    ]))
+}
+
+/// A key that does the work of `chord` here: where letters are typed, none of the user's own; where a key is asked for,
+/// which has no other meaning there, `chord` itself.
+fn working(app: &App, chord: Chord) -> Option<Chord> {
+    let place = app.place();
+    if place == KeyContext::Settings(SettingsContext::Pressing) {
+        return Some(chord);
+    }
+    app.keys().for_work_of(chord).find(|pressed| !place.types(*pressed))
+}

@@ -1,0 +1,53 @@
+//! The screen as a whole: the open page between tabs and keys, and what lies over it.
+
+mod help;
+mod hints;
+mod palette;
+mod tabs;
+mod target;
+mod toasts;
+mod too_small;
+
+use ratatui::{buffer::Buffer, layout::Rect};
+
+use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
+use crate::terminal::{app::App, pages::PageArea, ui::Ui};
+
+pub use self::target::{Pointed, pointed_at};
+
+/// Columns and rows below which there is no room for the table and its panels.
+pub const SMALLEST: (u16, u16) = (80, 24);
+
+/// Whether there is no room for any page.
+pub const fn is_too_small(area: Rect) -> bool {
+    area.width < SMALLEST.0 || area.height < SMALLEST.1
+}
+
+/// The parts of the screen that are the open page's.
+pub fn page_area(app: &App, area: Rect) -> PageArea {
+    PageArea::new(area, tabs::rest(app, Rect { height: 1, ..area }))
+}
+
+/// Draws the screen that `app` is at.
+pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
+    let ui = &mut Ui { theme: app.theme(), caps: app.caps(), keys: app.keys(), buffer };
+    ui.buffer.set_style(area, ui.theme.text());
+    if is_too_small(area) {
+        too_small::draw(area, ui);
+        return;
+    }
+    let parts = page_area(app, area);
+    draw_tabs(app, Rect { height: 1, ..area }, ui);
+    draw_hints(app, Rect { y: area.bottom() - 1, height: 1, ..area }, ui);
+    // Whatever is to be read or answered begins there; toasts stay above it.
+    let mut foot = match app.help() {
+        Some((overlay, top)) => help::draw(app, overlay, top, &parts, ui),
+        None => app.page().draw(&parts, ui),
+    };
+    if let Some(command_palette) = app.command_palette() {
+        foot = palette::draw(app, command_palette, area, ui);
+    }
+    // The first row is the header's.
+    let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));
+    draw_toasts(app, room, ui);
+}

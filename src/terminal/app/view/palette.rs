@@ -1,0 +1,113 @@
+//! The command palette: a box over the screen with what can be done there.
+
+use ratatui::{
+    layout::Rect,
+    style::Modifier,
+    text::{Line, Span},
+    widgets::{Block, Clear, Widget},
+};
+
+use crate::terminal::{
+    app::{
+        App,
+        palette::{Command, CommandPalette},
+    },
+    ui::{
+        Ui,
+        message::Message,
+        panel::frame,
+        status_line::draw_status,
+        text::{cut, wrap, write_right},
+    },
+};
+
+/// Columns of the box at most, and beside it at least; its rows at most.
+const WIDTH: u16 = 100;
+const BESIDE: u16 = 3;
+const HEIGHT: u16 = 28;
+/// Rows of the box that are no commands: its frame, and what is typed.
+const FRAME: u16 = 3;
+/// Rows that stay free for the sentence on the marked command, and the keys.
+const BELOW: u16 = 3;
+/// Columns of the keys.
+const KEYS: u16 = 16;
+/// Columns of the row of what is typed that are the prompt's and the counts'.
+const COUNTS: usize = 16;
+/// Draws the palette over the screen in `area`, which has the smallest size at least; gives the first row of what stands
+/// below it.
+pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui) -> u16 {
+    let all = app.commands();
+    let count = all.len();
+    let found = command_palette.found(all);
+    // What is typed does not change the height: a box that jumps cannot be read.
+    let height = (count as u16 + FRAME).min(HEIGHT).min(area.height - BELOW - 1);
+    let width = WIDTH.min(area.width - 2 * BESIDE);
+    let place = Rect::new(area.x + (area.width - width) / 2, area.y + 1, width, height);
+    Clear.render(place, ui.buffer);
+    ui.buffer.set_style(place, ui.theme.text());
+    let title = Span::styled(" What can be done here ", ui.theme.text());
+    let frame = frame(Block::bordered(), ui.caps).border_style(ui.theme.faint()).title(title);
+    let inner = frame.inner(place);
+    frame.render(place, ui.buffer);
+    // Of what is typed the end is to be seen.
+    let typed = command_palette.typed();
+    let hidden = typed.chars().count().saturating_sub(usize::from(inner.width) - COUNTS);
+    let prompt = Line::from(vec![
+        Span::styled(" : ", ui.theme.accent()),
+        Span::styled(typed.chars().skip(hidden).collect::<String>(), ui.theme.text()),
+        Span::styled(" ", ui.theme.text().add_modifier(Modifier::REVERSED)),
+    ]);
+    ui.buffer.set_line(inner.x, inner.y, &prompt, inner.width);
+    let of = format!("{} of {count} ", found.len());
+    write_right(ui.buffer, inner.x, inner.right(), inner.y, &of, ui.theme.faint());
+
+    let rows = Rect { y: inner.y + 1, height: inner.height - 1, ..inner };
+    let (mark, most) = (command_palette.mark(found.len()), usize::from(rows.height));
+    let first = mark.saturating_sub(most / 2).min(found.len().saturating_sub(most));
+    for ((n, command), y) in found.iter().enumerate().skip(first).zip(rows.y..rows.bottom()) {
+        draw_command(app, command, n == mark, Rect { y, height: 1, ..rows }, ui);
+    }
+    let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);
+    draw_status(&standing(app, found.get(mark)), status, ui)
+}
+
+/// Draws one command: its keys, what it does, and why it may not be used now.
+fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, ui: &mut Ui) {
+    let reason = app.disabled_reason(command.when);
+    let (keys, words) =
+        if reason.is_some() { (ui.theme.faint(), ui.theme.faint()) } else { (ui.theme.accent(), ui.theme.text()) };
+    // The mark has to be read, whatever may be done.
+    let words = if is_marked { ui.theme.text() } else { words };
+    let text = sentence(command, reason);
+    let room = usize::from(area.width.saturating_sub(KEYS + 4));
+    ui.buffer.set_stringn(area.x + 2, area.y, &command.keys, usize::from(KEYS), keys);
+    ui.buffer.set_stringn(
+        area.x + KEYS + 3,
+        area.y,
+        cut(wrap(&text, room), 1, room, ui.caps).swap_remove(0),
+        room,
+        words,
+    );
+    if is_marked {
+        ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
+        ui.buffer.set_style(area, words.add_modifier(Modifier::REVERSED));
+    }
+}
+
+/// What a command does, and why not now.
+fn sentence(command: &Command, reason: Option<&str>) -> String {
+    reason.map_or_else(|| command.description.to_owned(), |reason| format!("{}: {reason}", command.description))
+}
+
+/// What the status line says: the marked command in full.
+fn standing(app: &App, marked: Option<&Command>) -> Message {
+    marked.map_or_else(
+        || Message::plain("nothing here is called like that"),
+        |command| {
+            let reason = app.disabled_reason(command.when);
+            let words = sentence(command, reason);
+            let message = if reason.is_some() { Message::poor(words) } else { Message::plain(words) };
+            message.after(command.title)
+        },
+    )
+}

@@ -1,0 +1,27 @@
+//! What the mouse can point at.
+
+use ratatui::layout::{Position, Rect};
+
+use super::{is_too_small, page_area, tabs::tabs};
+use crate::terminal::{app::App, effect::PageId, pages::Target};
+
+/// Something on the screen that answers to the mouse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pointed {
+    /// The tab of a screen.
+    Tab(PageId),
+    /// Something on the open page.
+    Page(Target),
+}
+
+/// What is drawn at a cell of the screen in `area`, nothing lying over it.
+pub fn pointed_at(app: &App, area: Rect, at: Position) -> Option<Pointed> {
+    if is_too_small(area) {
+        return None;
+    }
+    let header = Rect { height: 1, ..area };
+    if let Some((screen, ..)) = tabs(app, header).into_iter().find(|(_, place, _)| place.contains(at)) {
+        return Some(Pointed::Tab(screen));
+    }
+    app.page().target(&page_area(app, area), at).map(Pointed::Page)
+}

@@ -1,0 +1,170 @@
+//! What the terminal can show: how many colours and which characters, found out from the environment.
+
+/// How many colours the terminal has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// 24-bit colours.
+    True,
+    /// The 256 colours of xterm.
+    Indexed,
+    /// The 16 colours that the user has chosen.
+    Ansi,
+    /// None: `NO_COLOR` is set, or the terminal knows none.
+    Mono,
+}
+
+/// Which characters the table is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Glyphs {
+    /// Octants: two by four sub-pixels a cell. Few fonts have them, and multiplexers drop them: for those who ask for them.
+    Octant,
+    /// Sextants: two by three sub-pixels a cell.
+    Sextant,
+    /// Half blocks: one by two sub-pixels a cell, for fonts without sextants.
+    Half,
+    /// Letters and ASCII signs only.
+    Letters,
+}
+
+/// Everything that drawing has to know about the terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Capabilities {
+    /// Its colours.
+    pub depth: Depth,
+    /// Its characters.
+    pub glyphs: Glyphs,
+    /// Whether text may contain characters beyond ASCII.
+    pub unicode: bool,
+}
+
+impl Capabilities {
+    /// Reads the environment: `NO_COLOR`, `COLORTERM`, `TERM`, the locale, and `CAROM_GLYPHS` (`octant`, `sextant`,
+    /// `half` or `letters`), with which a user whose font has octants, or lacks sextants, chooses once and for all.
+    /// What was `chosen` in the settings goes before what the environment lets guess, and before `NO_COLOR`, but not before
+    /// `CAROM_GLYPHS`.
+    pub fn detect(variable: impl Fn(&str) -> Option<String>, chosen: (Option<Depth>, Option<Glyphs>)) -> Self {
+        let set = |name: &str| variable(name).filter(|value| !value.is_empty());
+        let term = set("TERM").unwrap_or_default();
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&set).unwrap_or_default().to_lowercase();
+        let unicode = locale.contains("utf-8") || locale.contains("utf8");
+        let depth = match chosen.0 {
+            Some(depth) => depth,
+            None if set("NO_COLOR").is_some() || term.starts_with("vt") => Depth::Mono,
+            None => depth(&term, set("COLORTERM").as_deref().unwrap_or_default()),
+        };
+        let named = set("CAROM_GLYPHS").unwrap_or_default();
+        let glyphs = match (named.as_str(), chosen.1) {
+            _ if !unicode || depth == Depth::Mono => Glyphs::Letters,
+            ("letters", _) => Glyphs::Letters,
+            ("half", _) => Glyphs::Half,
+            ("sextant", _) => Glyphs::Sextant,
+            ("octant", _) => Glyphs::Octant,
+            (_, Some(glyphs)) => glyphs,
+            // The Linux console has 512 glyphs, and sextants are not among them.
+            _ if term == "linux" => Glyphs::Half,
+            _ => Glyphs::Sextant,
+        };
+        Self { depth, glyphs, unicode }
+    }
+
+    /// The finest characters that may be drawn with: octants only where the user has asked for them.
+    pub fn finest(&self) -> Glyphs {
+        if self.glyphs == Glyphs::Octant { Glyphs::Octant } else { Glyphs::Sextant }
+    }
+
+    /// The next simpler set of characters that this terminal can show, and back to the `finest` after the simplest.
+    #[must_use]
+    pub fn with_next_glyphs(self, finest: Glyphs) -> Self {
+        let glyphs = match self.glyphs {
+            _ if !self.unicode || self.depth == Depth::Mono => Glyphs::Letters,
+            Glyphs::Octant => Glyphs::Sextant,
+            Glyphs::Sextant => Glyphs::Half,
+            Glyphs::Half => Glyphs::Letters,
+            Glyphs::Letters => finest,
+        };
+        Self { glyphs, ..self }
+    }
+
+    /// `fancy` where the terminal shows characters beyond ASCII, `plain` elsewhere.
+    pub const fn pick<T: Copy>(&self, fancy: T, plain: T) -> T {
+        if self.unicode { fancy } else { plain }
+    }
+}
+
+fn depth(term: &str, colorterm: &str) -> Depth {
+    // ssh does not forward COLORTERM, but these are known to have 24-bit colours by their name alone.
+    const TRUE_COLOUR: [&str; 6] = ["kitty", "alacritty", "wezterm", "ghostty", "foot", "direct"];
+    if matches!(colorterm, "truecolor" | "24bit") || TRUE_COLOUR.iter().any(|name| term.contains(name)) {
+        Depth::True
+    } else if term.contains("256") {
+        Depth::Indexed
+    } else {
+        Depth::Ansi
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn caps(variables: &[(&str, &str)]) -> Capabilities {
+        let variable =
+            |name: &str| variables.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned());
+        Capabilities::detect(variable, (None, None))
+    }
+
+    #[test]
+    fn a_modern_terminal_gets_sextants_in_true_colour() {
+        let found = caps(&[("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LANG", "de_DE.UTF-8")]);
+        assert_eq!(found, Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true });
+    }
+
+    #[test]
+    fn no_color_and_other_locales_get_letters() {
+        assert_eq!(caps(&[("TERM", "xterm"), ("NO_COLOR", "1"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Letters);
+        assert_eq!(caps(&[("TERM", "xterm"), ("LC_ALL", "C"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Letters);
+        assert_eq!(caps(&[("TERM", "xterm"), ("NO_COLOR", ""), ("LANG", "C.UTF-8")]).depth, Depth::Ansi);
+    }
+
+    #[test]
+    fn the_terminal_name_decides_where_colorterm_is_missing() {
+        assert_eq!(caps(&[("TERM", "tmux-256color")]).depth, Depth::Indexed);
+        assert_eq!(caps(&[("TERM", "xterm-kitty")]).depth, Depth::True);
+        assert_eq!(caps(&[("TERM", "linux"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Half);
+        assert_eq!(caps(&[("TERM", "vt100")]).depth, Depth::Mono);
+    }
+
+    #[test]
+    fn what_the_user_has_chosen_goes_before_what_is_guessed() {
+        let caps = |chosen: &str| {
+            let variable = |name: &str| match name {
+                "TERM" => Some("xterm".to_owned()),
+                "LANG" => Some("C.UTF-8".to_owned()),
+                "NO_COLOR" => Some("1".to_owned()),
+                "CAROM_GLYPHS" => Some(chosen.to_owned()),
+                _ => None,
+            };
+            Capabilities::detect(variable, (Some(Depth::Indexed), Some(Glyphs::Half)))
+        };
+        assert_eq!((caps("").depth, caps("").glyphs), (Depth::Indexed, Glyphs::Half));
+        assert_eq!(caps("sextant").glyphs, Glyphs::Sextant);
+    }
+
+    #[test]
+    fn glyphs_go_round_but_never_beyond_what_the_terminal_has() {
+        use Glyphs::{Half, Letters, Octant, Sextant};
+        let walk = |start: Capabilities| {
+            let mut looks = vec![start];
+            while looks.len() < 5 {
+                looks.push(looks[looks.len() - 1].with_next_glyphs(start.finest()));
+            }
+            looks.iter().map(|caps| caps.glyphs).collect::<Vec<_>>()
+        };
+        let start = caps(&[("TERM", "xterm"), ("LANG", "C.UTF-8")]);
+        assert_eq!(walk(start), [Sextant, Half, Letters, Sextant, Half]);
+        let asked = caps(&[("TERM", "xterm"), ("LANG", "C.UTF-8"), ("CAROM_GLYPHS", "octant")]);
+        assert_eq!(walk(asked), [Octant, Sextant, Half, Letters, Octant]);
+        let plain = caps(&[("TERM", "xterm"), ("CAROM_GLYPHS", "octant")]);
+        assert_eq!(walk(plain), [Letters; 5]);
+    }
+}

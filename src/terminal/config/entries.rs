@@ -1,0 +1,227 @@
+//! The table of settings: reading the file, its documentation and what is said of a wrong value all come from here.
+
+use std::path::Path;
+
+use toml::de::{DeFloat, DeInteger, DeValue};
+
+use crate::{
+    coach::Skill,
+    game::Rule,
+    table::PRESETS,
+    terminal::{
+        capabilities::{Depth, Glyphs},
+        config::Settings,
+        shot::{placing::STEPS, playback::SPEEDS},
+        ui::theme::Palette,
+    },
+};
+
+/// One key of the file.
+pub struct Entry {
+    /// Its heading on the screen; those that have the same stand together.
+    pub group: &'static str,
+    /// Its name.
+    pub key: &'static str,
+    /// What it is for.
+    pub about: &'static str,
+    /// What it accepts.
+    pub accepted: &'static str,
+    /// Values to step through, as TOML, all of which it accepts.
+    pub choices: fn() -> Vec<String>,
+    /// Its value as TOML.
+    pub get: fn(&Settings) -> String,
+    /// Takes a value; `None` if it is refused.
+    pub set: fn(&mut Settings, &DeValue) -> Option<()>,
+}
+
+/// How many colours, by name.
+const DEPTHS: [(&str, Option<Depth>); 5] = [
+    ("auto", None),
+    ("true", Some(Depth::True)),
+    ("256", Some(Depth::Indexed)),
+    ("16", Some(Depth::Ansi)),
+    ("none", Some(Depth::Mono)),
+];
+
+/// What the table is drawn with, by name.
+const GLYPHS: [(&str, Option<Glyphs>); 5] = [
+    ("auto", None),
+    ("octant", Some(Glyphs::Octant)),
+    ("sextant", Some(Glyphs::Sextant)),
+    ("half", Some(Glyphs::Half)),
+    ("letters", Some(Glyphs::Letters)),
+];
+
+/// Thinking times to step through, ms.
+const THINKING: [u64; 10] = [100, 250, 500, 1000, 2000, 3000, 5000, 10_000, 30_000, 60_000];
+
+/// All keys, in the order of the file.
+pub const ENTRIES: &[Entry] = &[
+    Entry {
+        group: "Looks",
+        key: "theme",
+        about: "Colours of the screen.",
+        accepted: "\"dark\", \"light\", \"high-contrast\", \"colour-blind\", \"mono\"",
+        choices: || Palette::ALL.map(|palette| quoted(palette.name())).to_vec(),
+        get: |settings| quoted(settings.palette.name()),
+        set: |settings, value| {
+            settings.palette = value.as_str()?.parse().ok()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Looks",
+        key: "colours",
+        about: "How many colours the terminal has; auto looks at NO_COLOR, COLORTERM and TERM.",
+        accepted: "\"auto\", \"true\", \"256\", \"16\", \"none\"",
+        choices: || DEPTHS.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(name(&DEPTHS, &settings.depth)),
+        set: |settings, value| {
+            settings.depth = named(&DEPTHS, value.as_str()?)?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Looks",
+        key: "glyphs",
+        about: "What the table is drawn with; auto looks at the locale and never takes octants, which few fonts have. CAROM_GLYPHS overrides it.",
+        accepted: "\"auto\", \"octant\", \"sextant\", \"half\", \"letters\"",
+        choices: || GLYPHS.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(name(&GLYPHS, &settings.glyphs)),
+        set: |settings, value| {
+            settings.glyphs = named(&GLYPHS, value.as_str()?)?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
+        key: "table",
+        about: "The table that is played on.",
+        accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there",
+        choices: || PRESETS.map(quoted).to_vec(),
+        get: |settings| quoted(&*settings.table),
+        set: |settings, value| {
+            value
+                .as_str()
+                .filter(|name| PRESETS.contains(name) || Path::new(name).is_file())?
+                .clone_into(&mut settings.table);
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
+        key: "rule",
+        about: "What counts as a point.",
+        accepted: "\"straight\", \"one-cushion\", \"three-cushion\"",
+        choices: || Rule::ALL.map(|rule| quoted(rule.name())).to_vec(),
+        get: |settings| quoted(settings.rule.name()),
+        set: |settings, value| {
+            settings.rule = value.as_str()?.parse().ok()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
+        key: "skill",
+        about: "Who plays: the errors that the coach reckons with.",
+        accepted: "\"perfect\", \"expert\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"",
+        choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(settings.skill.to_string()),
+        set: |settings, value| {
+            settings.skill = value.as_str()?.parse().ok()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
+        key: "plan",
+        about: "Whether the coach looks for shots that leave the next point easy.",
+        accepted: "true, false",
+        choices: truths,
+        get: |settings| settings.plan.to_string(),
+        set: |settings, value| {
+            settings.plan = value.as_bool()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
+        key: "think_ms",
+        about: "How long the coach may think, in milliseconds.",
+        accepted: "10 to 60000",
+        choices: || THINKING.map(|time| time.to_string()).to_vec(),
+        get: |settings| settings.think_ms.to_string(),
+        set: |settings, value| {
+            settings.think_ms = number(value, 10.0, 60_000.0).filter(|n| n.fract() == 0.0)? as u64;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Handling",
+        key: "step_mm",
+        about: "How far an arrow key moves a ball, in millimetres.",
+        accepted: "1, 5, 10, 50 or 100",
+        choices: || STEPS.map(decimal).to_vec(),
+        get: |settings| decimal(settings.step_mm),
+        set: |settings, value| {
+            settings.step_mm = one_of(value, &STEPS)?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Handling",
+        key: "speed",
+        about: "How fast shots are played, 1 as on the table.",
+        accepted: "0.1, 0.25, 0.5, 1, 2, 4 or 8",
+        choices: || SPEEDS.map(decimal).to_vec(),
+        get: |settings| decimal(settings.speed),
+        set: |settings, value| {
+            settings.speed = one_of(value, &SPEEDS)?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Handling",
+        key: "mouse",
+        about: "Whether the mouse moves balls and lists; without it the terminal's own selection stays as it is.",
+        accepted: "true, false",
+        choices: truths,
+        get: |settings| settings.mouse.to_string(),
+        set: |settings, value| {
+            settings.mouse = value.as_bool()?;
+            Some(())
+        },
+    },
+];
+
+fn truths() -> Vec<String> {
+    [false, true].map(|truth| truth.to_string()).to_vec()
+}
+
+fn quoted(value: impl Into<String>) -> String {
+    toml::Value::String(value.into()).to_string()
+}
+
+/// A number as TOML writes it: always with a point.
+fn decimal(value: f64) -> String {
+    toml::Value::Float(value).to_string()
+}
+
+/// A number, whole or not, in a range.
+fn number(value: &DeValue, least: f64, most: f64) -> Option<f64> {
+    let text = value.as_integer().map(DeInteger::as_str).or_else(|| value.as_float().map(DeFloat::as_str))?;
+    text.replace('_', "").parse().ok().filter(|number| (least..=most).contains(number))
+}
+
+/// One of some numbers.
+fn one_of(value: &DeValue, accepted: &[f64]) -> Option<f64> {
+    number(value, f64::MIN, f64::MAX).filter(|number| accepted.contains(number))
+}
+
+fn named<T: Copy>(names: &[(&str, T)], text: &str) -> Option<T> {
+    names.iter().find(|(name, _)| *name == text).map(|(_, value)| *value)
+}
+
+fn name<T: PartialEq>(names: &[(&'static str, T)], value: &T) -> &'static str {
+    names.iter().find(|(_, known)| known == value).map_or("auto", |(name, _)| name)
+}

@@ -1,0 +1,198 @@
+//! The user's file as it is read and written while the program runs, one errand after the other.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use crate::{
+    storage::{self, write_atomic},
+    terminal::config::{
+        Change, Complaint, Settings,
+        change::{changed, is_changeable},
+        read::{line_at, read},
+    },
+};
+
+/// Something that is to be done with the file.
+#[derive(Clone, Debug)]
+pub struct SettingsTask {
+    /// Tells this errand's report from those of others.
+    pub number: u64,
+    /// The file.
+    pub path: PathBuf,
+    /// What is to be changed; otherwise the file is read.
+    pub change: Option<Change>,
+}
+
+/// What has come of an errand.
+#[derive(Clone, Debug)]
+pub struct SettingsReport {
+    /// The errand's number.
+    pub number: u64,
+    /// What the file says now; `None` where it cannot be read or is no TOML.
+    pub settings: Option<Settings>,
+    /// Whether the file can be changed, as far as is known.
+    pub is_writable: bool,
+    /// Whether the change was not made because somebody else had changed the file.
+    pub is_refused: bool,
+    /// What is wrong, a sentence each.
+    pub troubles: Vec<String>,
+}
+
+/// The file, with what it said when it was read or written last.
+#[derive(Debug, Default)]
+pub struct SettingsFile {
+    seen: Option<Vec<u8>>,
+    /// Whether the last attempt to write it has failed.
+    has_failed: bool,
+}
+
+impl SettingsFile {
+    /// Does an errand. What somebody else has changed since the last one is read, and not written over.
+    pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
+        let SettingsTask { number, path, change } = task;
+        let report = |settings, is_writable, troubles| SettingsReport {
+            number: *number,
+            settings,
+            is_writable,
+            is_refused: false,
+            troubles,
+        };
+        let unwritten = |settings, sentence: String| {
+            let sentence =
+                format!("this holds until the program ends, but {} is left as it is: {sentence}", path.display());
+            report(settings, false, vec![sentence])
+        };
+        let found = match content(path) {
+            Ok(found) => found,
+            Err(error) if change.is_some() => return unwritten(None, error.to_string()),
+            Err(error) => {
+                let sentence = format!("{}: {}", path.display(), Complaint::of_file(&error));
+                return report(None, false, vec![sentence]);
+            }
+        };
+        let is_sound = str::from_utf8(found.as_deref().unwrap_or_default()).is_ok_and(is_changeable);
+        let known = is_sound.then(|| settings(found.as_deref()));
+        let is_as_seen = found == self.seen;
+        self.seen.clone_from(&found);
+        let Some(change) = change else {
+            return report(known, is_sound && !self.has_failed, troubles(path, found.as_deref()));
+        };
+        if !is_as_seen {
+            let sentence =
+                format!("{} has been changed by somebody else; it is read anew, change it again", path.display());
+            return SettingsReport { is_refused: true, ..report(known, is_sound, vec![sentence]) };
+        }
+        let text = found.as_deref().map(str::from_utf8).transpose();
+        let text = match text {
+            Ok(text) => text,
+            Err(error) => {
+                let line = line_at(&String::from_utf8_lossy(found.as_deref().unwrap_or_default()), error.valid_up_to());
+                return unwritten(known, format!("line {line} is no UTF-8"));
+            }
+        };
+        let new = match changed(text, change) {
+            Ok(new) => new,
+            Err(error) => return unwritten(known, error.to_string()),
+        };
+        if text != Some(&new) {
+            // What is linked from elsewhere stays linked.
+            let target = storage::target_of(path);
+            let written = write_atomic(&target, new.as_bytes());
+            self.has_failed = written.is_err();
+            if let Err(error) = written {
+                return unwritten(known, error.to_string());
+            }
+        }
+        let settings = settings(Some(new.as_bytes()));
+        self.seen = Some(new.into_bytes());
+        report(Some(settings), !self.has_failed, Vec::new())
+    }
+}
+
+/// The bytes of the file; `None` where there is none.
+fn content(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    match storage::read(path, storage::SMALL) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+fn settings(bytes: Option<&[u8]>) -> Settings {
+    read(&String::from_utf8_lossy(bytes.unwrap_or_default())).0
+}
+
+/// The mistakes in the file.
+fn troubles(path: &Path, bytes: Option<&[u8]>) -> Vec<String> {
+    let (_, complaints) = read(&String::from_utf8_lossy(bytes.unwrap_or_default()));
+    Complaint::sentences(path, &complaints)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::terminal::ui::theme::Palette;
+
+    fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
+        SettingsTask { number: 1, path: path.to_owned(), change: change.into() }
+    }
+
+    fn theme(name: &str) -> Change {
+        Change::Value("theme", format!("\"{name}\""))
+    }
+
+    #[test]
+    fn a_file_is_made_read_and_changed_and_links_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/config.toml");
+        let mut file = SettingsFile::default();
+        assert_eq!(file.run(&task(&path, None)).settings, Some(Settings::default()));
+        let report = file.run(&task(&path, theme("light")));
+        assert_eq!((report.settings.unwrap().palette, report.troubles.len()), (Palette::Light, 0));
+        let linked = folder.path().join("linked.toml");
+        std::os::unix::fs::symlink(&path, &linked).unwrap();
+        let mut file = SettingsFile::default();
+        file.run(&task(&linked, None));
+        assert!(file.run(&task(&linked, theme("mono"))).troubles.is_empty());
+        assert!(fs::symlink_metadata(&linked).unwrap().is_symlink());
+        assert!(fs::read_to_string(&path).unwrap().contains("theme = \"mono\""));
+    }
+
+    #[test]
+    fn what_others_write_meanwhile_is_read_and_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("config.toml");
+        let mut file = SettingsFile::default();
+        file.run(&task(&path, None));
+        for text in ["speed = 2.0\n", "speed = \n", ""] {
+            fs::write(&path, text).unwrap();
+            let report = file.run(&task(&path, theme("light")));
+            assert!(report.troubles[0].contains("changed by somebody else"), "{report:?}");
+            assert_eq!((report.settings, report.is_refused), (is_changeable(text).then(|| read(text).0), true));
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        fs::remove_file(&path).unwrap();
+        assert!(file.run(&task(&path, theme("light"))).troubles[0].contains("changed by somebody else"));
+        assert!(file.run(&task(&path, theme("light"))).troubles.is_empty(), "once more does it");
+    }
+
+    #[test]
+    fn a_damaged_file_is_named_with_its_line_and_left_as_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("config.toml");
+        for (bytes, line) in [(&b"plan = true\nspeed = = 2\n"[..], "line 2"), (b"plan = true\n# \xff\n", "line 2")] {
+            fs::write(&path, bytes).unwrap();
+            let mut file = SettingsFile::default();
+            assert!(!file.run(&task(&path, None)).is_writable);
+            let report = file.run(&task(&path, theme("light")));
+            assert!(!report.is_writable && report.troubles[0].contains(line), "{report:?}");
+            assert_eq!(fs::read(&path).unwrap(), bytes);
+        }
+        let report = SettingsFile::default().run(&task(folder.path(), theme("light")));
+        assert!(report.settings.is_none() && report.troubles[0].contains("holds until the program ends"), "{report:?}");
+    }
+}

@@ -1,0 +1,168 @@
+//! What the user has chosen once and for all: a file in TOML, every key of it optional.
+
+mod change;
+mod entries;
+mod file;
+mod read;
+pub mod saved_session;
+
+use std::{
+    fmt::Write,
+    io,
+    path::{Path, PathBuf},
+};
+
+use directories::ProjectDirs;
+
+use crate::{
+    coach::Skill,
+    game::Rule,
+    storage,
+    table::{PRESETS, Table},
+    terminal::{
+        capabilities::{Depth, Glyphs},
+        keymap::remap::{self, Keys},
+        ui::theme::Palette,
+    },
+};
+
+pub use change::Change;
+pub use entries::{ENTRIES, Entry};
+pub use file::{SettingsFile, SettingsReport, SettingsTask};
+pub use read::Complaint;
+
+/// What the program starts with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The colours.
+    pub palette: Palette,
+    /// How many colours the terminal has; `None` to find out.
+    pub depth: Option<Depth>,
+    /// What the table is drawn with; `None` to find out.
+    pub glyphs: Option<Glyphs>,
+    /// The table: a bundled one or the path of a TOML file.
+    pub table: String,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who plays.
+    pub skill: Skill,
+    /// Whether the coach has the next point in mind.
+    pub plan: bool,
+    /// How long the coach may think, ms. A quarter of the usual second finds an expert three-cushion shots that are made 98
+    /// times of 100; the rest is for players who err more and for the next point, and no longer than a player looks at the
+    /// table.
+    pub think_ms: u64,
+    /// The step of the arrow keys, mm.
+    pub step_mm: f64,
+    /// Seconds of a shot in a second of the screen.
+    pub speed: f64,
+    /// Whether the program takes the mouse.
+    pub mouse: bool,
+    /// Keys that do what others do.
+    pub keys: Keys,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            palette: Palette::default(),
+            depth: None,
+            glyphs: None,
+            table: "match".to_owned(),
+            rule: Rule::default(),
+            skill: Skill::EXPERT,
+            plan: true,
+            think_ms: 1000,
+            step_mm: 10.0,
+            speed: 1.0,
+            mouse: true,
+            keys: Keys::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The file of this user; where the user has no home, one in the working directory.
+    pub fn path() -> PathBuf {
+        ProjectDirs::from("", "", "carom")
+            .map_or_else(|| PathBuf::from("carom-config.toml"), |dirs| dirs.config_dir().join("config.toml"))
+    }
+
+    /// What the file says, or the defaults where there is none or a key is wrong; and what is wrong.
+    pub fn load(path: &Path) -> (Self, Vec<Complaint>) {
+        match storage::read(path, storage::SMALL) {
+            Ok(bytes) => read::read(&String::from_utf8_lossy(&bytes)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => (Self::default(), Vec::new()),
+            Err(error) => (Self::default(), vec![Complaint::of_file(&error)]),
+        }
+    }
+
+    /// The same with the setting called `key` at the value that `typed` is: as TOML, or a text without its quotes.
+    ///
+    /// # Errors
+    /// A sentence that names the value and what would be accepted.
+    pub fn with(&self, entry: &Entry, typed: &str) -> Result<Self, String> {
+        let quoted = toml::Value::String(typed.to_owned()).to_string();
+        for value in [typed, &quoted] {
+            let mut settings = self.clone();
+            if read::take_value(&mut settings, entry, value).is_some() {
+                if settings.table != self.table {
+                    settings.table()?;
+                }
+                return Ok(settings);
+            }
+        }
+        Err(format!("{} = {typed}; accepted is {}", entry.key, entry.accepted))
+    }
+
+    /// The same with all that is otherwise in `after` than in `before`.
+    pub fn with_changes(&self, before: &Self, after: &Self) -> Self {
+        let mut settings = self.clone();
+        for entry in ENTRIES {
+            let value = (entry.get)(after);
+            if (entry.get)(before) != value {
+                // A table that cannot be read does not come into force.
+                settings = settings.with(entry, &value).unwrap_or(settings);
+            }
+        }
+        if before.keys != after.keys {
+            settings.keys.clone_from(&after.keys);
+        }
+        settings
+    }
+
+    /// The table that is named.
+    ///
+    /// # Errors
+    /// A sentence where its file cannot be read or holds no table.
+    pub fn table(&self) -> Result<Table, String> {
+        if PRESETS.contains(&self.table.as_str()) {
+            return Table::preset(&self.table).map_err(|error| error.to_string());
+        }
+        let text = storage::read_text(self.table.as_ref(), storage::SMALL).map_err(|error| error.to_string());
+        let table = text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string()));
+        table.map_err(|sentence| format!("{}: {sentence}", self.table))
+    }
+
+    /// The settings as a file with everything that may stand in it, each key with what it means and accepts.
+    pub fn document(&self) -> String {
+        let mut text = String::from(
+            "# Everything that carom can be told once and for all. A key that is left out has its default.\n",
+        );
+        for entry in ENTRIES {
+            // Writing into a text never fails.
+            let _ = write!(
+                text,
+                "\n# {}\n# Accepted: {}. Default: {}.\n{} = {}\n",
+                entry.about,
+                entry.accepted,
+                (entry.get)(&Self::default()),
+                entry.key,
+                (entry.get)(self)
+            );
+        }
+        text.push_str(remap::ABOUT);
+        text.push_str(&self.keys.document());
+        text
+    }
+}

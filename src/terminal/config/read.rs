@@ -1,0 +1,178 @@
+//! Reading the file: every right key counts, every wrong one is named with its line and what would be accepted.
+
+use std::{fmt, io, path::Path};
+
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+use crate::terminal::{
+    config::{
+        Settings,
+        entries::{ENTRIES, Entry},
+    },
+    keymap::remap::chord,
+};
+
+/// The name of the part with the keys.
+pub const KEYS: &str = "keys";
+
+/// Something wrong in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint {
+    /// The line, counted from 1; `None` where the whole file cannot be read.
+    pub line: Option<usize>,
+    /// What is wrong, and what would be accepted.
+    pub text: String,
+}
+
+impl Complaint {
+    /// A file that cannot be read.
+    pub fn of_file(error: &io::Error) -> Self {
+        Self { line: None, text: format!("it cannot be read: {error}; the defaults are used") }
+    }
+
+    /// What is wrong with the file at `path`, a sentence each.
+    pub fn sentences(path: &Path, complaints: &[Self]) -> Vec<String> {
+        complaints.iter().map(|complaint| format!("{}: {complaint}", path.display())).collect()
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(formatter, "line {line}: ")?;
+        }
+        formatter.write_str(&self.text)
+    }
+}
+
+/// The settings in `text`, with defaults for what is missing or wrong.
+pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
+    let mut settings = Settings::default();
+    let mut complaints = Vec::new();
+    let line = |start: usize| Some(line_at(text, start));
+    let (table, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        let line = error.span().and_then(|span| line(span.start));
+        complaints.push(Complaint { line, text: error.message().to_owned() });
+    }
+    for (key, value) in table.get_ref() {
+        let mut complain = |text| complaints.push(Complaint { line: line(key.span().start), text });
+        let name = key.get_ref().as_ref();
+        if name == KEYS {
+            match value.get_ref().as_table() {
+                Some(keys) => read_keys(&mut settings, keys, |at, text| {
+                    complaints.push(Complaint { line: line(at), text });
+                }),
+                None => complain("keys is no table; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned()),
+            }
+        } else if let Some(entry) = ENTRIES.iter().find(|entry| entry.key == name) {
+            if (entry.set)(&mut settings, value.get_ref()).is_none() {
+                let (given, default) = (shown(text, value), (entry.get)(&Settings::default()));
+                complain(format!("{name} = {given}; accepted is {}. It is taken as {default}", entry.accepted));
+            }
+        } else {
+            let known: Vec<&str> = ENTRIES.iter().map(|entry| entry.key).chain([KEYS]).collect();
+            complain(format!("there is no setting \"{name}\"; there are {}", known.join(", ")));
+        }
+    }
+    complaints.sort_by_key(|complaint| complaint.line);
+    (settings, complaints)
+}
+
+/// Takes `value`, a value as TOML writes it; `None` where it is none or is refused.
+pub fn take_value(settings: &mut Settings, entry: &Entry, value: &str) -> Option<()> {
+    let text = format!("value = {value}");
+    let table = DeTable::parse(&text).ok()?;
+    let mut values = table.get_ref().values();
+    // One value, and not more lines.
+    let value = values.next().filter(|_| values.next().is_none())?;
+    (entry.set)(settings, value.get_ref())
+}
+
+/// The number of the line with the byte at `place`, counted from 1. A place may lie within a letter.
+pub fn line_at(text: &str, place: usize) -> usize {
+    text.bytes().take(place).filter(|byte| *byte == b'\n').count() + 1
+}
+
+/// Reads the part with the keys; `complain` gets the place in the text of what is wrong.
+fn read_keys(settings: &mut Settings, keys: &DeTable, mut complain: impl FnMut(usize, String)) {
+    for (key, value) in keys {
+        let place = key.span().start;
+        let written = key.get_ref().as_ref();
+        let Some(pressed) = chord(written) else {
+            complain(place, refused(written));
+            continue;
+        };
+        match value.get_ref().as_str() {
+            Some(text) => match chord(text) {
+                Some(meant) => settings.keys.add(pressed, meant),
+                None => complain(place, refused(text)),
+            },
+            None => complain(place, format!("\"{written}\" needs the name of another key in quotes, like \"Enter\"")),
+        }
+    }
+}
+
+fn refused(text: &str) -> String {
+    format!(
+        "\"{text}\" is no key; accepted are a letter or sign, Enter, Esc, Space, Tab, Left, F1, ... also with Ctrl- or Shift-"
+    )
+}
+
+/// The value as it stands in the file.
+fn shown(text: &str, value: &Spanned<DeValue>) -> String {
+    text.get(value.span()).unwrap_or_default().lines().next().unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{coach::Skill, game::Rule, terminal::ui::theme::Palette};
+
+    #[test]
+    fn the_documentation_is_itself_a_file_and_changes_nothing() {
+        let mut settings = Settings { palette: Palette::Light, rule: Rule::ThreeCushion, ..Settings::default() };
+        settings.skill = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1".parse().unwrap();
+        settings.keys.add(chord("x").unwrap(), chord("Ctrl-r").unwrap());
+        assert_eq!(read(&settings.document()), (settings, Vec::new()));
+        let defaults = Settings::default();
+        assert_eq!(read(&defaults.document()), (defaults.clone(), Vec::new()));
+        assert_eq!(read(""), (defaults, Vec::new()));
+    }
+
+    #[test]
+    fn every_wrong_line_is_named_and_the_others_count() {
+        let text = "theme = \"light\"\nspeed = 9.5\nskill = 3\n\ntempo = 1\nthink_ms = 0.5\n[keys]\n\"Hyper-x\" = \"Enter\"\n\"x\" = \"Enter\"\n";
+        let (settings, complaints) = read(text);
+        assert_eq!((settings.palette, settings.speed, settings.skill), (Palette::Light, 1.0, Skill::EXPERT));
+        assert_ne!(settings.keys, Settings::default().keys);
+        let said: Vec<String> = complaints.iter().map(ToString::to_string).collect();
+        assert_eq!(complaints.iter().map(|complaint| complaint.line).collect::<Vec<_>>(), [2, 3, 5, 6, 8].map(Some));
+        assert!(said[0].contains("speed = 9.5") && said[0].contains("4 or 8"), "{said:?}");
+        assert!(said[2].contains("tempo") && said[2].contains("think_ms"), "{said:?}");
+        assert!(said[4].contains("Hyper-x"), "{said:?}");
+    }
+
+    #[test]
+    fn a_mistake_among_letters_of_several_bytes_has_its_line_too() {
+        for text in ["#\u{20ac}\ntheme = \u{201c}dark\u{201d}\n", "rule = \"\u{fc}\"\n\u{fc} = 1\n", "x = '\u{1f3b1}\n"]
+        {
+            assert!(!read(text).1.is_empty(), "{text}");
+        }
+        let euro = "\n\u{20ac}\n";
+        assert_eq!([1, 2, 3, 4, 5, 99].map(|place| line_at(euro, place)), [2, 2, 2, 2, 3, 3]);
+    }
+
+    #[test]
+    fn a_mistake_in_the_syntax_costs_one_line_only() {
+        let (settings, complaints) = read("theme = dark light\nrule = \"one-cushion\"\n");
+        assert_eq!(settings.rule, Rule::OneCushion);
+        assert!(
+            !complaints.is_empty() && complaints.iter().all(|complaint| complaint.line == Some(1)),
+            "{complaints:?}"
+        );
+    }
+}

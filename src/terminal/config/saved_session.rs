@@ -1,0 +1,129 @@
+//! Where the last session ended, so that the next one can go on from there.
+
+use std::{io, path::Path};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    coach::Skill,
+    drills::Session,
+    game::Rule,
+    storage::{self, replace},
+    table::{CueBall, Layout, Table},
+};
+
+/// The version of the file that is written.
+const VERSION: u32 = 1;
+
+/// What is remembered of a session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SavedSession {
+    version: u32,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lay.
+    pub layout: Layout,
+    /// Which of them was the cue ball.
+    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    pub cue_ball: CueBall,
+    /// What counted as a point.
+    pub rule: Rule,
+    /// Who played.
+    pub skill: Skill,
+    /// Whether the next point counted too.
+    pub plan: bool,
+    /// What was practised, where that was on the screen and not over.
+    #[serde(default)]
+    pub practice: Option<Session>,
+}
+
+impl SavedSession {
+    /// What is to be remembered of the coach's screen.
+    pub const fn new(table: Table, layout: Layout, rule: Rule, skill: Skill, plan: bool) -> Self {
+        Self { version: VERSION, table, layout, cue_ball: CueBall::White, rule, skill, plan, practice: None }
+    }
+
+    /// The same with another cue ball.
+    #[must_use]
+    pub fn with_cue_ball(self, cue_ball: CueBall) -> Self {
+        Self { cue_ball, ..self }
+    }
+
+    /// The same with what is practised.
+    #[must_use]
+    pub fn with_practice(self, practice: Option<Session>) -> Self {
+        Self { practice, ..self }
+    }
+
+    /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
+    /// nobody is to be bothered about it.
+    pub fn load(path: &Path) -> Option<Self> {
+        let mut last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
+        last.table = renewed(last.table);
+        (last.version == VERSION && last.layout.validate(&last.table).is_ok()).then_some(last)
+    }
+
+    /// Writes it down.
+    ///
+    /// # Errors
+    /// Whatever the file system reports; what stood there stays.
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        let bytes = serde_json::to_vec(self).map_err(io::Error::from)?;
+        replace(path, &bytes)
+    }
+}
+
+/// The table that the name "match" means now, where this is the one that it meant in older versions.
+fn renewed(table: Table) -> Table {
+    let is_former = |textbook: Table| Table { name: table.name.clone(), ..textbook } == table;
+    if table.name == "match" && Table::preset("textbook").is_ok_and(is_former) { Table::default() } else { table }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_session_is_read_back_and_whatever_else_stands_there_is_ignored() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state/last.json");
+        assert_eq!(SavedSession::load(&path), None);
+        let table = Table::default();
+        let last = SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
+        last.save(&path).unwrap();
+        assert_eq!(SavedSession::load(&path), Some(last.clone()));
+        let newer = SavedSession { version: VERSION + 1, ..last.clone() };
+        newer.save(&path).unwrap();
+        assert_eq!(SavedSession::load(&path), None);
+        let mut impossible = last;
+        impossible.layout.balls[1] = impossible.layout.balls[0];
+        impossible.save(&path).unwrap();
+        assert_eq!(SavedSession::load(&path), None);
+        let mut endless =
+            SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false);
+        endless.table.sliding_friction = 0.0;
+        endless.save(&path).unwrap();
+        assert_eq!(SavedSession::load(&path), None, "no shot would end on this table");
+        std::fs::write(&path, "{").unwrap();
+        assert_eq!(SavedSession::load(&path), None);
+    }
+
+    #[test]
+    fn a_session_on_the_former_match_table_goes_on_on_the_present_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("last.json");
+        let on = |textbook: &str, name: &str| {
+            let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
+            SavedSession::new(table.clone(), Layout::opening(&table), Rule::OneCushion, Skill::CLUB, false)
+                .save(&path)
+                .unwrap();
+            SavedSession::load(&path).unwrap().table
+        };
+        assert_eq!(on("textbook", "match"), Table::default());
+        assert_eq!(on("thesis", "match").length, Table::preset("thesis").unwrap().length, "somebody's own");
+        assert_eq!(on("textbook", "textbook"), Table::preset("textbook").unwrap());
+    }
+}

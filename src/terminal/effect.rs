@@ -1,0 +1,70 @@
+//! What pages ask of the program around them, and the names of the pages.
+
+use std::path::PathBuf;
+
+use crate::{
+    learning::run::request::Request,
+    terminal::{
+        config::SettingsTask,
+        tasks::{
+            drills::DrillTask,
+            recommender::Job,
+            training::{Keeping, Launch},
+        },
+    },
+};
+
+/// What the program around the app has to do.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Ask the coach and hand the answer to [`App::receive`].
+    Recommend(Box<Job>),
+    /// Ask it for a closer look at the shot that is shown, in the same way.
+    Study(Box<Job>),
+    /// Start a process that trains; how it ends goes to [`App::receive_report`], as do the answers to what follows.
+    Train(Box<Launch>),
+    /// Ask a run for something.
+    Send(Request, PathBuf),
+    /// Keep a policy under a name.
+    Keep(Box<Keeping>),
+    /// Read the policy of the run in this folder.
+    LoadPolicy(PathBuf),
+    /// Do these, one after the other; what comes of them goes to [`App::receive_drill`].
+    Drill(Vec<DrillTask>),
+    /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`].
+    Settings(Box<SettingsTask>),
+    /// Put a text into the terminal's clipboard, where it allows that.
+    Copy(String),
+    /// Stop until the shell continues the program.
+    Suspend,
+    /// End.
+    Quit,
+}
+
+/// The screens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PageId {
+    /// The table, and what the coach recommends.
+    Coach,
+    /// Exercises, and the player at them.
+    Drills,
+    /// Runs, and how they learn.
+    Training,
+    /// What is set once and for all.
+    Settings,
+}
+
+impl PageId {
+    /// All of them, in the order of their tabs.
+    pub const ALL: [Self; 4] = [Self::Coach, Self::Drills, Self::Training, Self::Settings];
+
+    /// What stands on its tab.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Coach => "Coach",
+            Self::Drills => "Drills",
+            Self::Training => "Training",
+            Self::Settings => "Settings",
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! The terminal while the program has it: taken over, given back as it was found, whatever ends the program.
+
+#![allow(
+    clippy::disallowed_methods,
+    reason = "what takes the terminal over are control characters; text goes through the painter"
+)]
+
+use std::{
+    fs::File,
+    io::{self, IsTerminal, Write},
+    os::fd::AsFd,
+    panic,
+    sync::atomic::{AtomicBool, Ordering},
+    thread,
+};
+
+use crossterm::{
+    clipboard::CopyToClipboard,
+    cursor::{Hide, Show},
+    event::{DisableBracketedPaste, EnableBracketedPaste},
+    execute, queue,
+    style::Print,
+    terminal::{
+        EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode, size,
+    },
+};
+use ratatui::{
+    Frame, Terminal,
+    layout::{Position, Rect},
+};
+
+use crate::{printing::OneLine, terminal::host::backend::AnsiBackend};
+
+/// Whether the program has the terminal. A process has one, and a panic has to know: giving it back twice would move the
+/// cursor onto the report.
+static TAKEN: AtomicBool = AtomicBool::new(false);
+
+/// Has the mouse's buttons, wheel and drags reported, and no motion between (modes 1002 and 1006 of xterm). Crossterm's own
+/// command adds mode 1003, whose reports of every motion flood a slow link.
+const ENABLE_MOUSE: &str = "\x1b[?1002h\x1b[?1006h";
+/// Ends that; a terminal that never began it takes no notice.
+const DISABLE_MOUSE: &str = "\x1b[?1006l\x1b[?1002l";
+
+/// The terminal in raw mode with its alternate screen; dropping it gives the terminal back.
+pub struct TerminalGuard {
+    terminal: Terminal<AnsiBackend>,
+    output: File,
+    /// Whether the mouse is reported.
+    mouse: bool,
+}
+
+impl TerminalGuard {
+    /// Takes the terminal over, and the `mouse` where it is wanted.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn start(mouse: bool) -> io::Result<Self> {
+        let output = File::from(io::stdout().as_fd().try_clone_to_owned()?);
+        restore_on_panic();
+        let terminal = Terminal::new(AnsiBackend::new(size))?;
+        let mut session = Self { terminal, output, mouse };
+        session.enter()?;
+        Ok(session)
+    }
+
+    /// Takes the terminal over again after [`TerminalGuard::leave`], or after somebody else has changed it.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn enter(&mut self) -> io::Result<()> {
+        TAKEN.store(true, Ordering::SeqCst);
+        enable_raw_mode()?;
+        let mouse = if self.mouse { ENABLE_MOUSE } else { "" };
+        execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste, Print(mouse))?;
+        self.terminal.backend_mut().forget();
+        // The next picture has to be painted in full. `Terminal::clear` would ask the terminal for the cursor's place, and
+        // the answer would have to get past the thread that reads keys.
+        let size = self.terminal.size()?;
+        self.terminal.resize(Rect::from((Position::ORIGIN, size)))
+    }
+
+    /// Takes the mouse or leaves it to the terminal, where that is not so already.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn want_mouse(&mut self, mouse: bool) -> io::Result<()> {
+        if std::mem::replace(&mut self.mouse, mouse) == mouse {
+            return Ok(());
+        }
+        execute!(self.output, Print(if mouse { ENABLE_MOUSE } else { DISABLE_MOUSE }))
+    }
+
+    /// Gives the terminal back.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn leave(&mut self) -> io::Result<()> {
+        if !TAKEN.swap(false, Ordering::SeqCst) {
+            return Ok(());
+        }
+        let shown = give_back(&mut self.output);
+        disable_raw_mode().and(shown)
+    }
+
+    /// Puts `text` into the terminal's clipboard by OSC 52, which terminals that do not allow it ignore.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn copy(&mut self, text: &str) -> io::Result<()> {
+        execute!(self.output, CopyToClipboard::to_clipboard_from(text))
+    }
+
+    /// Draws one picture and writes what has changed, in one piece; nothing where nothing has.
+    ///
+    /// # Errors
+    /// What the terminal answers.
+    pub fn draw(&mut self, draw: impl FnOnce(&mut Frame)) -> io::Result<()> {
+        self.terminal.draw(draw)?;
+        self.terminal.backend_mut().write_frame(&mut self.output)
+    }
+}
+
+impl Drop for TerminalGuard {
+    fn drop(&mut self) {
+        // There is nobody left to tell.
+        let _ = self.leave();
+    }
+}
+
+/// Whether there is a terminal on both sides that can show pictures.
+pub fn has_terminal() -> bool {
+    let dumb = std::env::var("TERM").map_or(true, |term| term.is_empty() || term == "dumb");
+    io::stdin().is_terminal() && io::stdout().is_terminal() && !dumb
+}
+
+/// Writes what gives the terminal back, in one piece: nobody sees half of it.
+fn give_back(output: &mut impl Write) -> io::Result<()> {
+    let mut bytes = Vec::new();
+    queue!(bytes, EndSynchronizedUpdate, Print(DISABLE_MOUSE), DisableBracketedPaste, Show, LeaveAlternateScreen)?;
+    output.write_all(&bytes)?;
+    output.flush()
+}
+
+/// Lets a panic of this thread restore the terminal before it is reported. Panics of other threads are caught where
+/// they happen and told on the status line; a report in the middle of the picture would help nobody.
+fn restore_on_panic() {
+    let screen = thread::current().id();
+    let report = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        tracing::error!("{}", OneLine(&info));
+        if thread::current().id() == screen && TAKEN.swap(false, Ordering::SeqCst) {
+            let _ = disable_raw_mode();
+            let _ = give_back(&mut io::stdout());
+        }
+        if thread::current().id() == screen {
+            report(info);
+        }
+    }));
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+
+    use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+    use ratatui::style::Style;
+
+    use crate::terminal::host::guard::TerminalGuard;
+
+    #[test]
+    #[ignore = "the next test runs it, in a terminal of its own"]
+    fn draws_and_panics() {
+        let mut session = TerminalGuard::start(true).unwrap();
+        session.draw(|frame| frame.buffer_mut().set_string(0, 0, "picture", Style::new())).unwrap();
+        panic!("something is wrong");
+    }
+
+    #[test]
+    fn a_panic_gives_the_terminal_back_and_is_reported_then() {
+        let pair = native_pty_system().openpty(PtySize::default()).unwrap();
+        let mut command = CommandBuilder::new(std::env::current_exe().unwrap());
+        command.args(["--exact", "--ignored", "--nocapture", "terminal::host::guard::tests::draws_and_panics"]);
+        let mut child = pair.slave.spawn_command(command).unwrap();
+        drop(pair.slave);
+        let (mut reader, mut bytes) = (pair.master.try_clone_reader().unwrap(), Vec::new());
+        // The end of a pseudo-terminal is an error to whoever reads it.
+        let _ = reader.read_to_end(&mut bytes);
+        assert_eq!(child.wait().unwrap().exit_code(), 101);
+        let text = String::from_utf8_lossy(&bytes);
+        let [picture, back, report] =
+            ["picture", "\x1b[?1049l", "something is wrong"].map(|part| text.find(part).expect(part));
+        assert!(picture < back && back < report, "{text:?}");
+        assert!(text[report..].contains("\r\n"), "raw mode was left on: {text:?}");
+        let mut terminal = vt100::Parser::default();
+        terminal.process(&bytes);
+        let screen = terminal.screen();
+        assert!(!screen.alternate_screen() && !screen.hide_cursor() && !screen.bracketed_paste());
+        assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+    }
+}

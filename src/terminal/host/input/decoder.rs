@@ -1,0 +1,233 @@
+//! From bytes to events, one byte after the other.
+
+use std::time::Duration;
+
+use crossterm::event::{Event, KeyCode, KeyModifiers};
+
+use crate::terminal::host::input::{
+    csi,
+    keys::{alt, character, control, key},
+    mouse,
+    paste::{self, Paste},
+};
+
+/// Silence after which an escape character was the key.
+const LONE_ESCAPE: Duration = Duration::from_millis(30);
+/// Silence after which the rest of a sequence will not come any more.
+const CUT: Duration = Duration::from_millis(100);
+/// Longest parameters that mean something to anybody, bytes.
+const LONGEST: usize = 64;
+
+const ESCAPE: u8 = 0x1b;
+
+/// What has been begun.
+#[derive(Debug, Default)]
+enum State {
+    #[default]
+    Ground,
+    /// After an escape character.
+    Escape,
+    /// After `ESC [`, with the parameters so far.
+    Csi(Vec<u8>),
+    /// After `ESC [ [`: function keys of the Linux console.
+    Console,
+    /// After `ESC O`.
+    Ss3,
+    /// After `ESC [ M`: three bytes of an old mouse's report.
+    Mouse(Vec<u8>),
+    /// A string that a terminal answers with, up to its terminator: what introduced it, whether anything came since, and
+    /// whether the last of that was an escape character.
+    Reply {
+        introducer: u8,
+        has_content: bool,
+        escape: bool,
+    },
+    /// A character of several bytes, behind an escape character or not.
+    Character {
+        bytes: Vec<u8>,
+        is_alt: bool,
+    },
+    Paste(Paste),
+}
+
+/// Makes events of bytes.
+#[derive(Debug, Default)]
+pub struct Decoder {
+    state: State,
+    /// Whether the last paste has lost its end: what comes next may be more of it.
+    cut_paste: bool,
+}
+
+impl Decoder {
+    /// Takes in what was read at once.
+    pub fn feed(&mut self, bytes: &[u8], events: &mut Vec<Event>) {
+        // A paste that stood still on its way is no row of keys.
+        if std::mem::take(&mut self.cut_paste) && matches!(self.state, State::Ground) && paste::has_end(bytes) {
+            self.state = State::Paste(Paste::default());
+        }
+        for &byte in bytes {
+            self.state = match std::mem::take(&mut self.state) {
+                State::Ground => ground(byte, false, events),
+                State::Escape => after_escape(byte, events),
+                State::Csi(parameters) => in_csi(parameters, byte, events),
+                State::Console => {
+                    if (b'A'..=b'E').contains(&byte) {
+                        events.push(key(KeyCode::F(byte - b'A' + 1)));
+                        State::Ground
+                    } else {
+                        abandon(byte, events)
+                    }
+                }
+                State::Ss3 => match csi::ss3(byte) {
+                    Some(event) => {
+                        events.push(event);
+                        State::Ground
+                    }
+                    None => abandon(byte, events),
+                },
+                State::Mouse(bytes) => in_mouse(bytes, byte, events),
+                State::Reply { introducer, has_content, escape } => {
+                    in_reply(introducer, has_content, escape, byte, events)
+                }
+                State::Character { bytes, is_alt } => in_character(bytes, is_alt, byte, events),
+                State::Paste(mut paste) => match paste.push(byte) {
+                    Some(text) => {
+                        events.push(Event::Paste(text));
+                        State::Ground
+                    }
+                    None => State::Paste(paste),
+                },
+            };
+        }
+    }
+
+    /// How long to wait for more before [`Decoder::silence`]; `None` where nothing has been begun.
+    pub fn patience(&self) -> Option<Duration> {
+        match &self.state {
+            State::Ground => None,
+            State::Escape => Some(LONE_ESCAPE),
+            State::Paste(paste) => Some(paste.patience()),
+            _ => Some(CUT),
+        }
+    }
+
+    /// Nothing has come for as long as [`Decoder::patience`] said: what was begun is all there is.
+    pub fn silence(&mut self, events: &mut Vec<Event>) {
+        match std::mem::take(&mut self.state) {
+            State::Escape => events.push(key(KeyCode::Esc)),
+            State::Csi(parameters) if parameters.is_empty() => events.push(alt(b'[')),
+            State::Ss3 => events.push(alt(b'O')),
+            State::Reply { introducer, has_content: false, .. } => events.push(alt(introducer)),
+            State::Paste(paste) => {
+                self.cut_paste = !paste.is_broken_off();
+                events.push(paste.cut());
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A byte that begins something.
+fn ground(byte: u8, is_alt: bool, events: &mut Vec<Event>) -> State {
+    match byte {
+        ESCAPE => return State::Escape,
+        0x80.. => return in_character(Vec::new(), is_alt, byte, events),
+        _ => {}
+    }
+    let mut event = control(byte).unwrap_or_else(|| character(char::from(byte)));
+    if let (true, Event::Key(key)) = (is_alt, &mut event) {
+        key.modifiers |= KeyModifiers::ALT;
+    }
+    events.push(event);
+    State::Ground
+}
+
+/// A byte that does not belong to what was begun: that is dropped, and this one counts.
+fn abandon(byte: u8, events: &mut Vec<Event>) -> State {
+    match byte {
+        // Their only meaning is to end a sequence.
+        0x18 | 0x1a => State::Ground,
+        0..0x20 => ground(byte, false, events),
+        _ => State::Ground,
+    }
+}
+
+fn after_escape(byte: u8, events: &mut Vec<Event>) -> State {
+    match byte {
+        b'[' => State::Csi(Vec::new()),
+        b'O' => State::Ss3,
+        b']' | b'P' | b'X' | b'^' | b'_' => State::Reply { introducer: byte, has_content: false, escape: false },
+        // Two keys, and the second may begin a sequence. Ctrl-C has to be heard whatever came before.
+        ESCAPE | 0x03 => {
+            events.push(key(KeyCode::Esc));
+            ground(byte, false, events)
+        }
+        _ => ground(byte, true, events),
+    }
+}
+
+fn in_csi(mut parameters: Vec<u8>, byte: u8, events: &mut Vec<Event>) -> State {
+    match byte {
+        0x20..=0x3f => {
+            // One more than means anything, so that it is known to mean nothing.
+            if parameters.len() <= LONGEST {
+                parameters.push(byte);
+            }
+            State::Csi(parameters)
+        }
+        b'[' if parameters.is_empty() => State::Console,
+        b'M' if parameters.is_empty() => State::Mouse(Vec::new()),
+        b'~' if parameters == b"200" => State::Paste(Paste::default()),
+        0x40..=0x7e => {
+            events.extend(csi::event(&parameters, byte).filter(|_| parameters.len() <= LONGEST));
+            State::Ground
+        }
+        _ => abandon(byte, events),
+    }
+}
+
+fn in_mouse(mut bytes: Vec<u8>, byte: u8, events: &mut Vec<Event>) -> State {
+    if byte < 0x20 {
+        return abandon(byte, events);
+    }
+    bytes.push(byte);
+    let Ok([button, column, row]) = <[u8; 3]>::try_from(bytes.as_slice()) else { return State::Mouse(bytes) };
+    events.extend(mouse::old(button, column, row));
+    State::Ground
+}
+
+fn in_reply(introducer: u8, has_content: bool, escape: bool, byte: u8, events: &mut Vec<Event>) -> State {
+    match byte {
+        b'\\' if escape => State::Ground,
+        0x07 => State::Ground,
+        // The terminator's first half, or the next sequence.
+        ESCAPE if !escape => State::Reply { introducer, has_content, escape: true },
+        _ if escape => after_escape(byte, events),
+        0..0x20 => abandon(byte, events),
+        _ => State::Reply { introducer, has_content: true, escape: false },
+    }
+}
+
+fn in_character(mut bytes: Vec<u8>, is_alt: bool, byte: u8, events: &mut Vec<Event>) -> State {
+    bytes.push(byte);
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => {
+            for letter in text.chars() {
+                let mut event = character(letter);
+                if let (true, Event::Key(key)) = (is_alt, &mut event) {
+                    key.modifiers |= KeyModifiers::ALT;
+                }
+                events.push(event);
+            }
+            State::Ground
+        }
+        Err(error) if error.error_len().is_none() => State::Character { bytes, is_alt },
+        // The byte that broke it may be a key of its own.
+        Err(_) if byte < 0x80 => ground(byte, false, events),
+        Err(_) => State::Ground,
+    }
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;

@@ -1,0 +1,258 @@
+//! The loop: waits for news, hands them to the app, and draws once when something has changed.
+
+use std::{
+    io,
+    sync::mpsc::{Receiver, RecvTimeoutError, Sender},
+    time::{Duration, Instant},
+};
+
+use crossterm::event::Event as TerminalEvent;
+use signal_hook::consts::{SIGCONT, SIGWINCH};
+
+use tracing::{info, warn};
+
+use crate::{
+    printing::OneLine,
+    storage::Places,
+    terminal::{
+        app::App,
+        config::saved_session::SavedSession,
+        effect::Effect,
+        host::{events, guard::TerminalGuard, log, pace::Pace, signals},
+        tasks::{
+            Tasks,
+            event::Event,
+            recommender::{self, Answer, CoachNews, Job},
+            training::Report,
+        },
+    },
+};
+
+/// Least time between two pictures; keys that come faster are drained and drawn together.
+const LEAST_INTERVAL: Duration = Duration::from_millis(15);
+
+/// Least time between two times that the session is written down.
+const REMEMBERED: Duration = Duration::from_secs(2);
+
+/// Whether the loop goes on.
+enum Next {
+    GoOn,
+    Quit,
+    /// The process was told to end by a signal.
+    Die(i32),
+}
+
+/// Runs the app on the terminal until the player quits.
+///
+/// # Errors
+/// What the terminal answers.
+pub fn run(app: App, places: Places) -> io::Result<()> {
+    // Without a log the program is as good.
+    let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
+    info!(version = env!("CARGO_PKG_VERSION"), caps = ?app.caps(), "the screen opens");
+    let (to_screen, news) = events::open()?;
+    let session = TerminalGuard::start(app.wants_mouse())?;
+    let tasks = Tasks::new(to_screen.clone());
+    let jobs = recommender::spawn(move |answer| {
+        // A screen that is gone needs no answer.
+        let _ = to_screen.send(Event::Answer(answer));
+    })?;
+    let remembered = (None, Instant::now());
+    let ticked = Instant::now();
+    let mut runner =
+        Runner { app, session, jobs, tasks, places, ticked, remembered, forgotten: false, written: String::new() };
+    let end = runner.until_the_end(&news);
+    runner.remember(true);
+    info!(?end, "the screen closes");
+    let left = runner.session.leave();
+    // The player sees the shell again; what was noted last is written all the same.
+    runner.tasks.finish();
+    match end? {
+        // The parent is to see that a signal ended the program, even where the terminal is gone already.
+        Some(signal) => signals::die(signal),
+        None => left,
+    }
+}
+
+/// Whether news may be drawn with the next picture: those of runs, and every better shot of a coach that still thinks.
+const fn can_come_later(news: &Event) -> bool {
+    matches!(
+        news,
+        Event::Report(Report::Followed(..) | Report::HasPolicy(..))
+            | Event::Answer(Answer { news: CoachNews::Better(_), .. })
+    )
+}
+
+struct Runner {
+    app: App,
+    session: TerminalGuard,
+    jobs: Sender<Box<Job>>,
+    tasks: Tasks,
+    places: Places,
+    /// When the app was last told how much time had passed, or the program came back from being stopped.
+    ticked: Instant,
+    /// What was last remembered of the session, and when.
+    remembered: (Option<SavedSession>, Instant),
+    /// Whether that could not be done.
+    forgotten: bool,
+    /// What was last written into the log.
+    written: String,
+}
+
+impl Runner {
+    /// The signal that ended the program, or `None` where the player did.
+    fn until_the_end(&mut self, news: &Receiver<Event>) -> io::Result<Option<i32>> {
+        self.draw()?;
+        let mut pace = Pace::new(Instant::now());
+        loop {
+            self.tasks.want(self.app.wanted())?;
+            let interval = self.app.frame_interval().map(Duration::from_secs_f64);
+            // A toast goes by itself: one picture more, and no other.
+            let toast = self.app.toast_time().map(|left| self.ticked + Duration::from_secs_f64(left));
+            let first = match pace.wake(interval).into_iter().chain(toast).chain(self.forgets()).min() {
+                // Nothing moves: no timer, no processor time, no bytes.
+                None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some(due) => news.recv_timeout(due.saturating_duration_since(Instant::now())),
+            };
+            let first = match first {
+                Ok(first) => Some(first),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            };
+            if first.is_some() {
+                std::thread::sleep(LEAST_INTERVAL.saturating_sub(pace.since(Instant::now())));
+            }
+            // Time that passed while nothing moved does not count.
+            let passed = self.ticked.elapsed();
+            self.ticked = Instant::now();
+            if interval.is_some() || toast.is_some() {
+                self.app.tick(passed.as_secs_f64());
+            }
+            let mut can_wait = first.is_some();
+            for news in first.into_iter().chain(news.try_iter()) {
+                can_wait &= can_come_later(&news);
+                match self.take(news)? {
+                    Next::GoOn => {}
+                    Next::Quit => return Ok(None),
+                    Next::Die(signal) => return Ok(Some(signal)),
+                }
+            }
+            if can_wait && !pace.news(Instant::now(), self.app.frame_interval().is_some()) {
+                continue;
+            }
+            // Before the picture: a slow link may hold that up.
+            self.remember(false);
+            self.write_down();
+            self.draw()?;
+            pace.drew(Instant::now());
+        }
+    }
+
+    /// When something is to be written down for the next session, if there is anything new.
+    fn forgets(&self) -> Option<Instant> {
+        let (before, when) = &self.remembered;
+        (self.app.last() != *before).then(|| *when + REMEMBERED)
+    }
+
+    /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
+    fn remember(&mut self, at_the_end: bool) {
+        let (before, when) = &self.remembered;
+        if !at_the_end && when.elapsed() < REMEMBERED {
+            return;
+        }
+        let last = self.app.last();
+        if let Some(last) = last.as_ref().filter(|_| last != *before)
+            && let Err(error) = last.save(&self.places.last)
+        {
+            // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
+            if !std::mem::replace(&mut self.forgotten, true) {
+                let path = self.places.last.display();
+                self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
+            }
+        }
+        self.remembered = (last, Instant::now());
+    }
+
+    /// Writes refusals and failures down that were shown.
+    fn write_down(&mut self) {
+        for text in self.app.take_unwritten() {
+            // A key that is held is refused again and again.
+            if self.written == text {
+                continue;
+            }
+            warn!("{}", OneLine(&text));
+            self.written = text;
+        }
+    }
+
+    fn draw(&mut self) -> io::Result<()> {
+        self.session.want_mouse(self.app.wants_mouse())?;
+        self.session.draw(|frame| self.app.draw(frame))
+    }
+
+    fn take(&mut self, news: Event) -> io::Result<Next> {
+        let effect = match news {
+            Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
+            Event::Input(TerminalEvent::Paste(text)) => {
+                self.app.paste(&text);
+                None
+            }
+            Event::Input(TerminalEvent::Mouse(mouse)) => self.app.mouse(mouse),
+            Event::Answer(answer) => self.app.receive(answer),
+            // A resize needs a picture, which follows anyway.
+            Event::Input(_) | Event::Signal(SIGWINCH) => None,
+            Event::InputEnded => return Ok(Next::Quit),
+            Event::Signal(signal) if signals::stops(signal) => Some(Effect::Suspend),
+            // Somebody else may have had the terminal since.
+            Event::Signal(SIGCONT) => {
+                self.session.leave()?;
+                self.come_back()?;
+                None
+            }
+            Event::Signal(signal) => return Ok(Next::Die(signal)),
+            Event::Report(report) => {
+                self.tasks.taken(&report);
+                self.app.receive_report(report);
+                None
+            }
+            Event::Settings(report) => {
+                self.app.receive_settings(report);
+                None
+            }
+            Event::Drill(report) => Some(Effect::Drill(self.app.receive_drill(report))),
+        };
+        match effect {
+            Some(Effect::Quit) => return Ok(Next::Quit),
+            Some(Effect::Suspend) => self.suspend()?,
+            Some(Effect::Recommend(job) | Effect::Study(job)) => self.ask(job),
+            Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
+            Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
+            Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
+            Some(Effect::LoadPolicy(folder)) => self.tasks.load_policy(folder)?,
+            Some(Effect::Drill(tasks)) => self.tasks.practise(tasks)?,
+            Some(Effect::Settings(task)) => self.tasks.set(*task)?,
+            Some(Effect::Copy(text)) => self.session.copy(&text)?,
+            None => {}
+        }
+        Ok(Next::GoOn)
+    }
+
+    fn ask(&mut self, job: Box<Job>) {
+        if self.jobs.send(job).is_err() {
+            self.app.coach_lost();
+        }
+    }
+
+    /// Gives the terminal back and stops until the shell continues the program.
+    fn suspend(&mut self) -> io::Result<()> {
+        self.session.leave()?;
+        signals::stop()?;
+        self.come_back()
+    }
+
+    /// Takes the terminal again. A shot that plays goes on from where it was: nobody has seen the time between.
+    fn come_back(&mut self) -> io::Result<()> {
+        self.ticked = Instant::now();
+        self.session.enter()
+    }
+}

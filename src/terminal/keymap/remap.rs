@@ -1,0 +1,157 @@
+//! Keys of the user's own: each does what another key does.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use crate::terminal::keymap::chord::Chord;
+
+/// What the documentation says of the keys.
+pub const ABOUT: &str = "
+# Keys of your own: on the left the key that you press, on the right the one whose work it does. Keys that are not named
+# keep their work. Accepted: a letter or sign, Enter, Esc, Space, Tab, Backspace, Delete, Home, End, PageUp, PageDown, Left,
+# Right, Up, Down, F1 to F12, also with Ctrl- or Shift- before it.
+[keys]
+# \"x\" = \"Enter\"
+";
+
+/// The keys that were given other work.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Keys {
+    /// The key that is pressed, and the one whose work it does.
+    pairs: Vec<(Chord, Chord)>,
+}
+
+impl Keys {
+    /// Lets `pressed` do what `meant` does.
+    pub fn add(&mut self, pressed: Chord, meant: Chord) {
+        self.pairs.retain(|(known, _)| *known != pressed);
+        self.pairs.push((pressed, meant));
+    }
+
+    /// What is meant by a key that was pressed.
+    pub fn translate(&self, event: &KeyEvent) -> KeyEvent {
+        let meant = self.pairs.iter().find(|(pressed, _)| pressed.matches(event)).map(|(_, meant)| *meant);
+        meant.map_or(*event, |meant| KeyEvent { kind: event.kind, ..meant.event() })
+    }
+
+    /// Gives `pressed` back the work that it has by default.
+    pub fn remove(&mut self, pressed: Chord) {
+        self.pairs.retain(|(known, _)| *known != pressed);
+    }
+
+    /// The key that was given to `pressed` to do its work, if one was.
+    pub fn work_of(&self, pressed: Chord) -> Option<Chord> {
+        self.pairs.iter().find(|(known, _)| *known == pressed).map(|(_, meant)| *meant)
+    }
+
+    /// Those that do not do what they do by default and have to do with `chords`: they do the work of one of these, or are
+    /// one of these and do other work.
+    pub fn about(&self, chords: &[Chord]) -> Vec<Chord> {
+        let is_about = |(pressed, meant): &&(Chord, Chord)| chords.contains(pressed) || chords.contains(meant);
+        self.pairs.iter().filter(is_about).map(|(pressed, _)| *pressed).collect()
+    }
+
+    /// The keys that do the work of `meant`, the user's own first.
+    pub fn for_work_of(&self, meant: Chord) -> impl Iterator<Item = Chord> {
+        let own = self.pairs.iter().filter(move |(_, work)| *work == meant).map(|(pressed, _)| *pressed);
+        let kept = self.pairs.iter().all(|(pressed, _)| *pressed != meant).then_some(meant);
+        own.chain(kept)
+    }
+
+    /// The lines of the file.
+    pub fn document(&self) -> String {
+        let quoted = |chord: &Chord| toml::Value::String(name(*chord)).to_string();
+        let line = |(pressed, meant): &(Chord, Chord)| format!("{} = {}\n", quoted(pressed), quoted(meant));
+        self.pairs.iter().map(line).collect::<Vec<_>>().concat()
+    }
+}
+
+/// The keys with names.
+const NAMES: [(&str, KeyCode); 14] = [
+    ("Space", KeyCode::Char(' ')),
+    ("Enter", KeyCode::Enter),
+    ("Esc", KeyCode::Esc),
+    ("Tab", KeyCode::Tab),
+    ("Backspace", KeyCode::Backspace),
+    ("Delete", KeyCode::Delete),
+    ("Home", KeyCode::Home),
+    ("End", KeyCode::End),
+    ("PageUp", KeyCode::PageUp),
+    ("PageDown", KeyCode::PageDown),
+    ("Left", KeyCode::Left),
+    ("Right", KeyCode::Right),
+    ("Up", KeyCode::Up),
+    ("Down", KeyCode::Down),
+];
+
+/// The key that is written so; capitals of names do not matter.
+pub fn chord(text: &str) -> Option<Chord> {
+    let (modifiers, rest) = match text.split_once('-') {
+        Some((prefix, rest)) if prefix.eq_ignore_ascii_case("ctrl") && !rest.is_empty() => {
+            (KeyModifiers::CONTROL, rest)
+        }
+        Some((prefix, rest)) if prefix.eq_ignore_ascii_case("shift") && !rest.is_empty() => (KeyModifiers::SHIFT, rest),
+        _ => (KeyModifiers::NONE, text),
+    };
+    let mut letters = rest.chars();
+    let code = match (letters.next(), letters.as_str()) {
+        (Some(letter), "") => KeyCode::Char(letter),
+        (Some('f' | 'F'), number) if number.parse::<u8>().is_ok_and(|n| (1..=12).contains(&n)) => {
+            KeyCode::F(number.parse().ok()?)
+        }
+        _ => NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(rest)).map(|(_, code)| *code)?,
+    };
+    Some(match (code, modifiers) {
+        (KeyCode::Tab, KeyModifiers::SHIFT) => Chord::plain(KeyCode::BackTab),
+        // Shift makes a letter a capital; of signs nobody knows what it makes.
+        (KeyCode::Char(letter), KeyModifiers::SHIFT) => Chord::char(letter.to_ascii_uppercase()),
+        (code, KeyModifiers::SHIFT) => Chord::shift(code),
+        (code, KeyModifiers::CONTROL) => Chord::ctrl(code),
+        (code, _) => Chord::plain(code),
+    })
+}
+
+/// How a key is written in the file.
+pub fn name(chord: Chord) -> String {
+    let event = chord.event();
+    let prefix = match () {
+        () if event.modifiers.contains(KeyModifiers::CONTROL) => "Ctrl-",
+        () if event.modifiers.contains(KeyModifiers::SHIFT) => "Shift-",
+        () => "",
+    };
+    let code = match event.code {
+        KeyCode::BackTab => return "Shift-Tab".to_owned(),
+        KeyCode::F(number) => format!("F{number}"),
+        code => match NAMES.iter().find(|(_, known)| *known == code) {
+            Some((name, _)) => (*name).to_owned(),
+            None => code.to_string(),
+        },
+    };
+    format!("{prefix}{code}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_read_as_they_are_written() {
+        for text in ["x", "X", "-", "Ctrl-r", "Ctrl--", "Shift-Left", "Shift-Tab", "F12", "Space", "PageUp", "ä"] {
+            assert_eq!(name(chord(text).unwrap()), text);
+        }
+        assert_eq!(chord("shift-x"), chord("X"));
+        for text in ["", "F13", "F0", "Hyper-x", "Ctrl-", "xy"] {
+            assert_eq!(chord(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_key_does_anothers_work_and_gives_up_its_own() {
+        let mut keys = Keys::default();
+        let [x, enter] = ["x", "Enter"].map(|text| chord(text).unwrap());
+        keys.add(x, enter);
+        assert!(enter.matches(&keys.translate(&x.event())));
+        assert!(enter.matches(&keys.translate(&enter.event())));
+        assert_eq!(keys.for_work_of(enter).collect::<Vec<_>>(), [x, enter]);
+        assert_eq!(keys.for_work_of(x).count(), 0);
+    }
+}

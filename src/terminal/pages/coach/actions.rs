@@ -1,0 +1,166 @@
+//! What each action does to the state.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::{
+    game::Point,
+    table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
+    terminal::{
+        effect::Effect,
+        pages::coach::{CoachPage, Mode, Position, keys::CoachAction as Action},
+        shot::{
+            history::History,
+            placing::{self, STEPS},
+        },
+        tasks::advice::CoachQuery,
+        ui::message::Message,
+        words::step_words,
+    },
+};
+
+impl CoachPage {
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        self.drop_ball();
+        let effect = self.act(action);
+        // Whatever has changed, the closer look is at the shot that is shown now.
+        let study = self.study();
+        effect.or(study)
+    }
+
+    fn act(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            // The keys are for colours.
+            Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
+            Action::SelectNext => self.select((self.selected + 1) % BALLS),
+            Action::SelectPrevious => self.select((self.selected + BALLS - 1) % BALLS),
+            Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
+            Action::LargerStep => self.choose_step(self.step + 1),
+            Action::SmallerStep => self.choose_step(self.step.saturating_sub(1)),
+            Action::Opening => self.open(),
+            Action::OtherBall => self.take_other_ball(),
+            Action::Random => {
+                let layout = Layout::random(&self.balls.present().table, &mut self.rng);
+                self.place(layout);
+            }
+            Action::Undo => self.travel(History::undo),
+            Action::Redo => self.travel(History::redo),
+            Action::Recommend => return Some(self.ask()),
+            Action::Cancel => self.cancel(),
+            Action::PlaceBalls => self.place_balls(),
+            Action::Continue => return self.go_on(),
+            Action::NextRule => self.next_rule(),
+            Action::NextSkill => self.next_skill(),
+            Action::TurnPlan => self.turn_plan(),
+            Action::NextView => self.view = self.view.next(),
+            Action::NextShot => self.choose(|advised| advised.turn(true)),
+            Action::PreviousShot => self.choose(|advised| advised.turn(false)),
+            Action::Show(shot) => self.choose(|advised| advised.show(shot)),
+            // The app goes on with what was practised.
+            Action::Resume => drop(self.resume()),
+            Action::Bundled => self.take_query(&self.table().clone(), CoachQuery::default()),
+            other => self.play(other),
+        }
+        None
+    }
+
+    /// The opponent's turn: the other ball is the cue ball, and all stay where they lie.
+    fn take_other_ball(&mut self) {
+        let cue_ball = self.cue_ball().other();
+        let layout = self.layout().for_the_opponent();
+        self.selected = CueBall::Yellow.ordered([0, 1, 2])[self.selected];
+        self.place(layout);
+        self.balls.present_mut().cue_ball = cue_ball;
+        self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
+    }
+
+    /// Puts the balls on their spots; where they are there already, the cue ball goes to the other side of the opponent's.
+    fn open(&mut self) {
+        let side = self.layout().opening_side(self.table()).map_or(Side::Left, Side::other);
+        let layout = Layout::opening_on(self.table(), side);
+        let rule = self.query.rule;
+        self.place(layout);
+        if self.table().opening == Opening::Umb {
+            let red = if Point::of(rule, self.table(), &layout).red_first { "; red has to be met first" } else { "" };
+            let (here, there) = (side.name(), side.other().name());
+            self.message = Some(Message::plain(format!("the cue ball on the {here}, again for the {there}{red}")));
+        }
+    }
+
+    fn play(&mut self, action: Action) {
+        let Some(shot) = self.shot().cloned() else { return };
+        let (events, duration) = (shot.recording.events(), shot.recording.duration());
+        self.mode = Mode::Watching;
+        match action {
+            Action::PlayPause => self.playback.toggle(duration),
+            Action::NextEvent => self.playback.step_forward(events, duration),
+            Action::PreviousEvent => self.playback.step_back(events),
+            Action::ToStart => self.playback.jump(0.0),
+            Action::ToEnd => self.playback.jump(duration),
+            Action::Faster => self.playback.faster(),
+            Action::Slower => self.playback.slower(),
+            _ => {}
+        }
+    }
+
+    fn select(&mut self, ball: usize) {
+        self.selected = ball;
+        self.place_balls();
+    }
+
+    /// Leaves the shot: what nobody watches does not play on.
+    fn place_balls(&mut self) {
+        self.playback.pause();
+        self.mode = Mode::Placing;
+    }
+
+    fn choose_step(&mut self, step: usize) {
+        self.step = step.min(STEPS.len() - 1);
+        self.message = Some(Message::plain(format!("one step is {}", step_words(self.step_mm()))));
+    }
+
+    fn move_ball(&mut self, direction: DVec2, scale: f64) {
+        let step = direction * (0.001 * self.step_mm() * scale);
+        let slide = placing::slide(self.table(), self.layout(), self.selected, step);
+        if slide.layout != *self.layout() {
+            self.place(slide.layout);
+        }
+        if let Some(reason) = slide.stopped {
+            let names = self.cue_ball().names();
+            let name = names[self.selected];
+            let place = match &reason {
+                LayoutError::Overlap { first, second, .. } => {
+                    format!("in contact with {}", names[first + second - self.selected])
+                }
+                _ => "at the rail".to_owned(),
+            };
+            self.message = Some(Message::warning(format!("{name} stops {place}: beyond, {reason}")));
+        }
+    }
+
+    /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
+    pub(super) fn place(&mut self, layout: Layout) {
+        self.drop_ball();
+        self.balls.push(self.position(layout));
+        self.rest();
+    }
+
+    /// The same table and policy with the balls elsewhere, on which there is no advice yet.
+    pub(super) fn position(&self, layout: Layout) -> Position {
+        let Position { table, policy, cue_ball, .. } = self.balls.present();
+        Position { table: Arc::clone(table), policy: policy.clone(), layout, cue_ball: *cue_ball, advised: None }
+    }
+
+    fn travel(&mut self, step: impl Fn(&mut History<Position>) -> bool) {
+        step(&mut self.balls);
+        self.query.policy.clone_from(&self.balls.present().policy);
+        self.rest();
+    }
+
+    pub(super) fn rest(&mut self) {
+        self.mode = Mode::Placing;
+        self.playback.jump(0.0);
+    }
+}

@@ -1,0 +1,67 @@
+//! The coach's advice as the player goes through it: its shots, which of them is shown, and what is known of each.
+
+use std::sync::Arc;
+
+use crate::terminal::tasks::advice::{Advice, CoachQuery, Proposal, ShotAnalysis};
+
+/// Advice on a layout.
+#[derive(Clone, Debug)]
+pub struct AdviceState {
+    /// What was asked.
+    pub query: CoachQuery,
+    choices: Vec<Choice>,
+    chosen: usize,
+}
+
+/// One of the shots.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The shot.
+    pub proposal: Proposal,
+    /// The closer look at it.
+    pub study: Option<Arc<ShotAnalysis>>,
+    /// The advice on where it leaves the balls.
+    pub next: Option<Advice>,
+    /// Whether all is known that will be.
+    pub is_studied: bool,
+}
+
+impl AdviceState {
+    /// `advice` that `tutor` gave; `None` if it is empty.
+    pub fn new(query: CoachQuery, advice: Advice) -> Option<Self> {
+        let choice = |proposal| Choice { proposal, study: None, next: None, is_studied: false };
+        let choices: Vec<_> = advice.proposals.into_iter().map(choice).collect();
+        (!choices.is_empty()).then_some(Self { query, choices, chosen: 0 })
+    }
+
+    /// All shots, the recommended one first.
+    pub fn choices(&self) -> &[Choice] {
+        &self.choices
+    }
+
+    /// The place of the one that is shown.
+    pub const fn chosen(&self) -> usize {
+        self.chosen
+    }
+
+    /// The one that is shown.
+    pub fn choice(&self) -> &Choice {
+        &self.choices[self.chosen]
+    }
+
+    /// The same, to be completed.
+    pub fn choice_mut(&mut self) -> &mut Choice {
+        &mut self.choices[self.chosen]
+    }
+
+    /// Shows the shot at this place, or the last one.
+    pub fn show(&mut self, shot: usize) {
+        self.chosen = shot.min(self.choices.len() - 1);
+    }
+
+    /// Shows the next shot, or the one before; after the last comes the first.
+    pub fn turn(&mut self, forward: bool) {
+        let count = self.choices.len();
+        self.chosen = (self.chosen + if forward { 1 } else { count - 1 }) % count;
+    }
+}

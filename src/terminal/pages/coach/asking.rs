@@ -1,0 +1,248 @@
+//! Asking the coach: questions, what it says to them, and the closer look at the shot that is shown.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use crate::{
+    coach::Skill,
+    game::Rule,
+    physics::CueInputs,
+    table::CueBall,
+    terminal::{
+        effect::Effect,
+        pages::coach::{AdviceState, CoachPage, Mode},
+        shot::Shot,
+        tasks::{
+            advice::{Advice, CoachQuery, Effort, Proposal},
+            recommender::{Answer, CoachNews, Job},
+        },
+        ui::message::Message,
+        words::{chance_words, skill_word},
+    },
+};
+
+/// A question that the coach has not answered yet.
+#[derive(Debug)]
+pub struct Pending {
+    id: u64,
+    cancel: Arc<AtomicBool>,
+    /// What was asked: meanwhile somebody else may have been chosen to play.
+    pub query: CoachQuery,
+    /// Seconds since it was asked.
+    pub waited: f64,
+    /// The best shot so far.
+    pub so_far: Option<Proposal>,
+}
+
+/// A closer look that is being taken.
+#[derive(Debug)]
+pub struct Studying {
+    id: u64,
+    cancel: Arc<AtomicBool>,
+    shot: Arc<Shot>,
+}
+
+impl CoachPage {
+    pub(super) fn ask(&mut self) -> Effect {
+        self.playback.pause();
+        let job = self.job(None);
+        let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
+        self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
+        Effect::Recommend(Box::new(job))
+    }
+
+    fn job(&mut self, shot: Option<CueInputs>) -> Job {
+        self.questions += 1;
+        Job {
+            id: self.questions,
+            table: self.table().clone(),
+            layout: *self.layout(),
+            query: self.query.clone(),
+            shot,
+            budget: self.budget,
+            seed: self.questions,
+            cancel: Arc::default(),
+        }
+    }
+
+    /// Stops asking; the best shot so far stays.
+    pub(super) fn cancel(&mut self) {
+        let Some(pending) = self.pending.take() else { return };
+        pending.cancel.store(true, Ordering::Relaxed);
+        let mut words = "the coach has stopped thinking".to_owned();
+        if let Some(so_far) = pending.so_far {
+            if pending.query == self.query {
+                words += "; this is the best shot so far";
+            }
+            self.show(pending.query, Advice { proposals: vec![so_far], effort: None });
+        }
+        self.message = Some(Message::plain(words));
+    }
+
+    /// The coach has something to say. Late answers to cancelled questions are dropped.
+    pub fn receive(&mut self, answer: Answer) -> Option<Effect> {
+        let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
+        let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
+        match (answer.news, awaited) {
+            (CoachNews::Better(proposal), Some(pending)) => {
+                pending.so_far = Some(proposal);
+                if pending.query == self.query {
+                    self.watch_from_the_stroke();
+                }
+            }
+            (CoachNews::Advice(advice), Some(pending)) => {
+                let query = pending.query.clone();
+                self.pending = None;
+                self.message = if query == self.query {
+                    advice.proposals.first().map(|best| news(best, advice.effort, &query, self.cue_ball()))
+                } else {
+                    let [asked, now] = [query.skill, self.query.skill].map(skill_word);
+                    Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
+                };
+                self.show(query, advice);
+            }
+            (CoachNews::Refused(sentence), Some(_)) => {
+                self.cancel();
+                self.message = Some(Message::warning(sentence));
+            }
+            (CoachNews::Study(study), _) if is_study => {
+                if let Some(advised) = self.advised_mut() {
+                    advised.choice_mut().study = Some(study);
+                }
+            }
+            (CoachNews::Next(next), _) if is_study => {
+                self.studying = None;
+                if let Some(advised) = self.advised_mut() {
+                    let choice = advised.choice_mut();
+                    (choice.next, choice.is_studied) = (next, true);
+                }
+            }
+            _ => {}
+        }
+        self.study()
+    }
+
+    /// Keeps the advice on the layout that `tutor` gave, and shows it from its best shot on if that is what is asked now.
+    fn show(&mut self, query: CoachQuery, advice: Advice) {
+        let is_asked = query == self.query;
+        self.balls.present_mut().advised = AdviceState::new(query, advice);
+        if is_asked {
+            self.watch_from_the_stroke();
+        }
+    }
+
+    fn watch_from_the_stroke(&mut self) {
+        self.playback.jump(0.0);
+        self.mode = Mode::Watching;
+    }
+
+    /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other.
+    pub(super) fn study(&mut self) -> Option<Effect> {
+        let advised = self.advised().filter(|_| self.pending.is_none());
+        let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
+        let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
+        if let (Some(studying), Some(shot)) = (&self.studying, &wanted)
+            && Arc::ptr_eq(&studying.shot, shot)
+        {
+            return None;
+        }
+        if let Some(old) = self.studying.take() {
+            old.cancel.store(true, Ordering::Relaxed);
+        }
+        let shot = wanted?;
+        let job = self.job(Some(shot.cue));
+        self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
+        Some(Effect::Study(Box::new(job)))
+    }
+
+    pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
+        let cue_ball = self.cue_ball();
+        if let Some(advised) = self.advised_mut() {
+            choose(advised);
+            let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
+            let proposal = &advised.choice().proposal;
+            self.message = Some(match chance(proposal, &advised.query) {
+                // SeriesId chance it is stands above the list, and one row is all there is.
+                Some(chance) => Message::good(format!("{words}: {chance}{}", contact(proposal, cue_ball))),
+                None => news(proposal, None, &advised.query, cue_ball).after(&words),
+            });
+        }
+        self.watch_from_the_stroke();
+    }
+
+    pub(super) fn go_on(&mut self) -> Option<Effect> {
+        let choice = self.advised()?.choice();
+        let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
+        if let Err(error) = end.validate(self.table()) {
+            self.message = Some(Message::warning(error.to_string()));
+            return None;
+        }
+        self.place(end);
+        let Some(next) = next else { return Some(self.ask()) };
+        self.message = next.proposals.first().map(|best| news(best, None, &self.query, self.cue_ball()));
+        self.show(self.query.clone(), next);
+        None
+    }
+
+    pub(super) fn next_rule(&mut self) {
+        let rule = after(&Rule::ALL, &self.query.rule);
+        self.ask_for(CoachQuery { rule, ..self.query.clone() }, &format!("what counts: {rule}"));
+    }
+
+    pub(super) fn next_skill(&mut self) {
+        let all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).chain(self.own).collect();
+        let skill = after(&all, &self.query.skill);
+        let words = format!("the player: {}", skill_word(skill));
+        self.ask_for(CoachQuery { skill, ..self.query.clone() }, &words);
+    }
+
+    pub(super) fn turn_plan(&mut self) {
+        let plan = !self.query.plan;
+        let words = if plan { "the next point counts too" } else { "only this point counts" };
+        self.ask_for(CoachQuery { plan, ..self.query.clone() }, words);
+    }
+
+    /// Asks for something else from now on. A shot that answers another question is not shown, until that is asked again.
+    fn ask_for(&mut self, query: CoachQuery, words: &str) {
+        self.query = query;
+        self.rest();
+        let hint = if self.advised().is_some() { "the shot for it is known" } else { "Enter asks the coach" };
+        self.message = Some(Message::plain(format!("{words}; {hint}")));
+    }
+}
+
+/// What comes after `one` in `all`; after the last the first.
+fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
+    let place = all.iter().position(|other| other == one).map_or(0, |place| place + 1);
+    all[place % all.len()]
+}
+
+/// A proposal in a sentence.
+fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, cue_ball: CueBall) -> Message {
+    let (shot, contact) = (&proposal.shot, contact(proposal, cue_ball));
+    let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
+        0 => ", under 1 ms".to_owned(),
+        milliseconds => format!(", {milliseconds} ms"),
+    });
+    if !shot.solved {
+        let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
+        let source = &shot.source;
+        return Message::poor(format!("no point found{tried}; this is the best attempt ({source}{took}){contact}"));
+    }
+    let Some(chance) = chance(proposal, query) else {
+        return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
+    };
+    Message::good(format!("{} makes it {chance}{took}{contact}", skill_word(query.skill)))
+}
+
+/// How often the player makes a shot, where there is a doubt.
+fn chance(proposal: &Proposal, query: &CoachQuery) -> Option<String> {
+    proposal.made.filter(|_| proposal.shot.solved && !query.skill.is_perfect()).as_ref().map(chance_words)
+}
+
+/// How the first ball is hit, after other words.
+fn contact(proposal: &Proposal, cue_ball: CueBall) -> String {
+    proposal.shot.contact_words(cue_ball).map_or(String::new(), |words| format!("; {words}"))
+}

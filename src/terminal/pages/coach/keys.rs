@@ -1,0 +1,214 @@
+//! The coach's keys.
+
+use crossterm::event::KeyCode::{BackTab, Down, End, Enter, Esc, Home, Left, Right, Tab, Up};
+
+use crate::terminal::keymap::{
+    Binding,
+    Section::{self, Balls, Program, Shot},
+    bind,
+    chord::Chord,
+    ctrl, key, letter,
+};
+
+use CoachAction as A;
+use CoachCondition as W;
+
+/// What a key does on the coach's screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CoachAction {
+    /// Selects a ball by its colour: white, yellow or red.
+    Select(usize),
+    /// Selects the next ball.
+    SelectNext,
+    /// Selects the ball before.
+    SelectPrevious,
+    /// Moves the selected ball: steps to the right and up, and how large a step is against the chosen one.
+    Move(i8, i8, f64),
+    /// Chooses a larger step.
+    LargerStep,
+    /// Chooses a smaller step.
+    SmallerStep,
+    /// Puts the balls on their spots.
+    Opening,
+    /// Puts the balls anywhere.
+    Random,
+    /// Makes the opponent's ball the cue ball.
+    OtherBall,
+    /// Takes the last change of the balls back.
+    Undo,
+    /// Makes it again.
+    Redo,
+    /// Asks the coach.
+    Recommend,
+    /// Stops asking.
+    Cancel,
+    /// Plays or pauses the shot.
+    PlayPause,
+    /// Steps to the next event.
+    NextEvent,
+    /// Steps to the event before.
+    PreviousEvent,
+    /// Goes to the stroke.
+    ToStart,
+    /// Goes to where the balls lie still.
+    ToEnd,
+    /// Plays faster.
+    Faster,
+    /// Plays slower.
+    Slower,
+    /// Leaves the shot, to move balls again.
+    PlaceBalls,
+    /// Takes the balls as the shot leaves them.
+    Continue,
+    /// Chooses what counts as a point.
+    NextRule,
+    /// Chooses who is to play the shot.
+    NextSkill,
+    /// Chooses whether the next point counts.
+    TurnPlan,
+    /// Shows something else in the panels.
+    NextView,
+    /// Shows the next of the shots that may be chosen.
+    NextShot,
+    /// Shows the one before.
+    PreviousShot,
+    /// Shows one of them by its place in the list; no key does it, but the mouse.
+    Show(usize),
+    /// Asks the bundled policies again.
+    Bundled,
+    /// Goes on from where the last session ended.
+    Resume,
+    /// Asks under which name the balls are to be saved as a position to practise.
+    SavePosition,
+    /// Opens the drills.
+    OpenDrills,
+    /// Opens the list of filmed shots.
+    OpenFilms,
+    /// Opens the training page.
+    OpenTraining,
+}
+
+/// When a binding of the coach may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoachCondition {
+    /// Whatever the coach does.
+    Anytime,
+    /// While the coach is not thinking.
+    Idle,
+    /// While balls are placed.
+    Placing,
+    /// While a shot is watched.
+    Watching,
+    /// Where a shot is there.
+    Shot,
+    /// While the coach thinks.
+    Thinking,
+    /// Where there are several shots to choose from.
+    Choice,
+    /// Where a change can be taken back.
+    Undoable,
+    /// Where a change was taken back.
+    Redoable,
+    /// Where a policy is asked that somebody has trained.
+    Trained,
+    /// Where an earlier session can be gone on with.
+    Interrupted,
+}
+
+/// The keys, the more particular ones first.
+#[rustfmt::skip]
+pub const COACH: &[Binding<A, W>] = &[
+    bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
+    bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
+    bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("last session", 1)), "go on from where the last session ended"),
+    bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
+        "ask the bundled weights again, as at the start"),
+    bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
+    bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
+        "step through the shots that the coach lists"),
+    bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
+        "turn the panels: balls, chances, margins and maps, plan"),
+    bind(Balls, W::Placing, &[
+        key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
+        key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),
+        letter('h', A::Move(-1, 0, 1.0)), letter('j', A::Move(0, -1, 1.0)),
+        letter('k', A::Move(0, 1, 1.0)), letter('l', A::Move(1, 0, 1.0)),
+        ], Some(("move", 4)), "move the selected ball by one step"),
+    bind(Balls, W::Placing, &[
+        (Chord::shift(Left), A::Move(-1, 0, 10.0)), (Chord::shift(Down), A::Move(0, -1, 10.0)),
+        (Chord::shift(Up), A::Move(0, 1, 10.0)), (Chord::shift(Right), A::Move(1, 0, 10.0)),
+        letter('H', A::Move(-1, 0, 10.0)), letter('J', A::Move(0, -1, 10.0)),
+        letter('K', A::Move(0, 1, 10.0)), letter('L', A::Move(1, 0, 10.0)),
+        ], None, "move the selected ball by ten steps"),
+    bind(Balls, W::Placing, &[
+        (Chord::ctrl(Left), A::Move(-1, 0, 0.1)), (Chord::ctrl(Down), A::Move(0, -1, 0.1)),
+        (Chord::ctrl(Up), A::Move(0, 1, 0.1)), (Chord::ctrl(Right), A::Move(1, 0, 0.1)),
+        ], None, "move the selected ball by a tenth of a step"),
+    bind(Balls, W::Placing, &[letter('-', A::SmallerStep), letter('+', A::LargerStep), letter('=', A::LargerStep)],
+        Some(("step", 2)), "choose a smaller or larger step"),
+    bind(Shot, W::Watching, &[key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls)], Some(("place balls", 1)),
+        "back to the balls as they were"),
+    bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
+        Some(("event", 2)), "step from event to event"),
+    bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
+        "step from event to event while a shot is watched"),
+    bind(Shot, W::Watching, &[letter('-', A::Slower), letter('+', A::Faster), letter('=', A::Faster),
+        key(Down, A::Slower), key(Up, A::Faster)], Some(("speed", 2)), "play slower or faster"),
+    bind(Shot, W::Shot, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('0', A::ToStart), letter('$', A::ToEnd)],
+        None, "to the stroke, to the end"),
+    bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
+        "go on with the balls as the shot leaves them, with the next shot of the plan"),
+    bind(Shot, W::Idle, &[letter('R', A::NextRule), letter('S', A::NextSkill), letter('P', A::TurnPlan)],
+        Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too"),
+    bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),
+        letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red"),
+    bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
+    bind(Balls, W::Redoable, &[letter('U', A::Redo), ctrl('r', A::Redo)], Some(("redo", 1)),
+        "make a change again that was taken back"),
+    bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots; again for the other side"),
+    bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
+    bind(Balls, W::Idle, &[letter('x', A::OtherBall)], None, "the opponent's turn: play with the other ball"),
+    bind(Program, W::Anytime, &[letter('d', A::OpenDrills)], Some(("drills", 1)),
+        "practise: exercises, exams, and your own positions"),
+    bind(Program, W::Anytime, &[letter('f', A::OpenFilms)], None, "filmed shots: watch real balls beside simulated ones"),
+    bind(Balls, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),
+    bind(Program, W::Anytime, &[letter('t', A::OpenTraining)], Some(("train", 1)),
+        "train agents and watch them learn"),
+];
+
+/// The words of `action` by itself, where its binding does several things.
+pub const fn words(action: CoachAction, _section: Section) -> Option<&'static str> {
+    Some(match action {
+        A::Select(0) => "select the white ball",
+        A::Select(1) => "select the yellow ball",
+        A::Select(2) => "select the red ball",
+        A::SelectNext => "select the next ball",
+        A::SelectPrevious => "select the ball before",
+        A::Move(-1, 0, 1.0) => "move the ball left by one step",
+        A::Move(1, 0, 1.0) => "move the ball right by one step",
+        A::Move(0, -1, 1.0) => "move the ball down by one step",
+        A::Move(0, 1, 1.0) => "move the ball up by one step",
+        A::Move(-1, 0, 10.0) => "move the ball left by ten steps",
+        A::Move(1, 0, 10.0) => "move the ball right by ten steps",
+        A::Move(0, -1, 10.0) => "move the ball down by ten steps",
+        A::Move(0, 1, 10.0) => "move the ball up by ten steps",
+        A::Move(-1, 0, 0.1) => "move the ball left by a tenth of a step",
+        A::Move(1, 0, 0.1) => "move the ball right by a tenth of a step",
+        A::Move(0, -1, 0.1) => "move the ball down by a tenth of a step",
+        A::Move(0, 1, 0.1) => "move the ball up by a tenth of a step",
+        A::LargerStep => "choose a larger step",
+        A::SmallerStep => "choose a smaller step",
+        A::NextEvent => "step to the next event",
+        A::PreviousEvent => "step to the event before",
+        A::ToStart => "to the stroke",
+        A::ToEnd => "to the end of the shot",
+        A::Faster => "play faster",
+        A::Slower => "play slower",
+        A::NextRule => "choose the rule: what counts as a point",
+        A::NextSkill => "choose the player",
+        A::TurnPlan => "choose the plan: whether the next point counts too",
+        A::NextShot => "show the next of the coach's shots",
+        A::PreviousShot => "show the one before of the coach's shots",
+        _ => return None,
+    })
+}

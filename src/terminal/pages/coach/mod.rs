@@ -1,0 +1,367 @@
+//! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
+//!
+//! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls.
+
+mod actions;
+mod advised;
+mod asking;
+mod dragging;
+pub mod keys;
+mod page;
+pub mod view;
+
+use std::{sync::Arc, time::Duration};
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use crate::{
+    coach::Skill,
+    drills::Session,
+    game::Rule,
+    learning::Policy,
+    table::{CueBall, Layout, LayoutError, Table},
+    terminal::{
+        config::{Settings, saved_session::SavedSession},
+        pages::coach::{
+            asking::{Pending, Studying},
+            dragging::Drag,
+            keys::CoachCondition,
+        },
+        shot::{Shot, history::History, placing::STEPS, playback::Playback},
+        tasks::advice::{CoachQuery, Proposal},
+        ui::message::Message,
+    },
+};
+
+pub use advised::{AdviceState, Choice};
+
+/// What the arrow keys are for on the coach's screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// They move balls.
+    Placing,
+    /// They step through a shot.
+    Watching,
+}
+
+const FIRST_STEP: usize = 2;
+/// Seconds a picture of the spinner stays.
+const SPINNER_INTERVAL: f64 = 0.1;
+
+/// Everything that a step back brings back: where the balls lie, on which table, who is asked, and the advice on them.
+#[derive(Clone, Debug)]
+struct Position {
+    table: Arc<Table>,
+    policy: Option<(String, Arc<Policy>)>,
+    layout: Layout,
+    cue_ball: CueBall,
+    advised: Option<AdviceState>,
+}
+
+/// What the panel beside the shot's tells; see the screen for what goes with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// Where the balls lie and how they move.
+    #[default]
+    Balls,
+    /// How often each shot is made that may be chosen.
+    Chances,
+    /// How far off each input may be.
+    Margins,
+    /// Where the balls stop, and the next shot.
+    Plan,
+}
+
+impl View {
+    /// The one after it; after the last the first.
+    const fn next(self) -> Self {
+        match self {
+            Self::Balls => Self::Chances,
+            Self::Chances => Self::Margins,
+            Self::Margins => Self::Plan,
+            Self::Plan => Self::Balls,
+        }
+    }
+}
+
+/// The state of the coach's screen.
+#[derive(Debug)]
+pub struct CoachPage {
+    /// What the arrow keys are for.
+    pub mode: Mode,
+    /// The ball that the arrow keys move.
+    pub selected: usize,
+    /// The clock of the shot.
+    pub playback: Playback,
+    /// What the status line says.
+    pub message: Option<Message>,
+    /// SeriesId advice is asked, and for what.
+    pub query: CoachQuery,
+    /// The user's own skill, where one is kept.
+    pub own: Option<Skill>,
+    /// What the panels show.
+    pub view: View,
+    balls: History<Position>,
+    /// The selected ball is held by the mouse.
+    drag: Option<Drag>,
+    /// Where the last session ended, until it is gone on with.
+    before: Option<SavedSession>,
+    step: usize,
+    /// Time that the coach may think.
+    budget: Duration,
+    pending: Option<Pending>,
+    studying: Option<Studying>,
+    questions: u64,
+    rng: Xoshiro256PlusPlus,
+}
+
+impl CoachPage {
+    /// The screen at its start; `seed` decides about random layouts.
+    ///
+    /// # Errors
+    /// A layout that is not possible on the table.
+    pub fn new(table: Table, layout: Layout, seed: u64) -> Result<Self, LayoutError> {
+        layout.validate(&table)?;
+        Ok(Self {
+            mode: Mode::Placing,
+            selected: 0,
+            playback: Playback::default(),
+            message: None,
+            query: CoachQuery::default(),
+            own: None,
+            view: View::default(),
+            balls: History::new(Position {
+                table: Arc::new(table),
+                policy: None,
+                layout,
+                cue_ball: CueBall::White,
+                advised: None,
+            }),
+            drag: None,
+            before: None,
+            step: FIRST_STEP,
+            budget: Duration::from_millis(Settings::default().think_ms),
+            pending: None,
+            studying: None,
+            questions: 0,
+            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
+        })
+    }
+
+    /// Offers to go on from where the last session ended, if that is somewhere else.
+    pub fn offer(&mut self, last: Option<SavedSession>) {
+        let is_elsewhere = |last: &SavedSession| {
+            last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
+        };
+        self.before = last.filter(is_elsewhere);
+        if self.before.is_some() {
+            self.message = Some(Message::plain("c goes on from where the last session ended"));
+        }
+    }
+
+    /// What the next session may go on from, with what is practised; `None` while nothing is and the balls lie as at the
+    /// start.
+    pub fn last(&self, practice: Option<Session>) -> Option<SavedSession> {
+        let CoachQuery { rule, skill, plan, .. } = self.query;
+        let last = || {
+            SavedSession::new(self.table().clone(), *self.layout(), rule, skill, plan).with_cue_ball(self.cue_ball())
+        };
+        (self.is_begun() || practice.is_some()).then(|| last().with_practice(practice))
+    }
+
+    /// Whether anything has been done since the start.
+    fn is_begun(&self) -> bool {
+        self.balls.can_undo() || self.balls.present().advised.is_some()
+    }
+
+    /// Goes on from where the last session ended; gives what was practised there.
+    pub fn resume(&mut self) -> Option<Session> {
+        let last = self.before.take()?;
+        self.take_position(&last.table, last.layout, last.rule);
+        self.balls.present_mut().cue_ball = last.cue_ball;
+        self.query = CoachQuery { skill: last.skill, plan: last.plan, ..self.query.clone() };
+        self.message = Some(Message::good("this is where the last session ended; Enter asks the coach"));
+        last.practice
+    }
+
+    /// Begins as the user wants it.
+    pub fn take_settings(&mut self, settings: &Settings) {
+        let Settings { rule, skill, plan, .. } = *settings;
+        self.query = CoachQuery { rule, skill, plan, ..self.query.clone() };
+        self.budget = Duration::from_millis(settings.think_ms);
+        self.set_step(settings.step_mm);
+        self.playback.set_speed(settings.speed);
+    }
+
+    /// Takes what has been set otherwise since `before`, and leaves all else as it is.
+    ///
+    /// # Errors
+    /// A sentence where the table cannot be read; everything else is taken.
+    pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
+        self.budget = Duration::from_millis(settings.think_ms);
+        if before.step_mm != settings.step_mm {
+            self.set_step(settings.step_mm);
+        }
+        if before.speed != settings.speed {
+            self.playback.set_speed(settings.speed);
+        }
+        let mut query = self.query.clone();
+        if before.rule != settings.rule {
+            query.rule = settings.rule;
+        }
+        if before.skill != settings.skill {
+            query.skill = settings.skill;
+        }
+        if before.plan != settings.plan {
+            query.plan = settings.plan;
+        }
+        if query != self.query {
+            self.cancel();
+            self.query = query;
+            self.rest();
+        }
+        if before.table != settings.table {
+            let table = settings.table()?;
+            if table != *self.table() {
+                self.take_query(&table, CoachQuery { policy: None, ..self.query.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    fn set_step(&mut self, step_mm: f64) {
+        self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
+    }
+
+    /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
+    pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
+        let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
+        let news = format!("the coach plays with {}; Enter asks it", query.name());
+        self.take(table, layout, CoachQuery { skill: self.query.skill, plan: self.query.plan, ..query });
+        self.message = Some(Message::good(news));
+    }
+
+    /// Plays for somebody else from now on; a shot for whoever it was before is shown no more.
+    pub fn take_skill(&mut self, skill: Skill) {
+        if self.query.skill != skill {
+            self.query.skill = skill;
+            self.rest();
+        }
+    }
+
+    /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
+    /// is the same.
+    pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
+        let policy = self.query.policy.clone().filter(|_| self.table() == table);
+        self.take(table, layout, CoachQuery { policy, rule, ..self.query.clone() });
+        self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
+    }
+
+    /// Puts balls on a table, as a step that can be taken back, for `tutor` to be asked.
+    fn take(&mut self, table: &Table, layout: Layout, query: CoachQuery) {
+        self.cancel();
+        self.drop_ball();
+        let known = &self.balls.present().table;
+        let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
+        let cue_ball = self.cue_ball();
+        self.balls.push(Position { table, policy: query.policy.clone(), layout, cue_ball, advised: None });
+        self.query = query;
+        self.rest();
+    }
+
+    /// The table that is played on.
+    pub fn table(&self) -> &Table {
+        &self.balls.present().table
+    }
+
+    /// Where the balls lie before the shot.
+    pub const fn layout(&self) -> &Layout {
+        &self.balls.present().layout
+    }
+
+    /// The ball that is the cue ball.
+    pub const fn cue_ball(&self) -> CueBall {
+        self.balls.present().cue_ball
+    }
+
+    /// The advice on the layout, if it answers what is asked now.
+    pub fn advised(&self) -> Option<&AdviceState> {
+        self.balls.present().advised.as_ref().filter(|advised| advised.query == self.query)
+    }
+
+    /// The same for whoever looks at it: nothing while the coach thinks of something better.
+    pub fn shown(&self) -> Option<&AdviceState> {
+        self.advised().filter(|_| self.pending.is_none())
+    }
+
+    fn advised_mut(&mut self) -> Option<&mut AdviceState> {
+        let query = &self.query;
+        self.balls.present_mut().advised.as_mut().filter(|advised| advised.query == *query)
+    }
+
+    /// The shot that is shown: the best so far while the coach thinks, else the chosen one of its advice.
+    pub fn proposal(&self) -> Option<&Proposal> {
+        let pending = self.pending.as_ref().filter(|pending| pending.query == self.query);
+        let so_far = pending.and_then(|pending| pending.so_far.as_ref());
+        so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
+    }
+
+    /// The same without what is known about it.
+    pub fn shot(&self) -> Option<&Arc<Shot>> {
+        self.proposal().map(|proposal| &proposal.shot)
+    }
+
+    /// The shot that is being watched.
+    pub fn watched(&self) -> Option<&Shot> {
+        self.shot().filter(|_| self.mode == Mode::Watching).map(Arc::as_ref)
+    }
+
+    /// The chosen step, mm.
+    pub fn step_mm(&self) -> f64 {
+        STEPS[self.step]
+    }
+
+    /// Number of the spinner's picture, while the coach thinks.
+    pub fn spinner(&self) -> Option<usize> {
+        self.pending.as_ref().map(|pending| (pending.waited / SPINNER_INTERVAL) as usize)
+    }
+
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: CoachCondition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
+        match when {
+            CoachCondition::Anytime => None,
+            CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
+            _ if thinking.is_some() => thinking,
+            CoachCondition::Placing => {
+                refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls")
+            }
+            CoachCondition::Shot | CoachCondition::Watching if self.shot().is_none() => {
+                Some("there is no shot yet; Enter asks the coach")
+            }
+            CoachCondition::Idle | CoachCondition::Shot => None,
+            CoachCondition::Watching => {
+                refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one")
+            }
+            CoachCondition::Choice => refuse(
+                self.advised().is_none_or(|advised| advised.choices().len() < 2),
+                "there is no other shot to choose",
+            ),
+            CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
+            CoachCondition::Interrupted => {
+                refuse(self.before.is_none() || self.is_begun(), "there is no earlier session to go on with")
+            }
+            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
+            CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
+        }
+    }
+
+    /// The thread that thinks is gone, and with it the answer.
+    pub fn lost(&mut self) {
+        if self.pending.take().is_some() {
+            self.message = Some(Message::warning("the coach has failed; quit and start again to ask it"));
+        }
+    }
+}

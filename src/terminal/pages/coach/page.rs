@@ -1,0 +1,47 @@
+//! What the app asks of this page.
+
+use ratatui::layout::Position;
+
+use super::{CoachPage, SPINNER_INTERVAL, view};
+use crate::{
+    table::CueBall,
+    terminal::{
+        pages::{Page, PageArea, Target},
+        ui::{Ui, message::Message},
+    },
+};
+
+impl Page for CoachPage {
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16 {
+        view::draw(self, area, ui)
+    }
+
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
+        view::target(self, area, at)
+    }
+
+    fn message(&self) -> Option<&Message> {
+        self.message.as_ref()
+    }
+
+    fn message_mut(&mut self) -> &mut Option<Message> {
+        &mut self.message
+    }
+
+    fn tick(&mut self, seconds: f64) {
+        if let Some(pending) = &mut self.pending {
+            pending.waited += seconds;
+        }
+        if let Some(duration) = self.shot().map(|shot| shot.recording.duration()) {
+            self.playback.tick(seconds, duration);
+        }
+    }
+
+    fn frame_interval(&self) -> Option<f64> {
+        if self.playback.playing { Some(1.0 / 30.0) } else { self.pending.as_ref().map(|_| SPINNER_INTERVAL) }
+    }
+
+    fn cue_ball(&self) -> CueBall {
+        Self::cue_ball(self)
+    }
+}

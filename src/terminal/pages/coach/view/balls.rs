@@ -1,0 +1,98 @@
+//! The panel of the three balls: where they lie, how fast they move and how.
+
+use ratatui::{
+    layout::Rect,
+    style::Modifier,
+    text::{Line, Span},
+};
+
+use crate::{
+    table::BALLS,
+    terminal::{
+        pages::coach::{CoachPage, Mode},
+        shot::spin::Spin,
+        ui::{Ui, panel::draw_title, text::write_right, theme::Theme},
+        words::{fixed, millimetres, step_words},
+    },
+};
+
+/// Columns at which the numbers end, from the panel's left edge.
+const X_END: u16 = 17;
+const Y_END: u16 = 24;
+const SPEED_END: u16 = 30;
+const MOTION: u16 = 31;
+
+/// Draws the panel; below the balls, if there is room, more about the layout or the shot.
+pub fn draw_balls(coach: &CoachPage, area: Rect, ui: &mut Ui) {
+    let inner = draw_title(&Line::from(Span::styled("Balls", ui.theme.text())), area, ui);
+    for (end, label) in [(X_END, " x mm "), (Y_END, " y mm "), (SPEED_END, " m/s ")] {
+        write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
+    }
+    for (ball, row) in (0..BALLS).zip(inner.y..inner.bottom()) {
+        draw_ball(coach, ball, Rect { y: row, height: 1, ..inner }, ui);
+    }
+    for (line, row) in more(coach, ui.theme).into_iter().zip(inner.y + BALLS as u16 + 1..inner.bottom()) {
+        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(2));
+    }
+}
+
+fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
+    let selected = coach.mode == Mode::Placing && ball == coach.selected;
+    let mut style = ui.theme.text();
+    if selected {
+        style = ui.theme.accent();
+    }
+    let marker = if ui.theme.is_mono() || !ui.caps.unicode { ui.theme.letters()[ball] } else { '●' };
+    let pointer = if selected { ui.caps.pick("▸", ">") } else { " " };
+    ui.buffer.set_string(area.x, area.y, pointer, ui.theme.accent());
+    ui.buffer.set_string(area.x + 1, area.y, marker.to_string(), ui.theme.ball(ball).add_modifier(Modifier::BOLD));
+    ui.buffer.set_string(area.x + 3, area.y, ui.theme.names()[ball], style);
+    let (place, speed, motion) = match coach.watched() {
+        Some(shot) => {
+            let time = coach.playback.readout;
+            let state = shot.recording.state(ball, time);
+            let speed = state.velocity.length();
+            let spin = Spin::of(&state, shot.recording.motion(ball, time), coach.table().radius);
+            (state.position, Some(speed), spin.word)
+        }
+        None => (coach.layout().balls[ball], None, ""),
+    };
+    write_right(ui.buffer, area.x, area.x + X_END, area.y, &millimetres(place.x), style);
+    write_right(ui.buffer, area.x, area.x + Y_END, area.y, &millimetres(place.y), style);
+    if let Some(speed) = speed {
+        write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(speed, 2), style);
+    }
+    ui.buffer.set_stringn(
+        area.x + MOTION,
+        area.y,
+        motion,
+        usize::from(area.width.saturating_sub(MOTION)),
+        ui.theme.faint(),
+    );
+}
+
+fn more(coach: &CoachPage, theme: &Theme) -> Vec<Line<'static>> {
+    let label = |text: &'static str| Span::styled(text, theme.faint());
+    let value = |text: String| Span::styled(text, theme.text());
+    let mut lines = Vec::new();
+    if coach.mode == Mode::Placing {
+        lines.push(Line::from(vec![
+            label("step "),
+            value(step_words(coach.step_mm())),
+            label(" (Shift x10, Ctrl x0.1)"),
+        ]));
+        let mut gaps = vec![label("gap")];
+        for other in (0..BALLS).filter(|&other| other != coach.selected) {
+            let balls = coach.layout().balls;
+            let gap = (balls[coach.selected].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
+            gaps.push(label(if gaps.len() > 1 { ", " } else { " " }));
+            gaps.push(value(format!("{} {}", theme.names()[other], millimetres(gap))));
+        }
+        gaps.push(label(" mm"));
+        lines.push(Line::from(gaps));
+    }
+    if let Some(contact) = coach.shot().and_then(|shot| shot.contact_words(coach.cue_ball())) {
+        lines.push(Line::from(value(contact)));
+    }
+    lines
+}

@@ -1,0 +1,128 @@
+//! The first row behind the tabs: the table, what is asked, and how far the shot has played.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    keymap::{chord::keys_text, chord_of},
+    pages::coach::{
+        CoachPage, Mode,
+        keys::{COACH, CoachAction},
+    },
+    ui::{Ui, text::end_of},
+    words::{fixed, rule_word, skill_word},
+};
+
+/// Cells of the bar that shows how far the shot has played: at least, and at most; and from how many on words stand before
+/// it.
+const BAR: (usize, usize) = (6, 40);
+const WORDY: usize = 16;
+/// Columns behind the tabs from which on the usual table is named, and its size told.
+const NAMED: usize = 60;
+const MEASURED: usize = 90;
+/// Fewest columns of a policy's name that still tell something.
+const NAME: usize = 8;
+
+/// Draws the coach's row. What is asked and the time of the shot always have room; the rest comes as it fits.
+pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
+    let room = usize::from(area.width);
+    let question = question(coach, ui);
+    let name =
+        name(coach, room.saturating_sub(question.width() + transport(coach, Form::Short, 0, ui).width() + 2), room, ui);
+    let left = room.saturating_sub(question.width() + name.width() + 1);
+    // The bar says more than words do.
+    let wanted = [(Form::Words, WORDY), (Form::Sign, BAR.0), (Form::Words, 0), (Form::Sign, 0)];
+    let fits = |(form, bar): &(Form, usize)| transport(coach, *form, *bar, ui).width() < left;
+    let (form, bar) = wanted.into_iter().find(fits).unwrap_or((Form::Short, 0));
+    let bar = if bar > 0 { left.saturating_sub(transport(coach, form, 0, ui).width() + 5).min(BAR.1) } else { 0 };
+    let x = ui.buffer.set_line(area.x, area.y, &name, area.width).0;
+    let x = ui.buffer.set_line(x, area.y, &question, area.right().saturating_sub(x)).0;
+    let right = transport(coach, form, bar, ui);
+    let start = area.right().saturating_sub(right.width() as u16 + 1).max(x + 1).min(area.right());
+    ui.buffer.set_line(start, area.y, &right, area.right() - start);
+}
+
+/// What is asked, each after the key that changes it.
+fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
+    let query = &coach.query;
+    let plan = if query.plan { "plan" } else { "off" };
+    let parts = [
+        (CoachAction::NextRule, rule_word(query.rule)),
+        (CoachAction::NextSkill, skill_word(query.skill)),
+        (CoachAction::TurnPlan, plan),
+    ];
+    let mut line = Line::default();
+    for (action, words) in parts {
+        let chord = chord_of(COACH, &action);
+        let key = keys_text(chord.into_iter().flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+        line.push_span(Span::styled(format!(" {key}"), ui.theme.accent()));
+        line.push_span(Span::styled(format!(" {words}"), ui.theme.text()));
+    }
+    line
+}
+
+/// The policy that is asked or the table, where it is not the usual one or there is room for it.
+fn name(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
+    let table = coach.table();
+    let is_usual = coach.query.policy.is_none() && table.name == "match";
+    if left < NAME || is_usual && room < NAMED {
+        return Line::default();
+    }
+    if let Some((policy, _)) = &coach.query.policy {
+        return Line::styled(format!(" {}", end_of(policy, left - 1, ui.caps)), ui.theme.good());
+    }
+    let mut line = Line::styled(format!(" {}", end_of(&table.name, left - 1, ui.caps)), ui.theme.text());
+    if room >= MEASURED {
+        line.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), ui.theme.faint()));
+    }
+    line
+}
+
+/// How much is said about the shot's time.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    /// What goes on, in words.
+    Words,
+    /// The same as a sign.
+    Sign,
+    /// The same in as few columns as can be.
+    Short,
+}
+
+fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static> {
+    let playback = coach.playback;
+    let is_thinking = coach.spinner().is_some();
+    let Some(shot) = coach.shot() else {
+        let words = if is_thinking { "thinking" } else { "placing balls" };
+        return Line::from(Span::styled(if form == Form::Short { "" } else { words }, ui.theme.faint()));
+    };
+    let (words, sign) = match coach.mode {
+        _ if is_thinking => ("thinking", ui.caps.pick("…", "?")),
+        Mode::Placing => ("shot ready", ui.caps.pick("■", "#")),
+        Mode::Watching if playback.playing => ("playing", ui.caps.pick("▸", ">")),
+        Mode::Watching => ("paused", ui.caps.pick("‖", "|")),
+    };
+    let duration = shot.recording.duration();
+    let end = fixed(duration, 2);
+    // As wide as the time gets, so that nothing moves.
+    let now = format!("{:>width$}", fixed(playback.readout, 2), width = end.len());
+    let times = ui.caps.pick("×", "x");
+    let (state, of, speed) = match form {
+        Form::Words => (format!("{words:<10}  "), format!(" / {end} s"), format!("  {times}{}", playback.speed())),
+        Form::Sign => (format!("{sign} "), format!(" / {end} s"), format!(" {times}{}", playback.speed())),
+        Form::Short => (format!("{sign} "), format!("/{end}"), format!(" {times}{}", playback.speed())),
+    };
+    let mut line = Line::from(Span::styled(state, ui.theme.text()));
+    if bar > 0 {
+        let done = if duration > 0.0 { (playback.readout / duration * bar as f64) as usize } else { bar };
+        line.push_span(Span::styled(ui.caps.pick("━", "=").repeat(done.min(bar)), ui.theme.accent()));
+        line.push_span(Span::styled(ui.caps.pick("─", "-").repeat(bar - done.min(bar)), ui.theme.faint()));
+        line.push_span(Span::styled("  ", ui.theme.text()));
+    }
+    line.push_span(Span::styled(now, ui.theme.text()));
+    line.push_span(Span::styled(of, ui.theme.faint()));
+    line.push_span(Span::styled(speed, ui.theme.text()));
+    line
+}

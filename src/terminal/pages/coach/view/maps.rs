@@ -1,0 +1,222 @@
+//! Maps of the outcome: over the tip's place on the ball's face, and over direction and speed around the stroke.
+
+use glam::DVec2;
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    coach::{Map, Outcome, Skill},
+    physics::CueInputs,
+    table::Table,
+    terminal::{
+        capabilities::Glyphs,
+        ui::{
+            Ui,
+            canvas::Ink,
+            field::{Dot, Mark, draw_field, face_in, spot_mark},
+            panel::draw_title,
+            text::write_right,
+        },
+        words::fixed,
+    },
+};
+
+/// All outcomes in the order of the theme's colours, with their letters where there are no blocks, and in words.
+const OUTCOMES: [(Outcome, char, &str); 5] = [
+    (Outcome::NoStroke, ' ', "no stroke"),
+    (Outcome::NoBall, '.', "no ball"),
+    (Outcome::OneBall, '-', "one ball"),
+    (Outcome::TooFewCushions, '=', "too few cushions"),
+    (Outcome::Point, '#', "point"),
+];
+
+/// Weights of what shares a cell (see [`Ink`]): the stroke and the player's errors stay before the outcomes.
+const OUTCOME_WEIGHT: u8 = 3;
+const ERRORS_WEIGHT: u8 = 7;
+const STROKE_WEIGHT: u8 = 16;
+
+/// Radius of the mark of the stroke, as a share of half of the map.
+const TIP_RADIUS: f64 = 0.12;
+const STROKE_RADIUS: f64 = 0.07;
+
+/// Standard errors at which the player's errors are outlined: 86 of 100 strokes lie inside in both inputs.
+const OUTLINE: f64 = 2.0;
+
+/// Half the width of the outline, as a share of its radius: a sub-pixel or two, and a line without gaps.
+const LINE: f64 = 0.09;
+const COARSE_LINE: f64 = 0.2;
+
+/// Columns of the panel from which on the speeds stand beside the map, and theirs.
+const WIDE: u16 = 24;
+const GUTTER: u16 = 6;
+
+/// What a place of a map shows.
+#[derive(Clone, Copy, PartialEq)]
+enum Sign {
+    Outcome(Outcome),
+    /// The outline of the player's errors.
+    Errors,
+    /// The stroke itself.
+    Stroke,
+}
+
+/// Draws the outcomes over the part of the ball's face where the tip does not slip off, with its rim, as the shooter sees it,
+/// and where the tip meets it.
+pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, area: Rect, ui: &mut Ui) {
+    let reach = map.columns.last().copied().unwrap_or_default();
+    let title = format!("Tip {}{} mm", ui.caps.pick("±", "+-"), fixed(reach, 0));
+    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    // How far the tip is from the middle of the map, as a share of its half; positive `a` is on the left.
+    let share = 1e3 * table.radius / reach;
+    let face = face_in(inner);
+    let tip = Dot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, ui.caps);
+    draw_signs(face, ui, |x, y, _| match () {
+        () if x.hypot(y) > 1.0 => None,
+        () if tip.covers(x, y) => Some(Sign::Stroke),
+        () => Some(Sign::Outcome(at(map, -x, y))),
+    });
+}
+
+/// Draws the outcomes over direction, to the left as the shooter sees it, and speed, upwards, with the outline of the
+/// player's errors around the stroke in the middle.
+pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, ui: &mut Ui) {
+    let (phi, degree) = (ui.caps.pick("φ", "ph"), ui.caps.pick("°", ""));
+    let wide = area.width >= WIDE;
+    let span = |values: &[f64]| values.last().copied().unwrap_or_default();
+    let mut title = vec![Span::styled(format!("{}{phi}, V", if wide { "Aim: " } else { "" }), ui.theme.text())];
+    if !wide {
+        let reach = format!(" {}{}", ui.caps.pick("±", "+-"), fixed(span(&map.rows), 1));
+        title.push(Span::styled(reach, ui.theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    if inner.height < 2 {
+        return;
+    }
+    let gutter = if wide { GUTTER } else { 0 };
+    let plot = Rect { x: inner.x + gutter, width: inner.width - gutter, height: inner.height - 1, ..inner };
+    let (across, up) = (span(&map.columns), span(&map.rows));
+    if wide {
+        let middle = plot.y + plot.height / 2;
+        for (row, text) in [
+            (plot.y, format!("+{}", fixed(up, 2))),
+            (middle, "V m/s".to_owned()),
+            (plot.bottom() - 1, format!("-{}", fixed(up, 2))),
+        ] {
+            write_right(ui.buffer, inner.x, plot.x - 1, row, &text, ui.theme.faint());
+        }
+    }
+    let axis = plot.bottom();
+    ui.buffer.set_string(plot.x, axis, format!("+{}{degree}", fixed(across, 2)), ui.theme.faint());
+    ui.buffer.set_string(plot.x + (plot.width - 1) / 2, axis, phi, ui.theme.faint());
+    write_right(ui.buffer, plot.x, plot.right(), axis, &format!("-{}{degree}", fixed(across, 2)), ui.theme.faint());
+    let line = if ui.caps.glyphs == Glyphs::Half { COARSE_LINE } else { LINE };
+    let errors = (OUTLINE * skill.phi.to_degrees() / across, OUTLINE * skill.speed / up);
+    draw_signs(plot, ui, |x, y, cell| {
+        let is_stroke = if cell > 0.0 {
+            x.abs() <= 1.0 / f64::from(plot.width) && y.abs() <= 1.0 / f64::from(plot.height)
+        } else {
+            // Round on the screen, whatever the panel's shape.
+            let aspect = f64::from(plot.width) / (2.0 * f64::from(plot.height));
+            (x * aspect.max(1.0)).hypot(y / aspect.min(1.0)) <= STROKE_RADIUS.max(1.0 / f64::from(plot.height) / 2.0)
+        };
+        let from_errors = (x / errors.0).hypot(y / errors.1);
+        match () {
+            () if is_stroke => Some(Sign::Stroke),
+            () if cell == 0.0 && (from_errors - 1.0).abs() <= line => Some(Sign::Errors),
+            () => Some(Sign::Outcome(at(map, -x, y))),
+        }
+    });
+}
+
+/// Draws what the colours or letters mean.
+pub fn draw_legend(area: Rect, ui: &mut Ui) {
+    let inner = draw_title(&Line::from(Span::styled("The maps", ui.theme.text())), area, ui);
+    let letters = ui.caps.glyphs == Glyphs::Letters;
+    let mut lines = vec![Line::default()];
+    let mut add = |spans: [Span<'static>; 2]| {
+        let width: usize = spans.iter().map(Span::width).sum();
+        if lines.last().is_some_and(|line| line.width() + width + 1 > usize::from(inner.width)) {
+            lines.push(Line::default());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.spans.extend(spans);
+        }
+    };
+    for (n, (_, letter, words)) in OUTCOMES.into_iter().enumerate().rev() {
+        // Nothing is drawn with a blank.
+        if letters && letter == ' ' {
+            continue;
+        }
+        let (sign, color) = match ui.theme.outcomes[n] {
+            color if letters => (letter, color),
+            ground if ground == ui.theme.background => ('□', ui.theme.rule),
+            color => ('■', color),
+        };
+        add([
+            Span::styled(format!(" {sign}"), ui.theme.text().fg(color)),
+            Span::styled(format!(" {words}"), ui.theme.faint()),
+        ]);
+    }
+    let stroke = if letters { " X" } else { " ●" };
+    add([Span::styled(stroke, ui.theme.text().fg(ui.theme.tip)), Span::styled(" the stroke", ui.theme.faint())]);
+    if !letters {
+        add([Span::styled(" ○", ui.theme.text()), Span::styled(" twice your errors", ui.theme.faint())]);
+    }
+    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
+        ui.buffer.set_line(inner.x, row, line, inner.width);
+    }
+}
+
+/// The outcome at a place of the map: `x` and `y` from -1 to 1, to its ends.
+fn at(map: &Map, x: f64, y: f64) -> Outcome {
+    let index = |at: f64, count: usize| {
+        let place = 0.5 * (at + 1.0) * (count as f64 - 1.0);
+        (place.round().max(0.0) as usize).min(count.saturating_sub(1))
+    };
+    map.outcomes[index(y, map.rows.len())][index(x, map.columns.len())]
+}
+
+/// Paints `area` with what `sign` says of each place, as [`draw_field`] asks for it.
+fn draw_signs(area: Rect, ui: &mut Ui, sign: impl Fn(f64, f64, f64) -> Option<Sign>) {
+    let theme = ui.theme;
+    draw_field(area, theme.background, ui, |x, y, cell| {
+        Some(match sign(x, y, cell)? {
+            Sign::Stroke => spot_mark(theme, STROKE_WEIGHT),
+            // Letters have no outline.
+            Sign::Errors => Mark { ink: Ink { color: theme.outline, weight: ERRORS_WEIGHT }, ..spot_mark(theme, 0) },
+            Sign::Outcome(outcome) => {
+                let index = OUTCOMES.iter().position(|(one, ..)| *one == outcome).unwrap_or_default();
+                let color = theme.outcomes[index];
+                let ink = Ink { color, weight: OUTCOME_WEIGHT };
+                Mark { ink, letter: OUTCOMES[index].1, style: theme.text().fg(color) }
+            }
+        })
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::Input;
+
+    #[test]
+    fn the_corners_of_a_map_are_its_ends() {
+        use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
+        let row = |one, other| vec![one, Outcome::Point, other];
+        let map = Map {
+            across: Input::Side,
+            up: Input::Height,
+            columns: vec![-1.0, 0.0, 1.0],
+            rows: vec![-1.0, 0.0, 1.0],
+            outcomes: vec![
+                row(Outcome::NoStroke, Outcome::NoBall),
+                row(Outcome::Point, Outcome::Point),
+                row(Outcome::OneBall, Outcome::TooFewCushions),
+            ],
+        };
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| at(&map, x, y));
+        assert_eq!(corners, [NoStroke, NoBall, OneBall, TooFewCushions, Point]);
+    }
+}

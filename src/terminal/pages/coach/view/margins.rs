@@ -1,0 +1,174 @@
+//! The panel of margins: how far off each input may be beside how far the player is off as a rule.
+
+use ratatui::{
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::{
+    coach::{Input, Margin, Skill},
+    terminal::{
+        capabilities::Capabilities,
+        tasks::advice::ShotAnalysis,
+        ui::{
+            Ui,
+            panel::{draw_nothing, draw_title},
+            text::write_right,
+            theme::Theme,
+        },
+        words::fixed,
+    },
+};
+
+/// Rows from which on every input has one of its own.
+const TALL: u16 = 6;
+
+/// Columns of the tall table: where its numbers end, from the panel's left edge.
+const LESS_END: u16 = 11;
+const MORE_END: u16 = 19;
+const YOURS_END: u16 = 28;
+const UNIT: u16 = 29;
+
+/// Columns of an input where two share a row: at least, and where there is room.
+const HALF: (u16, u16) = (20, 24);
+
+/// Draws the panel; the tightest input, the one that the player's errors leave first, is marked. Without
+/// a study it says `empty`.
+pub fn draw_margins(study: Option<&ShotAnalysis>, skill: Skill, empty: &str, area: Rect, ui: &mut Ui) {
+    let tall = area.height > TALL;
+    let mut title = vec![Span::styled("Margins", ui.theme.text())];
+    if study.is_some() && !tall {
+        let units = ui.caps.pick(" less, more, ± yours mm ° m/s", " less, more, yours mm deg m/s");
+        title.push(Span::styled(units, ui.theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    let margins = match study {
+        None => return draw_nothing(&[empty], inner, ui),
+        Some(ShotAnalysis { margins: None, .. }) => {
+            return draw_nothing(&["none: this shot makes no point"], inner, ui);
+        }
+        Some(ShotAnalysis { margins: Some(margins), .. }) => margins,
+    };
+    let tightest = tightest(margins, skill);
+    let rows: Vec<Row> = margins
+        .iter()
+        .enumerate()
+        .map(|(n, margin)| {
+            let is_tightest = Some(n) == tightest;
+            // No more digits than it has: 0.5, 0.125.
+            let yours = fixed(skill.error(margin.input), 3);
+            let yours = yours.trim_end_matches('0').trim_end_matches('.').to_owned();
+            Row { margin, yours, is_tightest, theme: ui.theme, caps: ui.caps }
+        })
+        .collect();
+    if tall {
+        for (end, label) in [(LESS_END, "less"), (MORE_END, "more"), (YOURS_END, ui.caps.pick("yours ±", "yours"))] {
+            write_right(ui.buffer, inner.x, inner.x + end, inner.y, label, ui.theme.faint());
+        }
+        for (row, y) in rows.iter().zip(inner.y + 1..inner.bottom()) {
+            row.draw_whole(Rect { y, height: 1, ..inner }, ui);
+        }
+        let note = inner.y + 1 + rows.len() as u16;
+        if tightest.is_some() && note < inner.bottom() {
+            let words = format!("{} tightest: errors leave it first", ui.caps.pick("◂", "<"));
+            ui.buffer.set_stringn(
+                inner.x + 1,
+                note,
+                words,
+                usize::from(inner.width.saturating_sub(1)),
+                ui.theme.faint(),
+            );
+        }
+    } else {
+        let places = (0..2).flat_map(|column| (inner.y..inner.bottom()).map(move |y| (column, y)));
+        let half = (inner.width / 2).clamp(HALF.0, HALF.1);
+        for (row, (column, y)) in rows.iter().zip(places) {
+            row.draw_half(inner.x + half * column, y, ui);
+        }
+    }
+}
+
+/// The input whose nearer margin is the fewest of the player's standard errors.
+fn tightest(margins: &[Margin; 5], skill: Skill) -> Option<usize> {
+    let errors = |margin: &Margin| {
+        let nearer = margin.less.unwrap_or(f64::INFINITY).min(margin.more.unwrap_or(f64::INFINITY));
+        nearer / skill.error(margin.input)
+    };
+    let all = margins.iter().map(errors).enumerate().filter(|(_, errors)| errors.is_finite());
+    all.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(n, _)| n)
+}
+
+struct Row<'a> {
+    margin: &'a Margin,
+    /// The player's standard error, in the input's unit.
+    yours: String,
+    is_tightest: bool,
+    theme: &'a Theme,
+    caps: Capabilities,
+}
+
+impl Row<'_> {
+    fn style(&self) -> Style {
+        if self.is_tightest { self.theme.accent() } else { self.theme.text() }
+    }
+
+    fn name(&self) -> &'static str {
+        match self.margin.input {
+            Input::Elevation => self.caps.pick("θ", "th"),
+            Input::Direction => self.caps.pick("φ", "ph"),
+            input => input.name(),
+        }
+    }
+
+    fn draw_whole(&self, area: Rect, ui: &mut Ui) {
+        let (x, y) = (area.x, area.y);
+        ui.buffer.set_string(x + 1, y, self.name(), self.theme.faint());
+        write_right(ui.buffer, x + 3, x + LESS_END, y, &size(self.margin.less, "-"), self.style());
+        write_right(ui.buffer, x + 3, x + MORE_END, y, &size(self.margin.more, "+"), self.style());
+        write_right(ui.buffer, x + 3, x + YOURS_END, y, &self.yours, self.theme.text());
+        let unit = match self.margin.unit {
+            "degrees" => self.caps.pick("°", "deg"),
+            unit => unit,
+        };
+        let mark = if self.is_tightest { self.caps.pick(" ◂", " <") } else { "" };
+        let line = Line::from(vec![Span::styled(unit, self.theme.faint()), Span::styled(mark, self.theme.accent())]);
+        ui.buffer.set_line(x + UNIT, y, &line, area.right().saturating_sub(x + UNIT));
+    }
+
+    fn draw_half(&self, x: u16, y: u16, ui: &mut Ui) {
+        let mark = if self.is_tightest { self.caps.pick("▸", ">") } else { " " };
+        ui.buffer.set_string(x, y, mark, self.theme.accent());
+        ui.buffer.set_string(x + 1, y, self.name(), self.theme.faint());
+        write_right(ui.buffer, x + 3, x + 8, y, &size(self.margin.less, "-"), self.style());
+        write_right(ui.buffer, x + 8, x + 14, y, &size(self.margin.more, "+"), self.style());
+        // They are less than 1 as a rule, so that their points stand one below the other.
+        ui.buffer.set_stringn(x + 15, y, &self.yours, 5, self.theme.faint());
+    }
+}
+
+/// A margin in five columns at most.
+fn size(margin: Option<f64>, sign: &str) -> String {
+    margin.map_or("any".to_owned(), |margin| format!("{sign}{}", fixed(margin, if margin < 9.995 { 2 } else { 1 })))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tightest_input_is_measured_in_the_players_errors() {
+        let margin = |input: Input, less, more| Margin { input, unit: input.unit(), less, more };
+        let margins = [
+            margin(Input::Side, Some(3.0), Some(0.6)),
+            margin(Input::Height, None, None),
+            margin(Input::Elevation, None, Some(5.0)),
+            margin(Input::Direction, Some(0.14), None),
+            margin(Input::Speed, Some(0.3), Some(0.2)),
+        ];
+        // 0.6 mm are 1.2 errors of 0.5 mm, 0.14° are 1.12 of 0.125°.
+        assert_eq!(tightest(&margins, Skill::EXPERT), Some(3));
+        assert_eq!(tightest(&margins, Skill::PERFECT), None, "who never errs finds nothing tight");
+        assert_eq!([size(Some(9.994), "-"), size(Some(9.996), "+"), size(None, "-")], ["-9.99", "+10.0", "any"]);
+    }
+}

@@ -1,0 +1,189 @@
+//! The coach's screen: the table, what the coach recommends, and the shot as it plays.
+
+mod balls;
+mod chances;
+mod header;
+mod maps;
+mod margins;
+mod panes;
+mod plan;
+mod shot;
+
+use ratatui::layout::{Position, Rect};
+
+use crate::{
+    coach::{Mark, line_of_aim},
+    table::BALLS,
+    terminal::{
+        capabilities::Capabilities,
+        pages::{
+            PageArea, Target,
+            coach::{
+                AdviceState, CoachPage, Mode, View,
+                view::{
+                    balls::draw_balls,
+                    chances::{choice_at, draw_chances},
+                    header::draw_header,
+                    maps::{draw_aim_map, draw_legend, draw_tip_map},
+                    margins::draw_margins,
+                    panes::Panes,
+                    plan::{draw_plan, plan_spots},
+                    shot::{draw_proposal, draw_shot},
+                },
+            },
+        },
+        shot::{Shot, playback::passed},
+        ui::{
+            Ui,
+            events::draw_events,
+            geometry::Mapping,
+            message::Message,
+            sight::draw_sight,
+            spin::draw_spin,
+            status_line::draw_status,
+            table::{TableView, draw_table},
+            tip::draw_tip,
+        },
+        words::{event_words, fixed, millimetres, percent, rail_word, step_words},
+    },
+};
+
+/// Draws the screen; gives the first row of what stands below the picture.
+pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
+    let panes = Panes::new(coach.table(), area.screen);
+    draw_header(coach, area.header, ui);
+    let choice = coach.shown().map(AdviceState::choice);
+    let planned = choice.filter(|_| coach.view == View::Plan);
+    let spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
+    let view = TableView {
+        table: coach.table(),
+        layout: coach.layout(),
+        shot: coach.shot().map(AsRef::as_ref),
+        time: coach.playback.time,
+        is_moving: coach.mode == Mode::Watching,
+        front: coach.selected,
+        // While the coach thinks each better shot would move them all.
+        is_lean: planned.is_some() || coach.spinner().is_some(),
+        spots: &spots,
+        film: None,
+        theme: ui.theme,
+        caps: ui.caps,
+    };
+    draw_table(&view, panes.table, ui);
+    draw_panels(coach, &panes, ui);
+    let caps = ui.caps;
+    let standing = || Message::plain(standing(coach, caps));
+    draw_status(&coach.message.clone().unwrap_or_else(standing), area.status, ui)
+}
+
+/// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
+/// far as there is room.
+fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
+    let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
+    let chosen = coach.view;
+    for (view, area) in views(chosen, panes) {
+        draw_info(coach, view, area, ui);
+    }
+    let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
+    if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
+        draw_aim_map(&study.aim, coach.query.skill, panes.shot, ui);
+        draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), ui);
+        return draw_legend(panes.events, ui);
+    }
+    match coach.proposal() {
+        Some(proposal) => draw_proposal(proposal, table, coach.layout(), panes.shot, ui),
+        None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, ui),
+    }
+    draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, ui);
+    let time = coach.watched().map(|_| coach.playback.readout);
+    match shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius)) {
+        Some(spin) => draw_spin(&spin, panes.sight, ui),
+        None => draw_sight(shot.map(Shot::meeting), panes.sight, ui),
+    }
+    draw_events(shot, time, panes.events, ui);
+}
+
+/// The chosen view and the others that there is room for, each with its panel.
+fn views(chosen: View, panes: &Panes) -> impl Iterator<Item = (View, Rect)> {
+    let others = [View::Chances, View::Margins, View::Plan].into_iter().filter(move |view| *view != chosen);
+    std::iter::once((chosen, panes.info)).chain(others.zip(panes.more).filter(|(_, area)| !area.is_empty()))
+}
+
+/// Where the table is drawn.
+pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
+    Mapping::fit(coach.table(), Panes::new(coach.table(), area).table)
+}
+
+/// What the mouse points at.
+pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
+    let area = area.screen;
+    let mapping = table_mapping(coach, area);
+    if mapping.bed.contains(at) {
+        return Some(Target::Table(mapping));
+    }
+    let panes = Panes::new(coach.table(), area);
+    let (_, panel) = views(coach.view, &panes).find(|(view, _)| *view == View::Chances)?;
+    let advised = coach.shown().filter(|_| panel.contains(at))?;
+    choice_at(advised, panel, at.y).map(Target::Shot)
+}
+
+/// Draws what one of the views tells.
+fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
+    let advised = coach.shown();
+    let choice = advised.map(AdviceState::choice);
+    let empty = match (coach.spinner(), choice) {
+        (Some(_), _) => "the coach is thinking",
+        (None, Some(_)) => "being worked out",
+        (None, None) => "no shot yet; Enter asks the coach",
+    };
+    match view {
+        View::Balls => draw_balls(coach, area, ui),
+        View::Chances => draw_chances(advised, empty, area, ui),
+        View::Margins => {
+            let study = choice.and_then(|choice| choice.study.as_deref());
+            draw_margins(study, coach.query.skill, empty, area, ui);
+        }
+        View::Plan => draw_plan(choice, empty, area, ui),
+    }
+}
+
+/// What the status line says while there is no news.
+fn standing(coach: &CoachPage, caps: Capabilities) -> String {
+    if let Some(picture) = coach.spinner() {
+        let pictures = caps.pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
+        let so_far = coach.proposal().filter(|proposal| proposal.is_early).and_then(|proposal| proposal.made);
+        let words = so_far.map_or("the coach is thinking; Esc stops it".to_owned(), |made| {
+            format!("so far a shot that makes the point {} % of the time; Esc takes it", percent(made.rate))
+        });
+        return format!("{} {words}", pictures[picture % pictures.len()]);
+    }
+    match coach.watched() {
+        Some(shot) if coach.playback.time == 0.0 => aim_words(coach, shot),
+        Some(shot) => {
+            let (events, time) = (shot.recording.events(), coach.playback.readout);
+            events.get(passed(events, time)).map_or("all balls lie still".to_owned(), |next| {
+                format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
+            })
+        }
+        None => selected_ball(coach),
+    }
+}
+
+/// How the first ball is hit, and the line of aim in diamonds, as a player reads it off the rails.
+fn aim_words(coach: &CoachPage, shot: &Shot) -> String {
+    let hit = shot.contact_words(coach.cue_ball()).unwrap_or_else(|| "hits no ball".to_owned());
+    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
+    let [ahead, behind] = line_of_aim(coach.table(), coach.layout(), shot.cue.phi).map(mark);
+    format!("{hit}; aim from {behind} to {ahead} diamonds")
+}
+
+/// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.
+fn selected_ball(coach: &CoachPage) -> String {
+    let (ball, balls, names) = (coach.selected, coach.layout().balls, coach.cue_ball().names());
+    let others = (0..BALLS).filter(|&other| other != ball);
+    let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
+    let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
+    let near = nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), names[other]));
+    let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
+    format!("{} at x {x} mm, y {y} mm{near}; step {}", names[ball], step_words(coach.step_mm()))
+}

@@ -1,0 +1,115 @@
+//! The panel of the plan: this shot, where the balls stop, and the next shot; and what of it is drawn on the table.
+
+use ratatui::{
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::{
+    table::BALLS,
+    terminal::{
+        capabilities::Glyphs,
+        pages::coach::{Choice, view::chances::sort_words},
+        tasks::advice::Proposal,
+        ui::{
+            Ui,
+            panel::{draw_nothing, draw_title},
+            table::Spot,
+            text::wrap,
+            theme::Theme,
+        },
+        words::{fixed, percent},
+    },
+};
+
+/// Sign of the cue ball's next way where only letters are drawn.
+const WAY_LETTER: char = '*';
+
+/// What the distances of the stops are.
+const SPREAD_WORDS: &str = "half of the points leave the balls so near to the places that are meant";
+
+/// Draws the panel; without a shot it says `empty`.
+pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) {
+    let mut title = vec![Span::styled("Plan", ui.theme.text())];
+    if let Some(next) = choice.and_then(|choice| choice.proposal.next) {
+        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
+        title.push(Span::styled(format!("the point after it {} %", percent(next)), ui.theme.text()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    let Some(choice) = choice else { return draw_nothing(&[empty], inner, ui) };
+    let rows = [
+        ("now", shot_words(&choice.proposal, ui.theme)),
+        ("stop", stop_words(choice, ui.theme)),
+        ("next", next_words(choice, ui.theme)),
+    ];
+    let mut lines: Vec<Line> = rows
+        .into_iter()
+        .map(|(name, words)| {
+            Line::from(vec![
+                Span::styled(format!(" {name:<5}"), ui.theme.faint()),
+                Span::styled(words, ui.theme.text()),
+            ])
+        })
+        .collect();
+    if choice.study.is_some() {
+        let words = wrap(SPREAD_WORDS, usize::from(inner.width.saturating_sub(2)));
+        lines.extend(words.into_iter().map(|words| Line::styled(format!(" {words}"), ui.theme.faint())));
+    }
+    if choice.next.is_some() {
+        let sign = if ui.caps.glyphs == Glyphs::Letters { WAY_LETTER } else { '•' };
+        lines.push(Line::from(vec![
+            Span::raw(" "),
+            Span::styled(sign.to_string(), Style::new().fg(ui.theme.way).bg(ui.theme.behind_ball)),
+            Span::styled(" the cue ball's way then; n goes on", ui.theme.faint()),
+        ]));
+    }
+    for (line, row) in lines.into_iter().zip(inner.y..inner.bottom()) {
+        ui.buffer.set_line(inner.x, row, &line, inner.width);
+    }
+}
+
+fn shot_words(proposal: &Proposal, theme: &Theme) -> String {
+    let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
+    let so_far = if proposal.is_early { "so far " } else { "" };
+    format!("{so_far}{chance} % {}", sort_words(proposal, theme.cue_ball))
+}
+
+/// How near to the meant places the balls stop, in half of the attempts that make the point.
+fn stop_words(choice: &Choice, theme: &Theme) -> String {
+    let Some(study) = &choice.study else { return "being tried".to_owned() };
+    let meant = choice.proposal.shot.recording.final_layout();
+    let spread = |ball: usize| Some(100.0 * study.scatter.spread(ball, meant.balls[ball])?);
+    let words: Vec<_> =
+        (0..BALLS).filter_map(|ball| Some(format!("{} {}", theme.names()[ball], fixed(spread(ball)?, 0)))).collect();
+    if words.is_empty() { "no attempt made the point".to_owned() } else { words.join(", ") + " cm" }
+}
+
+fn next_words(choice: &Choice, theme: &Theme) -> String {
+    match (&choice.next, choice.is_studied) {
+        (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, theme)),
+        (None, false) => "being looked for".to_owned(),
+        (None, true) => "none".to_owned(),
+    }
+}
+
+/// What is drawn of the plan: where the balls stop in many attempts, and the way of the cue ball in the next shot.
+pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
+    let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
+    let cloud = ends.flat_map(|end| {
+        let spot = |ball: usize| Spot {
+            place: end.balls[ball],
+            is_ball: false,
+            color: theme.balls[ball],
+            letter: theme.letters()[ball].to_ascii_lowercase(),
+        };
+        (0..BALLS).map(spot)
+    });
+    let next = choice.next.as_ref().and_then(|next| next.proposals.first());
+    let way = next.into_iter().flat_map(|next| {
+        let spot = |place, is_ball| Spot { place, is_ball, color: theme.way, letter: WAY_LETTER };
+        let dots = next.shot.paths[0].iter().step_by(2).map(move |dot| spot(dot.place, false));
+        dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
+    });
+    cloud.chain(way).collect()
+}

@@ -1,0 +1,168 @@
+//! The panel of the shot: the five cue inputs and what they give the ball.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    coach::{Mark, line_of_aim},
+    learning::evaluation::SuccessRate,
+    table::{Layout, Table},
+    terminal::{
+        capabilities::Capabilities,
+        shot::Shot,
+        tasks::advice::Proposal,
+        ui::{
+            Ui,
+            panel::{draw_nothing, draw_title},
+            theme::Theme,
+        },
+        words::{across_word, chance_words, fixed, height_word, percent, rail_word},
+    },
+};
+
+/// Columns from which on the panel explains the numbers.
+const WIDE: u16 = 30;
+/// Columns of the spin where its three numbers share a narrow row.
+const SPIN_WIDTH: usize = 12;
+
+/// Draws the panel; without a shot it says `empty`, a line a row.
+pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], table: &Table, area: Rect, ui: &mut Ui) {
+    let mut title = vec![Span::styled("Shot", ui.theme.text())];
+    if let Some(shot) = shot {
+        let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("no point", ui.theme.warning()) };
+        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
+        title.push(Span::styled(words, style));
+        if area.width >= WIDE {
+            title.push(Span::styled(format!(" {}", shot.source), ui.theme.faint()));
+        }
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    match shot {
+        Some(shot) => draw_rows(shot, String::from("from the x axis"), table, inner, ui),
+        None => draw_nothing(empty, inner, ui),
+    }
+}
+
+/// Draws the panel of a shot that the coach proposes: how often it is made, and the aim in diamonds.
+pub fn draw_proposal(proposal: &Proposal, table: &Table, layout: &Layout, area: Rect, ui: &mut Ui) {
+    let shot = &proposal.shot;
+    let wide = area.width >= WIDE;
+    let chance = |rate: &SuccessRate| if wide { chance_words(rate) } else { format!("{} %", percent(rate.rate)) };
+    let (words, style) = match &proposal.made {
+        _ if !shot.solved => ("no point".to_owned(), ui.theme.warning()),
+        None => ("point".to_owned(), ui.theme.good()),
+        Some(made) if proposal.is_early => (format!("so far {} %", percent(made.rate)), ui.theme.accent()),
+        Some(made) => (chance(made), ui.theme.good()),
+    };
+    let mut title = Vec::new();
+    if wide || !proposal.is_early {
+        title = vec![Span::styled("Shot", ui.theme.text()), Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint())];
+    }
+    title.push(Span::styled(words, style));
+    let source = format!(" {}", shot.source);
+    // The rule before the title, and a blank on either side of it.
+    let taken = 3 + title.iter().map(Span::width).sum::<usize>() + source.len();
+    if wide && taken <= usize::from(area.width) {
+        title.push(Span::styled(source, ui.theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
+    let [ahead, behind] = line_of_aim(table, layout, shot.cue.phi).map(mark);
+    let aim = format!("{behind}{}{ahead}", ui.caps.pick("→", ">"));
+    draw_rows(shot, aim, table, inner, ui);
+}
+
+/// The numbers, with a note on the direction.
+fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, ui: &mut Ui) {
+    let wide = inner.width >= WIDE;
+    let rows = if wide { wide_rows(shot, aim, table.radius, ui.caps) } else { narrow_rows(shot, ui.caps) };
+    let is_low = !wide && usize::from(inner.height) < rows.len();
+    let lines = if is_low {
+        low_lines(shot, rows, ui.theme, ui.caps)
+    } else {
+        rows.into_iter().map(|row| line(row, ui.theme)).collect()
+    };
+    for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
+        let indent = u16::from(wide);
+        ui.buffer.set_line(inner.x + indent, row, line, inner.width.saturating_sub(indent));
+    }
+}
+
+type Row = (&'static str, String, String);
+
+fn line((name, value, note): Row, theme: &Theme) -> Line<'static> {
+    Line::from(vec![
+        Span::styled(format!("{name:<3}"), theme.faint()),
+        Span::styled(value, theme.text()),
+        Span::styled(format!(" {note}"), theme.faint()),
+    ])
+}
+
+/// The narrow rows in two fewer: both angles stand in one, and the spin in another.
+fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> Vec<Line<'static>> {
+    let degree = caps.pick("°", "");
+    let angle = |angle: f64, width: usize| format!("{:>width$}{degree}", fixed(angle.to_degrees(), 1));
+    let angles = Line::from(vec![
+        Span::styled(caps.pick("φ", "ph"), theme.faint()),
+        Span::styled(angle(shot.cue.phi, 6), theme.text()),
+        Span::styled(caps.pick(" θ", " th"), theme.faint()),
+        Span::styled(angle(shot.cue.theta, 4), theme.text()),
+    ]);
+    let w = shot.impulse.spin;
+    let spin = [w.x, w.y, w.z].map(|part| fixed(part, 0));
+    // Where blanks have no room, the signs divide the numbers.
+    let blank = |part: &String| if part.starts_with('-') { part.clone() } else { format!(" {part}") };
+    let close: String = spin.iter().map(blank).collect();
+    let apart = spin.join(" ");
+    let spin = if apart.len() <= SPIN_WIDTH { apart } else { close };
+    let mut rows = rows.into_iter();
+    let mut take = |count: usize| rows.by_ref().take(count).map(|row| line(row, theme)).collect::<Vec<_>>();
+    let tip = take(2);
+    take(2);
+    let speeds = take(2);
+    let spin = (caps.pick("ω0", "w0"), format!("{spin:>SPIN_WIDTH$}"), String::new());
+    tip.into_iter().chain([angles]).chain(speeds).chain([line(spin, theme)]).collect()
+}
+
+fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<Row> {
+    let cue = &shot.cue;
+    let offset = |value: f64, word: &str| match value {
+        0.0 => "R, at the centre".to_owned(),
+        _ => format!("R, {} mm {word}", fixed((1000.0 * radius * value).abs(), 1)),
+    };
+    let degree = caps.pick("°", " deg");
+    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let value = |text: String| format!("{text:>7}");
+    vec![
+        ("a", value(fixed(cue.a, 3)), offset(cue.a, across_word(cue.a))),
+        ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
+        (caps.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
+        (caps.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + caps.pick("°", "")), aim),
+        ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
+        ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
+        (
+            caps.pick("ω0", "w0"),
+            format!("{:>6} {:>6} {:>6}", fixed(w.x, 1), fixed(w.y, 1), fixed(w.z, 1)),
+            "rad/s".into(),
+        ),
+    ]
+}
+
+fn narrow_rows(shot: &Shot, caps: Capabilities) -> Vec<Row> {
+    let cue = &shot.cue;
+    let degree = caps.pick("°", " deg");
+    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+    let none = String::new;
+    vec![
+        ("a", format!("{:>6}", fixed(cue.a, 3)), across_word(cue.a).into()),
+        ("b", format!("{:>6}", fixed(cue.b, 3)), height_word(cue.b).into()),
+        (caps.pick("θ", "th"), format!("{:>6}", fixed(cue.theta.to_degrees(), 1)) + degree, none()),
+        (caps.pick("φ", "ph"), format!("{:>6}", fixed(cue.phi.to_degrees(), 1)) + degree, none()),
+        ("V", format!("{:>6}", fixed(cue.speed, 2)), "m/s".into()),
+        ("V0", format!("{:>5} {:>5}", fixed(v.x, 2), fixed(v.y, 2)), none()),
+        (caps.pick("ω0", "w0"), format!("{:>5} {:>5}", fixed(w.x, 0), fixed(w.y, 0)), none()),
+        ("", format!("{:>5}", fixed(w.z, 0)), "rad/s".into()),
+    ]
+}

@@ -1,0 +1,229 @@
+//! What each key does to the library and the records, and what is done with answers.
+
+use crate::{
+    drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
+    terminal::{
+        effect::Effect,
+        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, keys::DrillAction as Action, question},
+        tasks::drills::DrillTask,
+        ui::message::Message,
+        words::skill_word,
+    },
+};
+
+impl DrillsPage {
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.back(),
+            Action::Line(lines) if self.page() == Screen::Record => self.scroll_records(lines),
+            Action::Line(lines) if self.page() == Screen::Films => self.film.move_mark(lines),
+            Action::Line(lines) => self.catalogue.move_mark(lines),
+            Action::OpenFilms => self.open_films(),
+            Action::Open if self.page() == Screen::Films => return self.open_film(0),
+            Action::Filmed(shots) => return self.open_film(shots),
+            Action::PlayPause | Action::Event(_) | Action::Pace(_) if self.page() == Screen::Film => {
+                self.film.watch(action);
+            }
+            Action::Category(step) => self.catalogue.choose_category(step),
+            Action::Grade(grade) => self.catalogue.choose_grade(grade),
+            Action::All => self.catalogue.show_all(),
+            Action::Search => self.question = Some(Question::Search(String::new())),
+            Action::Open => return self.open_marked(),
+            Action::Exam(level) => return self.begin_exam(level),
+            Action::Record => return Some(self.open_records()),
+            Action::Scope => self.records.toggle_scope(),
+            Action::KeepSkill => {
+                return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::KeepSkill(skill)]));
+            }
+            Action::Share => return self.share(),
+            Action::Add => self.question = Some(Question::Code(String::new())),
+            Action::Remove => {
+                self.question = self.catalogue.marked().map(|exercise| Question::Remove(exercise.name.clone()));
+            }
+            Action::Player if self.turn.is_none() => {
+                self.player.choose_next();
+                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
+            }
+            Action::ToCoach => self.send_to_coach(),
+            Action::Yes => return self.yes(),
+            Action::No => self.no(),
+            Action::Erase => {
+                if let Some(typed) = self.question.as_mut().and_then(Question::typed_mut) {
+                    typed.pop();
+                }
+                self.search();
+            }
+            other => return self.update_turn(other),
+        }
+        None
+    }
+
+    fn back(&mut self) {
+        let exam = self.turn.as_ref().filter(|turn| turn.is_exam() && self.page() == Screen::Exercise);
+        if let Some(session) = exam.map(|turn| &turn.session).filter(|session| !session.is_over()) {
+            self.question = Some(Question::Leave(session.attempts.len(), session.exercises.len()));
+            return;
+        }
+        self.pages.pop();
+        self.film.pause();
+        if self.page() == Screen::Library {
+            self.leave_page();
+        }
+    }
+
+    /// Back to the library, or to the coach where that is left too.
+    fn leave_page(&mut self) {
+        let is_left = self.is_left();
+        self.leave_turn();
+        if !is_left {
+            self.pages = vec![Screen::Library];
+        }
+    }
+
+    fn open_marked(&mut self) -> Option<Effect> {
+        let exercise = self.catalogue.marked()?.clone();
+        Some(self.begin(self.wishes.goal, vec![exercise]))
+    }
+
+    /// Begins a session of these exercises and opens the page of the first.
+    pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
+        let seed = self.seed();
+        let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
+        session.shifted = self.wishes.shifted && goal != Goal::Exam;
+        Effect::Drill(self.practise(session))
+    }
+
+    /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
+    pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
+        match Turn::new(session) {
+            Ok(Some(turn)) => {
+                self.pages = vec![Screen::Library, Screen::Exercise];
+                return self.turn.insert(turn).ask();
+            }
+            Ok(None) => {}
+            Err(error) => self.message = Some(Message::warning(error.to_string())),
+        }
+        Vec::new()
+    }
+
+    fn begin_exam(&mut self, level: u8) -> Option<Effect> {
+        let seed = self.seed();
+        match exam::draw(self.catalogue.library().exercises(), level, seed) {
+            Ok(exercises) => Some(self.begin(Goal::Exam, exercises)),
+            Err(error) => {
+                self.message = Some(Message::warning(error.to_string()));
+                None
+            }
+        }
+    }
+
+    /// Opens the page of a filmed shot, so many after the marked one, and has its stroke fitted.
+    fn open_film(&mut self, shots: isize) -> Option<Effect> {
+        let filmed = self.film.begin(shots)?;
+        if self.page() != Screen::Film {
+            self.pages.push(Screen::Film);
+        }
+        Some(Effect::Drill(vec![DrillTask::Film(Box::new(filmed))]))
+    }
+
+    fn open_records(&mut self) -> Effect {
+        self.pages.push(Screen::Record);
+        let name = self.turn.as_ref().filter(|turn| !turn.is_exam()).map(|turn| turn.exercise.name.clone());
+        let number = self.records.open(name);
+        Effect::Drill(vec![DrillTask::Estimate(number, self.book.shared())])
+    }
+
+    fn scroll_records(&mut self, lines: isize) {
+        let all = self.book.sessions_of(self.records.scope()).len();
+        self.records.scroll(lines, all);
+    }
+
+    fn share(&mut self) -> Option<Effect> {
+        let exercise = self.catalogue.marked()?;
+        match encode(exercise) {
+            Ok(code) => {
+                self.message = Some(Message::plain(format!(
+                    "{code} is copied where the terminal allows it; carom drill share {} prints it",
+                    exercise.name
+                )));
+                Some(Effect::Copy(code))
+            }
+            Err(error) => {
+                self.message = Some(Message::warning(error.to_string()));
+                None
+            }
+        }
+    }
+
+    fn send_to_coach(&mut self) {
+        let turn = self.turn.as_ref().map(|turn| Balls {
+            table: turn.table.clone(),
+            layout: turn.layout,
+            rule: turn.exercise.rule,
+        });
+        let marked = || {
+            let exercise = self.catalogue.marked()?;
+            let found = exercise.table().map(|table| Balls { table, layout: exercise.layout, rule: exercise.rule });
+            Some(found.map_err(|error| error.to_string()))
+        };
+        match turn.map(Ok).or_else(marked) {
+            Some(Ok(found)) => self.for_coach = Some(found),
+            Some(Err(sentence)) => self.message = Some(Message::warning(sentence)),
+            None => {}
+        }
+    }
+
+    fn no(&mut self) {
+        match self.question.take() {
+            Some(Question::Search(_)) => self.catalogue.find_text(""),
+            // One has come from the coach for this alone.
+            Some(Question::Name(..)) => self.is_left = true,
+            _ => {}
+        }
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        let save =
+            |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]));
+        let question = self.question.take()?;
+        let answer = match &question {
+            Question::Search(_) => return None,
+            Question::Code(typed) => self.decoded(typed),
+            Question::Name(typed, position) => self.named(typed, position),
+            Question::Replace(exercise) => return save(exercise.clone(), true),
+            Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),
+            Question::Leave(..) => {
+                self.leave_page();
+                return None;
+            }
+        };
+        match answer {
+            Ok(exercise) => save(exercise, false),
+            Err(sentence) => {
+                // What was typed stays, to be mended.
+                self.question = Some(question);
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    fn decoded(&self, typed: &str) -> Result<Box<Exercise>, String> {
+        let exercise = decode(typed).map_err(|error| error.to_string())?;
+        self.free(Exercise { category: Category::Own, ..exercise })
+    }
+
+    fn named(&self, typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
+        let (title, name, tags) = question::named(typed)?;
+        self.free(Exercise { name, title, tags, ..position.clone() })
+    }
+
+    /// A position whose name the program itself has not taken.
+    fn free(&self, exercise: Exercise) -> Result<Box<Exercise>, String> {
+        if self.catalogue.library().is_bundled(&exercise.name) {
+            return Err(format!("{} is the name of a bundled exercise; take another", exercise.name));
+        }
+        Ok(Box::new(exercise))
+    }
+}

@@ -1,0 +1,141 @@
+//! The list of exercises: which of them are shown, and which is marked.
+
+use crate::drills::{Category, Exercise, Filter, Library};
+
+/// The library as it is listed.
+#[derive(Debug)]
+pub struct Catalogue {
+    library: Library,
+    /// Which exercises are shown.
+    pub filter: Filter,
+    mark: usize,
+}
+
+impl Catalogue {
+    /// All of `library`.
+    pub fn new(library: Library) -> Self {
+        Self { library, filter: Filter::default(), mark: 0 }
+    }
+
+    /// All exercises, shown or not.
+    pub const fn library(&self) -> &Library {
+        &self.library
+    }
+
+    /// Takes another library; the mark stays at its exercise where that is still there.
+    pub fn take(&mut self, library: Library) {
+        let marked = self.marked().map(|exercise| exercise.name.clone());
+        self.library = library;
+        self.mark_named(&marked.unwrap_or_default());
+    }
+
+    /// Those that are shown.
+    pub fn found(&self) -> Vec<&Exercise> {
+        self.library.find(&self.filter).collect()
+    }
+
+    /// KeyContext of the marked exercise among those that are shown.
+    pub const fn mark(&self) -> usize {
+        self.mark
+    }
+
+    /// The marked exercise.
+    pub fn marked(&self) -> Option<&Exercise> {
+        self.library.find(&self.filter).nth(self.mark)
+    }
+
+    /// Whether the marked exercise is somebody's own.
+    pub fn is_own(&self) -> bool {
+        self.marked().is_some_and(|exercise| !self.library.is_bundled(&exercise.name))
+    }
+
+    /// Marks the exercise called `name`, or the first where it is not shown.
+    pub fn mark_named(&mut self, name: &str) {
+        self.mark = self.library.find(&self.filter).position(|exercise| exercise.name == name).unwrap_or(0);
+    }
+
+    /// Moves the mark by lines, down where positive.
+    pub fn move_mark(&mut self, lines: isize) {
+        self.mark = self.mark.saturating_add_signed(lines).min(self.found().len().saturating_sub(1));
+    }
+
+    /// Whether not all is shown.
+    pub fn is_part(&self) -> bool {
+        self.filter != Filter::default()
+    }
+
+    /// Shows other exercises; the mark stays at its own where that is among them.
+    fn refilter(&mut self, change: impl FnOnce(&mut Filter)) {
+        let marked = self.marked().map(|exercise| exercise.name.clone());
+        change(&mut self.filter);
+        self.mark_named(&marked.unwrap_or_default());
+    }
+
+    /// Shows everything.
+    pub fn show_all(&mut self) {
+        self.refilter(|filter| *filter = Filter::default());
+    }
+
+    /// Shows the next category, or the one before; before the first and after the last comes everything.
+    pub fn choose_category(&mut self, step: isize) {
+        self.refilter(|filter| {
+            let all = Category::ALL.len() + 1;
+            let now = filter.category.and_then(|now| Category::ALL.iter().position(|one| *one == now));
+            let next = (now.map_or(0, |now| now + 1) + all).saturating_add_signed(step) % all;
+            filter.category = next.checked_sub(1).map(|next| Category::ALL[next]);
+        });
+    }
+
+    /// Shows the user's own positions alone, and marks the one called `name`.
+    pub fn show_own(&mut self, name: &str) {
+        self.filter = Filter { category: Some(Category::Own), ..Filter::default() };
+        self.mark_named(name);
+    }
+
+    /// Shows one grade alone; the same grade again shows all.
+    pub fn choose_grade(&mut self, grade: u8) {
+        self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });
+    }
+
+    /// Shows what has `text` in it.
+    pub fn find_text(&mut self, text: &str) {
+        self.refilter(|filter| filter.text = (!text.is_empty()).then(|| text.to_owned()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn categories_go_round_with_everything_between_the_last_and_the_first() {
+        let mut catalogue = Catalogue::new(Library::bundled().unwrap());
+        let all = catalogue.found().len();
+        catalogue.choose_category(-1);
+        assert_eq!(catalogue.filter.category, Some(Category::Own));
+        assert!(catalogue.marked().is_none(), "nobody has saved anything");
+        catalogue.move_mark(5);
+        catalogue.choose_category(1);
+        assert_eq!((catalogue.found().len(), catalogue.mark()), (all, 0));
+        for category in Category::ALL {
+            catalogue.choose_category(1);
+            assert!(catalogue.found().iter().all(|exercise| exercise.category == category));
+        }
+    }
+
+    #[test]
+    fn the_mark_stays_at_its_exercise_while_the_list_changes() {
+        let mut catalogue = Catalogue::new(Library::bundled().unwrap());
+        catalogue.move_mark(isize::MAX);
+        let last = catalogue.marked().unwrap().clone();
+        assert_eq!(catalogue.mark() + 1, catalogue.found().len());
+        catalogue.find_text(&last.title.to_uppercase());
+        assert_eq!(catalogue.marked(), Some(&last));
+        catalogue.find_text("no such exercise");
+        assert!(catalogue.marked().is_none() && catalogue.is_part() && !catalogue.is_own());
+        catalogue.show_all();
+        catalogue.choose_grade(last.grade);
+        catalogue.choose_grade(last.grade);
+        assert!(!catalogue.is_part());
+    }
+}

@@ -1,0 +1,88 @@
+//! The filmed shots: their list, and the one that is watched beside its simulation.
+
+use crate::{
+    study::filmed::FilmedShot,
+    terminal::{
+        pages::drills::keys::DrillAction,
+        shot::{
+            film::{FilmScene, Listed, listed},
+            playback::Playback,
+        },
+    },
+};
+
+/// The filmed shots on the screen.
+#[derive(Debug, Default)]
+pub struct FilmsScreen {
+    mark: usize,
+    scene: Option<Box<FilmScene>>,
+    /// The clock of the shot that is watched.
+    pub playback: Playback,
+}
+
+impl FilmsScreen {
+    /// KeyContext of the marked shot in the list.
+    pub const fn mark(&self) -> usize {
+        self.mark
+    }
+
+    /// The marked shot, which is the one that is watched.
+    pub fn marked(&self) -> Option<&'static Listed> {
+        listed().get(self.mark)
+    }
+
+    /// Moves the mark by lines, down where positive.
+    pub fn move_mark(&mut self, lines: isize) {
+        self.mark = self.mark.saturating_add_signed(lines).min(listed().len().saturating_sub(1));
+    }
+
+    /// Marks the shot so many after the marked one; gives what is to be played. It is watched when it is received.
+    pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
+        self.move_mark(shots);
+        self.scene = None;
+        self.playback.jump(0.0);
+        self.marked().map(|listed| listed.filmed.clone())
+    }
+
+    /// The shot of this number has been played; one that nobody waits for any more is dropped.
+    ///
+    /// # Errors
+    /// Why it could not be played.
+    pub fn receive(&mut self, number: u32, played: Result<Box<FilmScene>, String>) -> Result<(), String> {
+        if self.scene.is_none() && self.marked().is_some_and(|listed| listed.filmed.number == number) {
+            let scene = self.scene.insert(played?);
+            self.playback.toggle(scene.replay.duration());
+        }
+        Ok(())
+    }
+
+    /// What is watched; `None` while the stroke is being fitted.
+    pub fn scene(&self) -> Option<&FilmScene> {
+        self.scene.as_deref()
+    }
+
+    /// Does what a key asks of the shot that is watched.
+    pub fn watch(&mut self, action: DrillAction) {
+        let Some(scene) = &self.scene else { return };
+        let (events, duration) = (scene.shot.recording.events(), scene.replay.duration());
+        match action {
+            DrillAction::Event(step) if step > 0 => self.playback.step_forward(events, duration),
+            DrillAction::Event(_) => self.playback.step_back(events),
+            DrillAction::Pace(step) if step > 0 => self.playback.faster(),
+            DrillAction::Pace(_) => self.playback.slower(),
+            _ => self.playback.toggle(duration),
+        }
+    }
+
+    /// Stops playing where it is: nobody watches.
+    pub fn pause(&mut self) {
+        self.playback.pause();
+    }
+
+    /// Lets `seconds` pass for the shot.
+    pub fn tick(&mut self, seconds: f64) {
+        if let Some(scene) = &self.scene {
+            self.playback.tick(seconds, scene.replay.duration());
+        }
+    }
+}

@@ -1,0 +1,375 @@
+//! The keys of the drill screens, a table for each page and for what is typed or answered there.
+
+use crossterm::event::KeyCode::{
+    BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
+};
+
+use crate::terminal::keymap::{
+    Binding,
+    Section::{self, Film, Library, Position, Program, Record, Score, Stroke},
+    bind,
+    chord::Chord,
+    ctrl, key, letter, mark,
+};
+
+use DrillAction as A;
+use DrillCondition as W;
+
+/// What a key does on the drill screens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DrillAction {
+    /// Goes back to the page before.
+    Back,
+    /// Moves the mark in a list by lines, down where positive.
+    Line(isize),
+    /// Lists another category, the next where positive.
+    Category(isize),
+    /// Lists one grade alone, or all again.
+    Grade(u8),
+    /// Begins to type words to look for.
+    Search,
+    /// Lists everything again.
+    All,
+    /// Opens the marked exercise.
+    Open,
+    /// Chooses another player, whose errors are played.
+    Player,
+    /// Begins an exam of this level.
+    Exam(u8),
+    /// Opens the record, of the exercise where one is open.
+    Record,
+    /// Shows the exercise's code, and copies it where the terminal can.
+    Share,
+    /// Asks for a code that is added as an own position.
+    Add,
+    /// Asks whether to remove an own position.
+    Remove,
+    /// Puts the exercise's balls on the coach's table.
+    ToCoach,
+    /// Turns the aim by degrees, to the left where positive.
+    Turn(f64),
+    /// Aims full at an object ball, then at the other.
+    AimAtBall,
+    /// Moves the tip by mm to the left and up.
+    Tip(f64, f64),
+    /// Puts the tip in the middle.
+    Centre,
+    /// Raises the cue by degrees.
+    Raise(f64),
+    /// Strikes faster by m/s.
+    Faster(f64),
+    /// Plays the stroke.
+    Play,
+    /// Goes on to the next repetition, or the next exercise of an exam.
+    Next,
+    /// Plays or pauses the shot.
+    PlayPause,
+    /// Steps to another event, the next where positive.
+    Event(isize),
+    /// Plays faster where positive, else slower.
+    Pace(isize),
+    /// Opens the list of filmed shots.
+    OpenFilms,
+    /// Watches another filmed shot, a later one where positive.
+    Filmed(isize),
+    /// Shows the shot that is taught, or hides it.
+    Hint,
+    /// Shifts the balls by half a ball at each repetition, or not.
+    Shift,
+    /// Takes another goal.
+    Goal,
+    /// Makes the goal longer where positive, else shorter.
+    Count(isize),
+    /// Notes a point at a real table, or a miss.
+    Log(bool),
+    /// Takes the last note back.
+    Undo,
+    /// Takes the last change of the stroke back.
+    StrokeBack,
+    /// Makes it again.
+    StrokeAgain,
+    /// Shows the record of all exercises, or of the one again.
+    Scope,
+    /// Takes the estimated skill as the player's own.
+    KeepSkill,
+    /// Says yes, or takes what was typed.
+    Yes,
+    /// Says no.
+    No,
+    /// Takes the last character back.
+    Erase,
+}
+
+/// When a binding of the drill screens may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrillCondition {
+    /// On its page.
+    Here,
+    /// Where an exercise is marked.
+    Marked,
+    /// Where the marked exercise is somebody's own.
+    MarkedOwn,
+    /// Where the list is a part of all.
+    Filtered,
+    /// While the stroke is set.
+    Aiming,
+    /// While no shot is played or watched that counts, and no exam is under way.
+    Free,
+    /// The same, where the goal has a length.
+    Counted,
+    /// While a shot is watched.
+    Watching,
+    /// While a shot is watched that has not come to its end.
+    Running,
+    /// While a shot is watched that has come to its end.
+    Ended,
+    /// Where the shot that is taught is known.
+    AdviceState,
+    /// Where there is a note that can be taken back.
+    Undoable,
+    /// Where the stroke was changed.
+    StrokeChanged,
+    /// Where a change of the stroke was taken back.
+    StrokeUndone,
+    /// Where the page of an exercise is beneath.
+    OfExercise,
+    /// Where there is an estimate of the skill.
+    Estimated,
+    /// Where a filmed shot is on the table.
+    Filmed,
+}
+
+/// What is on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrillContext {
+    /// The list of exercises.
+    Library,
+    /// Words that are looked for in it.
+    Search,
+    /// An exercise.
+    Exercise,
+    /// The result of an exam.
+    Result,
+    /// A record.
+    Record,
+    /// The list of filmed shots.
+    Films,
+    /// A filmed shot.
+    Film,
+    /// A question.
+    Question,
+    /// Something that is typed.
+    Text,
+}
+
+impl DrillContext {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Library,
+        Self::Search,
+        Self::Exercise,
+        Self::Result,
+        Self::Record,
+        Self::Films,
+        Self::Film,
+        Self::Question,
+        Self::Text,
+    ];
+
+    /// Its keys.
+    pub const fn bindings(self) -> &'static [Binding<A, W>] {
+        match self {
+            Self::Library => LIBRARY,
+            Self::Search => SEARCH,
+            Self::Exercise => EXERCISE,
+            Self::Result => RESULT,
+            Self::Record => RECORD,
+            Self::Films => super::film_keys::FILMS,
+            Self::Film => super::film_keys::FILM,
+            Self::Question => QUESTION,
+            Self::Text => TEXT,
+        }
+    }
+
+    /// Whether letters are typed there, or answers.
+    pub const fn takes_letters(self) -> bool {
+        matches!(self, Self::Search | Self::Question | Self::Text)
+    }
+}
+
+const BACK: Binding<A, W> = bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
+
+/// The library.
+#[rustfmt::skip]
+pub const LIBRARY: &[Binding<A, W>] = &[
+    bind(Library, W::Marked, &[key(Enter, A::Open)], Some(("practise", 1)), "open the marked exercise"),
+    bind(Library, W::Marked, &[
+        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
+        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
+        ], Some(("choose", 2)), "mark another exercise"),
+    bind(Library, W::Here, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
+        key(Tab, A::Category(1))], Some(("category", 2)), "list another category"),
+    bind(Library, W::Here, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags"),
+    bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)), "list everything again"),
+    bind(Library, W::Here, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
+        "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5"),
+    bind(Library, W::Here, &[letter('p', A::Player)], Some(("player", 1)), "choose the player whose errors are played"),
+    bind(Library, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
+    bind(Library, W::Here, &[
+        letter('1', A::Grade(1)), letter('2', A::Grade(2)), letter('3', A::Grade(3)), letter('4', A::Grade(4)),
+        letter('5', A::Grade(5)),
+        ], None, "list one grade alone, 1 the easiest; once more lists all"),
+    bind(Library, W::Marked, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
+    bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it"),
+    bind(Film, W::Here, &[letter('f', A::OpenFilms)], Some(("film", 1)), "filmed shots: watch real balls beside simulated ones"),
+    bind(Library, W::Here, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted"),
+    bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of your positions; asks first"),
+    BACK,
+];
+
+/// Words that are looked for.
+#[rustfmt::skip]
+pub const SEARCH: &[Binding<A, W>] = &[
+    bind(Library, W::Here, &[key(Enter, A::Yes)], Some(("choose from these", 1)), "choose from what is found"),
+    bind(Library, W::Here, &[key(Esc, A::No)], Some(("all", 1)), "list everything again"),
+    bind(Library, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
+    bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise"),
+];
+
+/// An exercise.
+#[rustfmt::skip]
+pub const EXERCISE: &[Binding<A, W>] = &[
+    bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
+    bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
+    bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
+    bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
+        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
+    bind(Stroke, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
+        key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster"),
+    bind(Stroke, W::Aiming, &[letter(' ', A::Play), key(Enter, A::Play)], Some(("play", 1)),
+        "play the stroke, with the player's errors"),
+    bind(Stroke, W::Aiming, &[key(Left, A::Turn(0.2)), key(Right, A::Turn(-0.2))], Some(("aim", 2)),
+        "aim further to the left, to the right, by 0.2 degrees"),
+    bind(Stroke, W::Aiming, &[(Chord::shift(Left), A::Turn(5.0)), (Chord::shift(Right), A::Turn(-5.0))], None,
+        "aim further to the left, to the right, by 5 degrees"),
+    bind(Stroke, W::Aiming, &[(Chord::ctrl(Left), A::Turn(0.01)), (Chord::ctrl(Right), A::Turn(-0.01))], None,
+        "aim further to the left, to the right, by 0.01 degrees"),
+    bind(Stroke, W::Aiming, &[letter('h', A::Tip(0.5, 0.0)), letter('j', A::Tip(0.0, -0.5)), letter('k', A::Tip(0.0, 0.5)),
+        letter('l', A::Tip(-0.5, 0.0))], Some(("tip", 4)), "move the tip to the left, down, up, to the right by 0.5 mm"),
+    bind(Stroke, W::Aiming, &[letter('H', A::Tip(3.0, 0.0)), letter('J', A::Tip(0.0, -3.0)), letter('K', A::Tip(0.0, 3.0)),
+        letter('L', A::Tip(-3.0, 0.0))], None, "move the tip to the left, down, up, to the right by 3 mm"),
+    bind(Stroke, W::Aiming, &[key(Down, A::Faster(-0.1)), key(Up, A::Faster(0.1))], Some(("speed", 2)),
+        "strike softer, harder by 0.1 m/s"),
+    bind(Stroke, W::Aiming, &[(Chord::shift(Down), A::Faster(-0.5)), (Chord::shift(Up), A::Faster(0.5))], None,
+        "strike softer, harder by 0.5 m/s"),
+    bind(Stroke, W::AdviceState, &[letter('v', A::Hint)], Some(("hint", 1)),
+        "show the shot that is taught, and hide it; the attempt then counts as helped"),
+    bind(Stroke, W::Aiming, &[key(Tab, A::AimAtBall)], Some(("at a ball", 1)),
+        "aim full at the first object ball, then at the other"),
+    bind(Stroke, W::Aiming, &[letter('0', A::Centre)], None, "put the tip in the middle"),
+    bind(Stroke, W::StrokeChanged, &[letter('z', A::StrokeBack)], None, "take the last change of the stroke back"),
+    bind(Stroke, W::StrokeUndone, &[letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)], None,
+        "make a change of the stroke again that was taken back"),
+    bind(Stroke, W::Aiming, &[letter('-', A::Raise(-1.0)), letter('+', A::Raise(1.0)), letter('=', A::Raise(1.0))], None,
+        "lower, raise the cue by 1 degree"),
+    bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/missed at a table", 2)),
+        "note a point, a miss at a real table; nothing is played here"),
+    bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
+    bind(Score, W::Free, &[letter('o', A::Goal)], Some(("goal", 1)),
+        "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
+    bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
+        "a shorter or longer goal"),
+    bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),
+        "shift the balls by half a ball at each repetition, or not"),
+    bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
+    bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
+    bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
+    BACK,
+];
+
+/// An exam that is over.
+#[rustfmt::skip]
+pub const RESULT: &[Binding<A, W>] = &[
+    bind(Program, W::Here, &[key(Enter, A::Back), key(Esc, A::Back)], Some(("library", 1)), "back to the library"),
+];
+
+/// A record.
+#[rustfmt::skip]
+pub const RECORD: &[Binding<A, W>] = &[
+    bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
+    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as your own, and play with it"),
+    bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions"),
+    BACK,
+];
+
+/// A question.
+#[rustfmt::skip]
+pub const QUESTION: &[Binding<A, W>] = &[
+    bind(Program, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
+    bind(Program, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+];
+
+/// Something that is typed.
+#[rustfmt::skip]
+pub const TEXT: &[Binding<A, W>] = &[
+    bind(Program, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
+    bind(Program, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
+    bind(Program, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
+];
+
+/// The words of `action` by itself, where its binding does several things.
+pub const fn words(action: DrillAction, section: Section) -> Option<&'static str> {
+    Some(match action {
+        A::Line(lines) => {
+            return match (section, lines) {
+                (Section::Record, 1) => Some("earlier sessions, by one line"),
+                (Section::Record, -1) => Some("later sessions, by one line"),
+                (Section::Record, 10) => Some("earlier sessions, by ten lines"),
+                (Section::Record, -10) => Some("later sessions, by ten lines"),
+                (Section::Film, _) => mark!(lines, "shot"),
+                _ => mark!(lines, "exercise"),
+            };
+        }
+        A::Category(1) => "list the next category",
+        A::Category(-1) => "list the category before",
+        A::Grade(1) => "list grade 1 alone, the easiest; once more lists all",
+        A::Grade(2) => "list grade 2 alone; once more lists all",
+        A::Grade(3) => "list grade 3 alone; once more lists all",
+        A::Grade(4) => "list grade 4 alone; once more lists all",
+        A::Grade(5) => "list grade 5 alone, the hardest; once more lists all",
+        A::Exam(1) => "an exam of grade 1 to 3: 20 exercises, one attempt each",
+        A::Exam(2) => "an exam of grade 2 to 4: 20 exercises, one attempt each",
+        A::Exam(3) => "an exam of grade 3 to 5: 20 exercises, one attempt each",
+        A::Turn(0.2) => "aim left by 0.2 degrees",
+        A::Turn(-0.2) => "aim right by 0.2 degrees",
+        A::Turn(5.0) => "aim left by 5 degrees",
+        A::Turn(-5.0) => "aim right by 5 degrees",
+        A::Turn(0.01) => "aim left by 0.01 degrees",
+        A::Turn(-0.01) => "aim right by 0.01 degrees",
+        A::Tip(0.5, 0.0) => "move the tip left by 0.5 mm",
+        A::Tip(-0.5, 0.0) => "move the tip right by 0.5 mm",
+        A::Tip(0.0, -0.5) => "move the tip down by 0.5 mm",
+        A::Tip(0.0, 0.5) => "move the tip up by 0.5 mm",
+        A::Tip(3.0, 0.0) => "move the tip left by 3 mm",
+        A::Tip(-3.0, 0.0) => "move the tip right by 3 mm",
+        A::Tip(0.0, -3.0) => "move the tip down by 3 mm",
+        A::Tip(0.0, 3.0) => "move the tip up by 3 mm",
+        A::Faster(0.1) => "strike harder by 0.1 m/s",
+        A::Faster(-0.1) => "strike softer by 0.1 m/s",
+        A::Faster(0.5) => "strike harder by 0.5 m/s",
+        A::Faster(-0.5) => "strike softer by 0.5 m/s",
+        A::Raise(1.0) => "raise the cue by 1 degree",
+        A::Raise(-1.0) => "lower the cue by 1 degree",
+        A::Event(1) => "step to the next event",
+        A::Event(-1) => "step to the event before",
+        A::Pace(1) => "play faster",
+        A::Pace(-1) => "play slower",
+        A::Filmed(1) => "watch the next shot",
+        A::Filmed(-1) => "watch the shot before",
+        A::Log(true) => "note a point at a real table; nothing is played here",
+        A::Log(false) => "note a miss at a real table; nothing is played here",
+        A::Count(1) => "a longer goal",
+        A::Count(-1) => "a shorter goal",
+        _ => return None,
+    })
+}

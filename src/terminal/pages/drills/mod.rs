@@ -1,0 +1,318 @@
+//! The state of the drill screens: the library, the exercise that is practised, the result of an exam, and the records.
+//!
+//! Files are read and written, and strokes played and judged, elsewhere ([`DrillTask`]); what comes of it is a
+//! [`DrillReport`]. [`actions`] is what each key does.
+
+mod actions;
+mod aiming;
+mod book;
+mod catalogue;
+pub mod film;
+mod film_keys;
+pub mod keys;
+mod page;
+mod question;
+mod records;
+mod reports;
+mod sight;
+mod turn;
+mod turn_actions;
+mod view;
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use crate::{
+    coach::Skill,
+    drills::{Exercise, Goal, Library, Session},
+    game::Rule,
+    physics::CueInputs,
+    storage::Places,
+    table::{Layout, Table},
+    terminal::{
+        effect::Effect,
+        pages::drills::{
+            film::FilmsScreen,
+            keys::{DrillCondition, DrillContext},
+        },
+        shot::playback::Playback,
+        tasks::drills::DrillTask,
+        ui::message::Message,
+    },
+};
+
+pub use book::{Book, record_of};
+pub use catalogue::Catalogue;
+pub use question::Question;
+pub use records::{Estimate, Records};
+pub use sight::{Meets, Sight};
+pub use turn::{Lesson, Stage, Turn, Watched};
+
+/// A page of the drill screens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// The list of exercises.
+    Library,
+    /// An exercise.
+    Exercise,
+    /// The result of an exam.
+    Result,
+    /// A record.
+    Record,
+    /// The list of filmed shots.
+    Films,
+    /// A filmed shot that is watched.
+    Film,
+}
+
+/// Who plays.
+#[derive(Clone, Copy, Debug)]
+pub struct Player {
+    /// The standard errors that are played.
+    pub skill: Skill,
+    /// Those that the user has kept as the own ones.
+    pub own: Option<Skill>,
+    /// Those of the coach's player, whom only a choice changes.
+    pub at_coach: Skill,
+}
+
+impl Player {
+    /// The next of those there are.
+    fn choose_next(&mut self) {
+        let named = Skill::NAMED.iter().rev().map(|(_, skill)| *skill);
+        let all: Vec<Skill> = named.chain(self.own).collect();
+        let now = all.iter().position(|skill| *skill == self.skill);
+        self.choose(all[now.map_or(0, |now| (now + 1) % all.len())]);
+    }
+
+    /// Plays with `skill` from now on, at the coach's table too.
+    const fn choose(&mut self, skill: Skill) {
+        (self.skill, self.at_coach) = (skill, skill);
+    }
+}
+
+/// What is wanted of a repetition, kept from exercise to exercise.
+#[derive(Clone, Copy, Debug)]
+struct Wishes {
+    goal: Goal,
+    shifted: bool,
+}
+
+/// Balls that come from the coach's table or go there.
+#[derive(Clone, Debug)]
+pub struct Balls {
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// What counts as a point.
+    pub rule: Rule,
+}
+
+/// The state of the drill screens.
+#[derive(Debug)]
+pub struct DrillsPage {
+    /// Where sessions and positions are.
+    pub places: Places,
+    /// The list of exercises.
+    pub catalogue: Catalogue,
+    /// What has been played.
+    pub book: Book,
+    /// The exercise that is practised.
+    pub turn: Option<Turn>,
+    /// The page of records.
+    pub records: Records,
+    /// The filmed shots.
+    pub film: FilmsScreen,
+    /// Who plays.
+    pub player: Player,
+    /// What is asked.
+    pub question: Option<Question>,
+    /// What the status line says.
+    pub message: Option<Message>,
+    wishes: Wishes,
+    for_coach: Option<Balls>,
+    /// The pages one has come through; the last one is open.
+    pages: Vec<Screen>,
+    is_left: bool,
+    rng: Xoshiro256PlusPlus,
+}
+
+impl DrillsPage {
+    /// The screens before they are opened; `seed` decides about errors, shifts and exams.
+    pub fn new(places: Places, seed: u64) -> Self {
+        // A test reads the bundled files; without them there are the user's own.
+        let library = Library::with_own(Vec::new()).map_or_else(|_| Library::default(), |(library, _)| library);
+        Self {
+            places,
+            catalogue: Catalogue::new(library),
+            book: Book::default(),
+            turn: None,
+            records: Records::default(),
+            film: FilmsScreen::default(),
+            player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
+            question: None,
+            message: None,
+            wishes: Wishes { goal: Goal::Free, shifted: false },
+            for_coach: None,
+            pages: Vec::new(),
+            is_left: false,
+            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
+        }
+    }
+
+    /// Opens the page that was open last, or the library, for the coach's player of `skill`; what is on the disk is read
+    /// again.
+    pub fn open(&mut self, skill: Skill) -> Effect {
+        self.message = None;
+        self.is_left = false;
+        let mut tasks = vec![self.load()];
+        if skill != self.player.at_coach {
+            self.player.choose(skill);
+            tasks.extend(self.change_player());
+        }
+        if self.pages.is_empty() {
+            self.pages.push(Screen::Library);
+        }
+        Effect::Drill(tasks)
+    }
+
+    /// Reads what is on the disk.
+    fn load(&self) -> DrillTask {
+        DrillTask::Load(self.places.clone())
+    }
+
+    /// Goes on with a session that an earlier one of the program has left.
+    pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
+        self.leave_turn();
+        self.player.at_coach = skill;
+        self.player.skill = session.skill;
+        let mut tasks = vec![self.load()];
+        tasks.extend(self.practise(session));
+        // A damaged one has no page.
+        if self.pages.is_empty() {
+            self.pages.push(Screen::Library);
+        }
+        Effect::Drill(tasks)
+    }
+
+    /// The session that is practised, as long as it is not over.
+    pub fn unfinished(&self) -> Option<&Session> {
+        self.turn.as_ref().map(|turn| &turn.session).filter(|session| !session.is_over())
+    }
+
+    /// Opens the page that was open last and asks under which name the position on the coach's table is to be saved.
+    pub fn open_to_save(&mut self, balls: Balls, skill: Skill, shot: Option<CueInputs>) -> Effect {
+        let Balls { table, layout, rule } = balls;
+        let position = Exercise { shot, ..Exercise::own("", rule, &table.name, layout) };
+        let effect = self.open(skill);
+        match position.table() {
+            Ok(known) if known == table => {
+                self.catalogue.show_own("");
+                self.question = Some(Question::Name(String::new(), Box::new(position)));
+            }
+            _ => {
+                let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
+                self.message = Some(Message::warning(words));
+            }
+        }
+        effect
+    }
+
+    /// Whether one has gone back to the coach: from the first page, or from what one had come for.
+    pub const fn is_left(&self) -> bool {
+        self.is_left || self.pages.is_empty()
+    }
+
+    /// Balls that are to go to the coach's table; asked once.
+    pub const fn take_for_coach(&mut self) -> Option<Balls> {
+        self.for_coach.take()
+    }
+
+    /// The page that is open.
+    pub fn page(&self) -> Screen {
+        self.pages.last().copied().unwrap_or(Screen::Library)
+    }
+
+    /// SeriesId keys are in force: the page's, or those of what is asked there.
+    pub fn place(&self) -> DrillContext {
+        match &self.question {
+            Some(Question::Search(_)) => DrillContext::Search,
+            Some(Question::Code(_) | Question::Name(..)) => DrillContext::Text,
+            Some(_) => DrillContext::Question,
+            None => self.page_place(),
+        }
+    }
+
+    /// The page's own keys, whatever is asked.
+    pub fn page_place(&self) -> DrillContext {
+        match self.page() {
+            Screen::Library => DrillContext::Library,
+            Screen::Exercise => DrillContext::Exercise,
+            Screen::Result => DrillContext::Result,
+            Screen::Record => DrillContext::Record,
+            Screen::Films => DrillContext::Films,
+            Screen::Film => DrillContext::Film,
+        }
+    }
+
+    /// Lists what has the words that are being typed.
+    fn search(&mut self) {
+        if let Some(Question::Search(typed)) = &self.question {
+            self.catalogue.find_text(typed.trim());
+        }
+    }
+
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        match when {
+            DrillCondition::Here => None,
+            DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
+            DrillCondition::MarkedOwn => refuse(!self.catalogue.is_own(), "bundled exercises stay; only your own go"),
+            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
+            DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
+            DrillCondition::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),
+            DrillCondition::Estimated => {
+                refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
+            }
+            _ => match &self.turn {
+                Some(turn) => turn.disabled_reason(when),
+                None => Some("no exercise is open"),
+            },
+        }
+    }
+
+    /// A session's seed.
+    fn seed(&mut self) -> u64 {
+        self.rng.random()
+    }
+
+    /// Closes the exercise; what was played is on the disk.
+    fn leave_turn(&mut self) {
+        if let Some(turn) = &mut self.turn {
+            turn.stop_asking();
+        }
+        self.turn = None;
+        self.pages.retain(|page| *page == Screen::Library);
+    }
+
+    /// Who plays in the exercise that is open, or would in another: an exam stays with whom it was begun.
+    pub fn skill(&self) -> Skill {
+        self.turn.as_ref().map_or(self.player.skill, Turn::skill)
+    }
+
+    /// Opens the list of filmed shots.
+    pub fn open_films(&mut self) {
+        self.film.pause();
+        if !matches!(self.page(), Screen::Films) {
+            self.pages.retain(|page| !matches!(page, Screen::Films | Screen::Film));
+            self.pages.push(Screen::Films);
+        }
+    }
+
+    /// The clock of the shot that is watched.
+    pub fn playback(&self) -> Option<&Playback> {
+        Some(&self.turn.as_ref()?.watched()?.playback)
+    }
+}

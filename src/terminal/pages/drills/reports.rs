@@ -1,0 +1,148 @@
+//! What is done with what has come of errands.
+
+use crate::{
+    coach::Skill,
+    drills::{Exercise, Library, Session},
+    terminal::{
+        pages::drills::{Book, DrillsPage, Estimate, Question, Stage},
+        tasks::drills::{DrillReport, DrillTask, Loaded},
+        ui::message::Message,
+    },
+};
+
+impl DrillsPage {
+    /// Takes what has come of an errand, and gives what it asks for in turn.
+    pub fn receive(&mut self, report: DrillReport) -> Vec<DrillTask> {
+        match report {
+            DrillReport::Loaded(loaded) => self.loaded(*loaded),
+            DrillReport::AdviceState(id, answer) => {
+                let taught = answer.unwrap_or_else(|sentence| {
+                    self.message = Some(Message::warning(sentence));
+                    None
+                });
+                if let Some(turn) = &mut self.turn {
+                    turn.advised(id, taught);
+                }
+            }
+            DrillReport::Played(played, saved) => {
+                match (played, &mut self.turn) {
+                    (Ok(outcome), turn) => {
+                        self.book.put(&outcome.session);
+                        if let Some(turn) = turn {
+                            turn.played(*outcome);
+                        }
+                    }
+                    (Err(sentence), Some(turn)) => {
+                        turn.stage = Stage::Aiming;
+                        self.message = Some(Message::warning(sentence));
+                    }
+                    (Err(_), None) => {}
+                }
+                self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
+            }
+            DrillReport::Judged(id, number, chance) => {
+                if let Some(turn) = &mut self.turn {
+                    turn.judged(&id, number, chance);
+                }
+            }
+            DrillReport::Saved(session, saved) => return self.saved(&session, saved),
+            DrillReport::PositionSaved(exercise, outcome) => match outcome {
+                Ok(true) => self.position_saved(&exercise),
+                Ok(false) => self.question = Some(Question::Replace(exercise)),
+                Err(sentence) => {
+                    self.message = Some(Message::warning(format!("{} is not saved: {sentence}", exercise.name)));
+                }
+            },
+            DrillReport::PositionRemoved(name, outcome) => match outcome {
+                Ok(()) => {
+                    let own = self.own().filter(|exercise| exercise.name != name).cloned().collect();
+                    self.take_own(own);
+                    self.message = Some(Message::plain(format!("{name} is removed; its results stay")));
+                }
+                Err(sentence) => self.message = Some(Message::warning(format!("{name} is not removed: {sentence}"))),
+            },
+            DrillReport::Estimated(number, found) => {
+                let missing = Estimate::Missing;
+                let estimate = found.map_or_else(missing, |(skill, sentence)| Estimate::Known(skill, sentence));
+                self.records.estimated(number, estimate);
+            }
+            DrillReport::Filmed(number, played) => {
+                if let Err(sentence) = self.film.receive(number, played) {
+                    self.message = Some(Message::warning(sentence));
+                }
+            }
+            DrillReport::SkillKept(skill, kept) => {
+                self.player.own = Some(skill);
+                self.player.choose(skill);
+                self.message = Some(Message::good("this is your skill now: you are the player \"own skill\""));
+                self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
+                return self.change_player();
+            }
+        }
+        Vec::new()
+    }
+
+    fn loaded(&mut self, loaded: Loaded) {
+        let Loaded { sessions, positions, skill, troubles } = loaded;
+        self.book = Book::new(sessions, troubles);
+        self.take_own(positions);
+        // Whoever has kept a skill plays with it, as long as nobody has chosen another.
+        if let Some(skill) = skill.filter(|_| self.player.own.is_none()) {
+            self.player.own = Some(skill);
+            if self.player.skill == Skill::default() {
+                self.player.skill = skill;
+            }
+        }
+    }
+
+    /// A session is on the disk, or could not be written.
+    fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<DrillTask> {
+        self.book.put(session);
+        let tasks = self.turn.as_mut().map_or_else(Vec::new, |turn| turn.saved(session));
+        let last = session.attempts.last();
+        let record = session.record();
+        self.message = Some(match last {
+            Some(last) => {
+                let what = if last.made { "made" } else { "missed" };
+                let words = format!("noted: {what}, {} of {} now", record.made, record.tried);
+                if last.made { Message::good(words) } else { Message::plain(words) }
+            }
+            None => Message::plain("taken back: nothing is noted now"),
+        });
+        if session.is_over() {
+            self.message = Some(Message::good(format!("done: {} of {} made", record.made, record.tried)));
+        }
+        self.warn_unsaved(saved, "the note counts here, but it is not saved");
+        tasks
+    }
+
+    fn warn_unsaved(&mut self, saved: Result<(), String>, what: &str) {
+        if let Err(sentence) = saved {
+            self.message = Some(Message::warning(format!("{what}: {sentence}")));
+        }
+    }
+
+    /// The user's own positions, as far as they are listed.
+    fn own(&self) -> impl Iterator<Item = &Exercise> {
+        let library = self.catalogue.library();
+        library.exercises().iter().filter(|exercise| !library.is_bundled(&exercise.name))
+    }
+
+    fn take_own(&mut self, own: Vec<Exercise>) {
+        match Library::with_own(own) {
+            Ok((library, refused)) => {
+                self.catalogue.take(library);
+                self.book.troubles.extend(refused.iter().map(ToString::to_string));
+            }
+            Err(error) => self.message = Some(Message::warning(error.to_string())),
+        }
+    }
+
+    fn position_saved(&mut self, exercise: &Exercise) {
+        let own = self.own().filter(|own| own.name != exercise.name).cloned();
+        let own = own.chain([exercise.clone()]).collect();
+        self.take_own(own);
+        self.catalogue.show_own(&exercise.name);
+        self.message = Some(Message::good(format!("saved as {}", exercise.name)));
+    }
+}

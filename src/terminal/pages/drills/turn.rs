@@ -1,0 +1,401 @@
+//! The page of an exercise: the balls, the stroke that is set, the shot that came of it, and the session it counts in.
+//!
+//! [`super::turn_actions`] is what each key does to it.
+
+use std::{
+    mem::Discriminant,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
+};
+
+use crate::{
+    coach::Skill,
+    drills::{Exercise, ExerciseError, Goal, Session, Venue},
+    physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
+    table::{CueBall, Layout, Table},
+    terminal::{
+        pages::drills::{
+            aiming,
+            keys::DrillAction,
+            sight::{Sight, sight},
+        },
+        shot::{Shot, history::History, playback::Playback},
+        tasks::drills::{DrillTask, Outcome, Position, Stroke, Taught},
+        ui::message::Message,
+    },
+};
+
+/// Numbers of the questions to the coach, whatever exercise they are about: an answer may come when another is open.
+static QUESTIONS: AtomicU64 = AtomicU64::new(1);
+
+/// What is going on.
+#[derive(Debug)]
+pub enum Stage {
+    /// The player sets the stroke.
+    Aiming,
+    /// It is being played.
+    Waiting,
+    /// It is watched.
+    Watching(Box<Watched>),
+}
+
+/// The stroke that is taught, as far as it is known.
+#[derive(Debug)]
+pub enum Lesson {
+    /// The coach is still thinking.
+    Pending,
+    /// It has found no shot that makes the point.
+    Missing,
+    /// This one.
+    Known(Box<Taught>),
+}
+
+/// A stroke that was played.
+#[derive(Debug)]
+pub struct Watched {
+    /// What came of it.
+    pub outcome: Outcome,
+    /// What the player had meant.
+    pub meant: CueInputs,
+    /// How often the player makes that, as soon as it is known.
+    pub chance: Option<f64>,
+    /// The clock of the shot.
+    pub playback: Playback,
+    /// Whether it has been seen to its end: before, nothing tells what comes of it.
+    pub is_settled: bool,
+}
+
+/// The page of an exercise.
+#[derive(Debug)]
+pub struct Turn {
+    /// What counts, as far as it is safe on the disk or was seen not to be.
+    pub session: Session,
+    /// The exercise that is played.
+    pub exercise: Exercise,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// Which of them is the cue ball.
+    pub cue_ball: CueBall,
+    /// What is going on.
+    pub stage: Stage,
+    /// The stroke that is taught.
+    pub lesson: Lesson,
+    /// Whether it is shown.
+    pub shows_hint: bool,
+    /// Whether it was shown since the balls were placed.
+    pub is_helped: bool,
+    /// The session as it will be once all notes are saved.
+    ahead: Option<Session>,
+    /// The stroke that is set, with what it was before.
+    strokes: History<CueInputs>,
+    /// What has changed it last: one input that is changed several times over is one step back.
+    changed_by: Option<Discriminant<DrillAction>>,
+    position: u64,
+    cancel: Arc<AtomicBool>,
+}
+
+impl Turn {
+    /// The page of the exercise that `session` begins with.
+    ///
+    /// # Errors
+    /// An exercise that cannot be played.
+    pub fn new(session: Session) -> Result<Option<Self>, ExerciseError> {
+        let (Some(exercise), Some((table, layout))) = (session.exercise().cloned(), session.position()?) else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            strokes: History::new(aiming::first_stroke(&layout)),
+            changed_by: None,
+            cue_ball: session.cue_ball_now(),
+            session,
+            exercise,
+            table,
+            layout,
+            stage: Stage::Aiming,
+            lesson: Lesson::Pending,
+            shows_hint: false,
+            is_helped: false,
+            ahead: None,
+            position: 0,
+            cancel: Arc::default(),
+        }))
+    }
+
+    /// The stroke that is set.
+    pub const fn stroke(&self) -> &CueInputs {
+        self.strokes.present()
+    }
+
+    /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
+    pub fn raised_stroke(&self) -> CueInputs {
+        with_room(&self.table, &self.layout, self.stroke()).unwrap_or(*self.stroke())
+    }
+
+    /// How low the cue can be held for the stroke that is set.
+    ///
+    /// # Errors
+    /// Where it has no room at all.
+    pub fn least_elevation(&self) -> Result<LeastElevation, NoRoom> {
+        least_elevation(&self.table, &self.layout, self.stroke())
+    }
+
+    /// Sets another stroke, as `action` wants it.
+    pub(super) fn set_stroke(&mut self, stroke: CueInputs, action: DrillAction) {
+        let changed_by = Some(std::mem::discriminant(&action));
+        if stroke == *self.stroke() {
+            return;
+        }
+        if self.changed_by == changed_by {
+            *self.strokes.present_mut() = stroke;
+        } else {
+            self.strokes.push(stroke);
+        }
+        self.changed_by = changed_by;
+    }
+
+    /// Sets the stroke as it was before its last change, or after it again.
+    pub(super) fn travel(&mut self, step: impl Fn(&mut History<CueInputs>) -> bool) {
+        step(&mut self.strokes);
+        self.changed_by = None;
+    }
+
+    /// Whether the stroke can be set as it was before its last change, and after it again.
+    pub(super) const fn can_travel(&self) -> (bool, bool) {
+        (self.strokes.can_undo(), self.strokes.can_redo())
+    }
+
+    /// SeriesId strokes are played.
+    pub const fn skill(&self) -> Skill {
+        self.session.skill
+    }
+
+    /// Whether an exam is under way or over.
+    pub fn is_exam(&self) -> bool {
+        self.session.goal == Goal::Exam
+    }
+
+    /// The stroke that is watched.
+    pub const fn watched(&self) -> Option<&Watched> {
+        if let Stage::Watching(watched) = &self.stage { Some(watched) } else { None }
+    }
+
+    pub(super) const fn watched_mut(&mut self) -> Option<&mut Watched> {
+        if let Stage::Watching(watched) = &mut self.stage { Some(watched) } else { None }
+    }
+
+    /// Whether the player sets a stroke.
+    pub const fn is_aiming(&self) -> bool {
+        matches!(self.stage, Stage::Aiming)
+    }
+
+    /// Whether it waits for what came of a stroke.
+    pub const fn is_waiting(&self) -> bool {
+        matches!(self.stage, Stage::Waiting)
+    }
+
+    /// The line of aim, while the stroke is set.
+    pub fn sight(&self) -> Option<Sight> {
+        self.is_aiming().then(|| sight(&self.table, &self.layout, self.stroke().phi))
+    }
+
+    /// The stroke that is taught, if it is known and there is one.
+    pub const fn taught(&self) -> Option<&Taught> {
+        if let Lesson::Known(taught) = &self.lesson { Some(taught) } else { None }
+    }
+
+    /// The shot on the table: the one that is watched, or the one that is taught while it is shown.
+    pub fn shot(&self) -> Option<&Shot> {
+        match self.watched() {
+            Some(watched) if !self.shows_hint => watched.outcome.shot.as_deref(),
+            _ => self.taught().filter(|_| self.shows_hint).map(|taught| taught.shot.as_ref()),
+        }
+    }
+
+    /// Whether the last attempt of the session is still on its way: its result is not to be told.
+    fn is_open(&self) -> bool {
+        self.watched().is_some_and(|watched| !watched.is_settled)
+    }
+
+    /// The session as far as it may be told.
+    pub fn told(&self) -> Session {
+        let mut session = self.session.clone();
+        if self.is_open() {
+            session.undo();
+        }
+        session
+    }
+
+    /// What came of the watched stroke, once it may be told.
+    pub fn verdict(&self) -> Option<Message> {
+        let watched = self.watched().filter(|watched| watched.is_settled)?;
+        let Outcome { played, .. } = &watched.outcome;
+        let text = played.verdict(self.cue_ball);
+        Some(if played.made { Message::good(text) } else { Message::warning(text) })
+    }
+
+    /// Asks for the stroke that is taught in this position. Nobody waits for the one before any more.
+    pub(super) fn ask(&mut self) -> Vec<DrillTask> {
+        self.stop_asking();
+        self.lesson = Lesson::Pending;
+        self.position = QUESTIONS.fetch_add(1, Ordering::Relaxed);
+        let is_exact = self.layout == self.exercise.layout;
+        vec![DrillTask::Advise(Box::new(Position {
+            id: self.position,
+            table: self.table.clone(),
+            layout: self.layout,
+            rule: self.exercise.rule,
+            skill: self.session.skill,
+            plan: self.session.is_game(),
+            own: self.exercise.taught().filter(|_| is_exact && !self.session.is_game()),
+            cancel: Arc::clone(&self.cancel),
+        }))]
+    }
+
+    /// Lets the coach stop thinking about a position that is left.
+    pub(super) fn stop_asking(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+        self.cancel = Arc::default();
+    }
+
+    /// The answer to question `id`; late ones are dropped.
+    pub(super) fn advised(&mut self, id: u64, taught: Option<Taught>) {
+        if id == self.position {
+            self.lesson = taught.map_or(Lesson::Missing, |taught| Lesson::Known(Box::new(taught)));
+        }
+    }
+
+    /// What plays the stroke that is set.
+    pub(super) fn play(&mut self) -> DrillTask {
+        self.changed_by = None;
+        self.stage = Stage::Waiting;
+        self.is_helped |= self.shows_hint;
+        self.shows_hint = false;
+        DrillTask::Play(Box::new(Stroke {
+            session: self.session.clone(),
+            meant: *self.stroke(),
+            helped: self.is_helped,
+            position: self.position,
+        }))
+    }
+
+    /// The stroke was played.
+    pub(super) fn played(&mut self, outcome: Outcome) {
+        if outcome.session.id != self.session.id || !matches!(self.stage, Stage::Waiting) {
+            return;
+        }
+        self.session = outcome.session.clone();
+        let mut playback = Playback::default();
+        let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
+        playback.toggle(duration);
+        let noted = outcome.session.attempts.last().and_then(|attempt| attempt.meant);
+        let meant = noted.unwrap_or(*self.stroke());
+        let mut watched = Watched { outcome, meant, chance: None, playback, is_settled: false };
+        watched.settle();
+        self.stage = Stage::Watching(Box::new(watched));
+    }
+
+    /// How often the player makes what was meant in attempt `number` of the session called `id`.
+    pub(super) fn judged(&mut self, id: &str, number: usize, chance: f64) {
+        if self.session.id != id || self.session.attempts.len() <= number {
+            return;
+        }
+        self.session.attempts[number].chance = Some(chance);
+        let is_last = self.session.attempts.len() == number + 1;
+        if let Some(watched) = self.watched_mut().filter(|_| is_last) {
+            watched.chance = Some(chance);
+        }
+    }
+
+    /// The session as it stands, with notes that are on their way to the disk.
+    pub(super) fn newest(&self) -> &Session {
+        self.ahead.as_ref().unwrap_or(&self.session)
+    }
+
+    /// What saves `session`, in which something was noted or taken back.
+    pub(super) fn save(&mut self, session: Session) -> DrillTask {
+        self.ahead = Some(session.clone());
+        DrillTask::Save(Box::new(session))
+    }
+
+    /// A session is on the disk, or cannot be; asks for what is taught where the balls lie elsewhere next.
+    pub(super) fn saved(&mut self, session: &Session) -> Vec<DrillTask> {
+        let Some(ahead) = self.ahead.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
+        if ahead != *session {
+            self.ahead = Some(ahead);
+        }
+        self.session = session.clone();
+        if self.place_next() { self.ask() } else { Vec::new() }
+    }
+
+    /// Whether a note from a real table can be taken back.
+    pub(super) fn can_undo(&self) -> bool {
+        let newest = self.newest();
+        newest.venue == Venue::Table && !newest.attempts.is_empty()
+    }
+
+    /// Begins another session of the same exercises, and asks for what is taught where that may be another stroke.
+    pub(super) fn begin(&mut self, session: Session) -> Vec<DrillTask> {
+        let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
+        self.session = session;
+        self.ahead = None;
+        let is_moved = self.place_next();
+        if is_moved || asks_otherwise { self.ask() } else { Vec::new() }
+    }
+
+    /// Places the balls for the next attempt of the session; whether they lie elsewhere now.
+    pub(super) fn place_next(&mut self) -> bool {
+        match self.session.position() {
+            Ok(Some((table, layout))) => self.place(table, layout),
+            // It is over, or its exercise was checked when it was opened: nothing moves.
+            _ => false,
+        }
+    }
+
+    /// Places the balls; whether they lie elsewhere now.
+    pub(super) fn place(&mut self, table: Table, layout: Layout) -> bool {
+        let exercise = self.session.exercise().cloned().unwrap_or_else(|| self.exercise.clone());
+        let is_other = exercise.name != self.exercise.name;
+        let is_moved = is_other || layout != self.layout;
+        if is_other || is_moved && self.session.is_game() {
+            self.strokes = History::new(aiming::first_stroke(&layout));
+            self.changed_by = None;
+        }
+        (self.exercise, self.table, self.layout) = (exercise, table, layout);
+        self.cue_ball = self.session.cue_ball_now();
+        self.stage = Stage::Aiming;
+        self.shows_hint &= !is_moved;
+        self.is_helped = self.shows_hint;
+        is_moved
+    }
+
+    /// Lets `seconds` pass for the shot.
+    pub fn tick(&mut self, seconds: f64) {
+        if let Some(watched) = self.watched_mut()
+            && let Some(shot) = &watched.outcome.shot
+        {
+            watched.playback.tick(seconds, shot.recording.duration());
+            watched.settle();
+        }
+    }
+
+    /// Whether something moves by itself.
+    pub fn is_moving(&self) -> bool {
+        self.watched().is_some_and(|watched| watched.playback.playing)
+    }
+}
+
+impl Watched {
+    /// Seconds that the shot takes.
+    pub fn duration(&self) -> f64 {
+        self.outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())
+    }
+
+    /// Once it has been seen to its end, its result may be told.
+    pub(super) fn settle(&mut self) {
+        self.is_settled |= self.playback.time >= self.duration();
+    }
+}

@@ -1,0 +1,249 @@
+//! What each key does to the page of an exercise, and when it may be used.
+
+use crate::{
+    coach::Skill,
+    drills::{Attempt, Goal, Session, Venue},
+    physics::CueInputs,
+    terminal::{
+        effect::Effect,
+        pages::drills::{
+            DrillsPage, Lesson, Screen, Stage, Turn, aiming,
+            keys::{DrillAction as Action, DrillCondition as Condition},
+        },
+        shot::history::History,
+        tasks::drills::{DrillTask, Taught},
+        ui::message::Message,
+        words::skill_word,
+    },
+};
+
+/// Points of the first run that is asked for, and innings of the first game.
+const FIRST_RUN: u32 = 5;
+const FIRST_GAME: u32 = 10;
+/// Longest run and game that can be asked for.
+const LONGEST: u32 = 100;
+
+impl Turn {
+    /// Why a binding of the page may not be used now; `None` where it may.
+    pub(super) fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        match (&self.stage, when) {
+            (
+                Stage::Waiting,
+                Condition::Aiming
+                | Condition::Watching
+                | Condition::Running
+                | Condition::Ended
+                | Condition::Free
+                | Condition::Counted,
+            ) => Some("the stroke is being played"),
+            (_, Condition::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
+            (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
+            (_, Condition::Running | Condition::Ended) => match self.watched() {
+                None => Some("no shot is being watched"),
+                Some(watched) if watched.is_settled => refuse(when == Condition::Running, "the shot is at its end"),
+                Some(_) => refuse(when == Condition::Ended, "the shot is on its way; Enter goes to its end"),
+            },
+            (_, Condition::Free | Condition::Counted) if self.is_exam() => Some("an exam is under way; Esc leaves it"),
+            (_, Condition::Counted) => {
+                refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
+            }
+            (_, Condition::AdviceState) => refuse(self.is_exam(), "an exam gives no hints")
+                .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
+                .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
+            (Stage::Aiming, Condition::StrokeChanged) => {
+                refuse(!self.can_travel().0, "the stroke is as it was at first")
+            }
+            (Stage::Aiming, Condition::StrokeUndone) => {
+                refuse(!self.can_travel().1, "no change of the stroke was taken back")
+            }
+            (_, Condition::StrokeChanged | Condition::StrokeUndone) => self.disabled_reason(Condition::Aiming),
+            (_, Condition::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
+            _ => None,
+        }
+    }
+
+    /// The same practice from its beginning: with other wishes it is another session.
+    fn again(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
+        let exercises = self.session.exercises.clone();
+        let mut session = Session::new(goal, venue, exercises, skill, seed);
+        session.shifted = shifted;
+        session
+    }
+}
+
+impl DrillsPage {
+    /// What the keys do to the exercise that is practised.
+    pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
+        let turn = self.turn.as_mut()?;
+        let cue = *turn.stroke();
+        match action {
+            Action::Turn(degrees) => turn.set_stroke(aiming::turned(&cue, degrees), action),
+            Action::AimAtBall => {
+                let ball = aiming::next_ball(&cue, &turn.layout);
+                turn.set_stroke(aiming::at_ball(&cue, &turn.layout, ball), action);
+            }
+            Action::Tip(left, up) => match aiming::tip_moved(&turn.table, &cue, left, up) {
+                Some(moved) => turn.set_stroke(moved, action),
+                None => self.message = Some(Message::warning("further out the tip would slip off the ball")),
+            },
+            Action::Centre => turn.set_stroke(CueInputs { a: 0.0, b: 0.0, ..cue }, action),
+            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&turn.raised_stroke(), degrees), action),
+            Action::Faster(by) => turn.set_stroke(aiming::faster(&cue, by), action),
+            Action::StrokeBack => turn.travel(History::undo),
+            Action::StrokeAgain => turn.travel(History::redo),
+            Action::Play => return self.play(),
+            Action::Next => return self.next(),
+            Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
+            Action::Hint => {
+                turn.shows_hint = !turn.shows_hint;
+                turn.is_helped |= turn.shows_hint && turn.is_aiming();
+            }
+            Action::Shift => {
+                self.wishes.shifted = !turn.session.shifted;
+                let news = if self.wishes.shifted {
+                    "from the second repetition on, each ball is shifted by half a ball"
+                } else {
+                    "the balls lie where the exercise has them"
+                };
+                self.message = Some(Message::plain(news));
+                return self.restart(None);
+            }
+            Action::Goal => {
+                self.wishes.goal = match turn.session.goal {
+                    Goal::Free => Goal::Run(FIRST_RUN),
+                    Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
+                    Goal::Game { .. } => Goal::Match { innings: FIRST_GAME },
+                    Goal::Match { .. } | Goal::Exam => Goal::Free,
+                };
+                return self.restart(None);
+            }
+            Action::Count(step) => {
+                let step = i32::try_from(step).unwrap_or(0);
+                let counted = |count: u32| count.saturating_add_signed(step).clamp(1, LONGEST);
+                self.wishes.goal = match turn.session.goal {
+                    Goal::Run(points) => Goal::Run(counted(points)),
+                    Goal::Game { innings } => Goal::Game { innings: counted(innings) },
+                    Goal::Match { innings } => Goal::Match { innings: counted(innings) },
+                    other => other,
+                };
+                return self.restart(None);
+            }
+            Action::Player => {
+                self.player.choose_next();
+                self.message = Some(Message::plain(format!("the player: {}", skill_word(self.player.skill))));
+                return self.restart(None);
+            }
+            Action::Log(made) => return self.log(made),
+            Action::Undo => return self.undo(),
+            _ => {}
+        }
+        None
+    }
+
+    /// Begins the exercise that is open anew where somebody else is to play it.
+    pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
+        let is_other = |turn: &Turn| !turn.is_exam() && turn.skill() != self.player.skill;
+        if self.turn.as_ref().is_some_and(is_other)
+            && let Some(Effect::Drill(tasks)) = self.restart(None)
+        {
+            return tasks;
+        }
+        Vec::new()
+    }
+
+    /// Begins the same practice anew with the wishes as they are now.
+    fn restart(&mut self, venue: Option<Venue>) -> Option<Effect> {
+        let (seed, wishes, skill) = (self.seed(), self.wishes, self.player.skill);
+        let turn = self.turn.as_mut()?;
+        let venue = venue.unwrap_or(turn.newest().venue);
+        let session = turn.again(wishes.goal, wishes.shifted, venue, skill, seed);
+        Some(Effect::Drill(turn.begin(session)))
+    }
+
+    fn play(&mut self) -> Option<Effect> {
+        let mut tasks = Vec::new();
+        if self.turn.as_ref()?.newest().venue == Venue::Table
+            && let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Program))
+        {
+            // What is played here counts apart from what is noted.
+            tasks = asked;
+        }
+        tasks.push(self.turn.as_mut()?.play());
+        Some(Effect::Drill(tasks))
+    }
+
+    fn next(&mut self) -> Option<Effect> {
+        let turn = self.turn.as_mut()?;
+        let Stage::Watching(watched) = &mut turn.stage else { return None };
+        if !watched.is_settled {
+            // The first press goes to the end, where the result is told.
+            watched.playback.jump(watched.duration());
+            watched.settle();
+            return None;
+        }
+        let next = watched.outcome.next.clone();
+        match next {
+            Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
+            None if turn.is_exam() => {
+                self.pages = vec![Screen::Library, Screen::Result];
+                None
+            }
+            None => self.restart(None),
+        }
+    }
+
+    fn watch(&mut self, action: Action) {
+        let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
+        let Some(shot) = watched.outcome.shot.clone() else { return };
+        let (events, duration) = (shot.recording.events(), shot.recording.duration());
+        match action {
+            Action::PlayPause => watched.playback.toggle(duration),
+            Action::Event(step) if step > 0 => watched.playback.step_forward(events, duration),
+            Action::Event(_) => watched.playback.step_back(events),
+            Action::Pace(step) if step > 0 => watched.playback.faster(),
+            _ => watched.playback.slower(),
+        }
+        watched.settle();
+    }
+
+    /// Notes an attempt at a real table.
+    fn log(&mut self, made: bool) -> Option<Effect> {
+        let turn = self.turn.as_ref()?;
+        let (newest, was_helped, layout) = (turn.newest(), turn.is_helped, turn.layout);
+        let mut tasks = Vec::new();
+        if newest.venue != Venue::Table || newest.is_over() {
+            let Some(Effect::Drill(asked)) = self.restart(Some(Venue::Table)) else { return None };
+            tasks.extend(asked);
+        }
+        let turn = self.turn.as_mut()?;
+        // A hint that was seen is known in the new session too.
+        turn.is_helped |= was_helped && turn.layout == layout;
+        let mut session = turn.newest().clone();
+        match session.log(made) {
+            Ok(()) => {
+                // Not if the balls of this repetition have not been shown yet.
+                let is_shown = |note: &&mut Attempt| note.layout.unwrap_or(turn.exercise.layout) == turn.layout;
+                if let Some(note) = session.attempts.last_mut().filter(is_shown) {
+                    note.helped = turn.is_helped;
+                    // What was to be played tells how good whoever made it is: the shot must have been taught, for where
+                    // the balls lie.
+                    let known = |taught: &&Taught| (taught.is_own || turn.is_helped) && !turn.session.is_game();
+                    let advice = turn.taught().filter(known).map(|taught| taught.advice);
+                    note.advised = advice.map(|advice| advice.cue);
+                    note.advised_chance = advice.map(|advice| advice.chance.rate);
+                }
+                tasks.insert(0, turn.save(session));
+            }
+            Err(error) => self.message = Some(Message::warning(error.to_string())),
+        }
+        Some(Effect::Drill(tasks))
+    }
+
+    fn undo(&mut self) -> Option<Effect> {
+        let turn = self.turn.as_mut()?;
+        let mut session = turn.newest().clone();
+        session.undo();
+        Some(Effect::Drill(vec![turn.save(session)]))
+    }
+}

@@ -1,0 +1,134 @@
+//! The page of an exercise: the table with the line of aim or the shot, the stroke, and what counts.
+
+use glam::DVec2;
+use ratatui::layout::Rect;
+
+use crate::terminal::{
+    capabilities::Capabilities,
+    pages::drills::{
+        DrillsPage, Lesson, Meets, Sight, Turn,
+        view::{draw_header, panels, panes::Panes, score},
+    },
+    shot::{Meeting, Shot},
+    ui::{
+        Ui,
+        message::Message,
+        sight::draw_sight,
+        spin::draw_spin,
+        table::{Spot, TableView, draw_table},
+        theme::Theme,
+        tip::draw_tip,
+    },
+};
+
+/// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
+const DOT: f64 = 0.04;
+/// The cue behind the ball, m: from where to where, and the distance of its dots.
+const CUE: (f64, f64) = (0.09, 0.5);
+const CUE_DOT: f64 = 0.008;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    draw_header(drills, &turn.exercise.title, &about(turn, ui.caps), header, ui);
+    let panes = Panes::new(&turn.table, area);
+    let spots = turn.sight().map_or_else(Vec::new, |sight| spots(turn, &sight, ui.theme, ui.caps));
+    let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
+    let view = TableView {
+        table: &turn.table,
+        layout: &turn.layout,
+        shot: turn.shot(),
+        time,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &spots,
+        film: None,
+        theme: ui.theme,
+        caps: ui.caps,
+    };
+    draw_table(&view, panes.table, ui);
+    panels::draw_stroke(turn, panes.stroke, ui);
+    let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
+    draw_tip(Some(meant), &turn.table, panes.tip, ui);
+    let watched = turn.watched().filter(|_| !turn.shows_hint);
+    let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
+    match spin {
+        Some(spin) => draw_spin(&spin, panes.sight, ui),
+        None => draw_sight(meeting(turn), panes.sight, ui),
+    }
+    panels::draw_aim(turn, panes.aim, ui);
+    score::draw(drills, turn, panes.score, ui);
+    standing(turn)
+}
+
+/// What counts, how hard it is, and how it is repeated.
+fn about(turn: &Turn, caps: Capabilities) -> String {
+    let exercise = &turn.exercise;
+    let mut parts = vec![exercise.rule.to_string()];
+    if exercise.grade > 0 {
+        parts.push(format!("grade {}", exercise.grade));
+    }
+    if turn.session.shifted {
+        parts.push("shifted".to_owned());
+    }
+    parts.join(caps.pick(" · ", " - "))
+}
+
+/// What the cue ball meets first along the line of aim, or in the shot that was played.
+fn meeting(turn: &Turn) -> Option<Meeting> {
+    let Some(sight) = turn.sight() else { return turn.shot().map(Shot::meeting) };
+    Some(match sight.meets {
+        Meets::Ball(hit) => Meeting::Ball(hit),
+        Meets::Cushion(mark) => Meeting::Rail(mark.rail, None),
+    })
+}
+
+/// The line of aim with the ball at its end, and the cue.
+fn spots(turn: &Turn, sight: &Sight, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
+    let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(turn.stroke().phi));
+    let dot = caps.pick('·', '.');
+    let sign = cue_sign(ahead, caps);
+    let spot = |place, color, letter| Spot { place, is_ball: false, color, letter };
+    let steps =
+        |from: f64, to: f64, by: f64| (0..).map(move |n| from + by * f64::from(n)).take_while(move |at| *at <= to);
+    let cue = steps(CUE.0, CUE.1, CUE_DOT).map(|back| spot(start - back * ahead, theme.cue, sign));
+    let reach = turn.table.reach() + DVec2::splat(turn.table.radius);
+    let on_table = |spot: &Spot| spot.place.abs().cmple(reach).all();
+    // The ball at the end of the line is drawn over it.
+    let line = steps(DOT, sight.way - 1.5 * turn.table.radius, DOT);
+    let line = line.map(|way| spot(start + way * ahead, theme.paths[0], dot));
+    let ghost = Spot {
+        place: sight.end,
+        is_ball: true,
+        color: theme.paths[0],
+        letter: theme.letters()[0].to_ascii_lowercase(),
+    };
+    cue.filter(on_table).chain(line).chain([ghost]).collect()
+}
+
+/// The sign of a line in this direction: of the four that there are, the one whose slope is nearest on the screen.
+fn cue_sign(direction: DVec2, caps: Capabilities) -> char {
+    let signs = caps.pick(['─', '╱', '│', '╲'], ['-', '/', '|', '\\']);
+    // A row is as high as two columns are wide.
+    let eighths = (direction * DVec2::new(1.0, 0.5)).to_angle() / std::f64::consts::FRAC_PI_4;
+    signs[(eighths.round() as i32).rem_euclid(4) as usize]
+}
+
+fn standing(turn: &Turn) -> Message {
+    if turn.is_waiting() {
+        return Message::plain("the stroke is being played");
+    }
+    if let Some(verdict) = turn.verdict() {
+        return verdict;
+    }
+    Message::plain(match (turn.watched().is_some(), &turn.lesson) {
+        (true, _) => "the shot is on its way; Enter goes to its end",
+        (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
+        (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
+        (false, Lesson::Known(taught)) if turn.shows_hint && taught.is_own => {
+            "this is the shot that is taught; the attempt counts as helped"
+        }
+        (false, Lesson::Known(_)) if turn.shows_hint => "this is the coach's shot; the attempt counts as helped",
+        (false, Lesson::Known(_)) => "set the stroke and play it",
+    })
+}

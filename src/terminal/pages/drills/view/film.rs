@@ -1,0 +1,144 @@
+//! A filmed shot that is watched: simulated balls, the film's as outlines, and how far they are apart.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    study::filmed::FITTED,
+    table::{BALL_NAMES, BALLS},
+    terminal::{
+        capabilities::Glyphs,
+        pages::drills::{
+            DrillsPage,
+            view::{
+                films::{draw_film_header, outcome},
+                panes::Panes,
+                write_paragraphs,
+            },
+        },
+        shot::film::{FilmScene, Listed, table},
+        ui::{
+            Ui,
+            events::draw_events,
+            message::Message,
+            panel::draw_title,
+            sight::draw_sight,
+            spin::draw_spin,
+            table::{TableView, draw_table},
+            tip::draw_tip,
+        },
+        words::fixed,
+    },
+};
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    let film = &drills.film;
+    let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
+    let more = about(listed, ui.caps.pick(" · ", " - "));
+    draw_film_header(&format!("filmed shot {}", listed.filmed.number), &more, header, ui);
+    let panes = Panes::new(table(), area);
+    let scene = film.scene();
+    let view = TableView {
+        table: table(),
+        layout: &listed.layout,
+        shot: scene.map(|scene| scene.shot.as_ref()),
+        time: film.playback.time,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &[],
+        film: scene.map(|scene| scene.replay.filmed_places(film.playback.time)),
+        theme: ui.theme,
+        caps: ui.caps,
+    };
+    draw_table(&view, panes.table, ui);
+    let time = film.playback.readout;
+    draw_stroke(scene, panes.stroke, ui);
+    draw_tip(scene.and_then(|scene| scene.stroke.as_ref()), table(), panes.tip, ui);
+    match scene.and_then(|scene| scene.shot.spin(time, table().radius)) {
+        Some(spin) => draw_spin(&spin, panes.sight, ui),
+        None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
+    }
+    draw_distances(scene, time, panes.aim, ui);
+    draw_events(scene.map(|scene| scene.shot.as_ref()), Some(time), panes.score, ui);
+    scene.map_or_else(
+        || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
+        |scene| standing(scene, listed, time),
+    )
+}
+
+/// What the film shows of a shot, in a few words.
+fn about(listed: &Listed, dot: &str) -> String {
+    let filmed = &listed.filmed;
+    [outcome(listed).to_owned(), format!("{} m/s", fixed(filmed.speed(), 1)), format!("{} s", fixed(filmed.lasts(), 1))]
+        .join(dot)
+}
+
+/// A distance in centimetres.
+fn centimetres(metres: f64) -> String {
+    format!("{} cm", fixed(100.0 * metres, 1))
+}
+
+/// How far the simulated cue ball is from the filmed one, and what that is worth.
+fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
+    let white = centimetres(scene.replay.apart(time)[0]);
+    if time >= scene.replay.duration() {
+        let simulated = if scene.is_point { "a point" } else { "no point" };
+        let filmed = if listed.is_point { "a point" } else { "no point" };
+        return Message::plain(format!("at rest, white {white} from the film; simulated {simulated}, filmed {filmed}"));
+    }
+    let basis = if time <= FITTED { "within the fitted 2 s" } else { "predicted from the first 2 s" };
+    Message::plain(format!("white is {white} from the film at {} s, {basis}", fixed(time, 1)))
+}
+
+/// Draws what the stroke gave the cue ball, by the fit.
+fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
+    let inner = draw_title(&Line::from(Span::styled("The stroke", ui.theme.text())), area, ui);
+    let Some(scene) = scene else { return };
+    let tip = |radii: f64, [more, less]: [&str; 2]| {
+        let word = if radii > 0.0 { more } else { less };
+        format!("{} mm {word}", fixed(1e3 * table().radius * radii.abs(), 1))
+    };
+    let tips = match scene.stroke {
+        Some(cue) => [tip(cue.a, ["left", "right"]), tip(cue.b, ["up", "down"])],
+        None => ["by no level cue", ""].map(str::to_owned),
+    };
+    let [side, height] = tips;
+    let rows = [
+        ("ball", format!("{} m/s", fixed(scene.shot.impulse.velocity.length(), 2))),
+        ("side", side),
+        ("height", height),
+        ("fitted", format!("2 s to {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
+    ];
+    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let line = Line::from(vec![
+            Span::styled(format!("{name:<7}"), ui.theme.faint()),
+            Span::styled(value, ui.theme.text()),
+        ]);
+        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+    }
+}
+
+/// Draws how far each simulated ball is from the filmed one, and which is which.
+fn draw_distances(scene: Option<&FilmScene>, time: f64, area: Rect, ui: &mut Ui) {
+    let title = scene.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
+    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let Some(scene) = scene else { return };
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    let apart = scene.replay.apart(time);
+    let distances: Vec<String> = (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], centimetres(apart[n]))).collect();
+    let legend = if ui.caps.glyphs == Glyphs::Letters {
+        "Capitals and paths are the simulation's, small letters the film's."
+    } else {
+        "Full balls and paths are the simulation's, outlines the film's."
+    };
+    let paragraphs = [
+        (distances.join(", "), ui.theme.accent()),
+        (legend.to_owned(), ui.theme.faint()),
+        ("The stroke was fitted on the first 2 s.".to_owned(), ui.theme.faint()),
+    ];
+    write_paragraphs(&paragraphs, text, ui);
+}

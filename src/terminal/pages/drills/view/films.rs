@@ -1,0 +1,140 @@
+//! The list of filmed shots, and the marked one on a small table with what it is.
+
+use ratatui::{
+    layout::{Position, Rect},
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    pages::{
+        Target,
+        drills::{
+            DrillsPage,
+            view::{READABLE, write_paragraphs},
+        },
+    },
+    shot::film::{Listed, listed, table},
+    ui::{
+        Ui,
+        geometry::Mapping,
+        message::Message,
+        panel::draw_title,
+        table::{TableView, draw_table},
+        text::{wrap, write_right},
+    },
+    words::fixed,
+};
+
+/// Columns of the list.
+const LIST: u16 = 36;
+/// Columns at which the numbers end, from the list's left edge: the shot's, its speed, and how long it takes.
+const NUMBER_END: u16 = 10;
+const SPEED_END: u16 = 24;
+const LENGTH_END: u16 = 32;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    let points = listed().iter().filter(|listed| listed.is_point).count();
+    let more = format!("{} shots of a match, {points} points", listed().len());
+    draw_film_header("filmed shots", &more, header, ui);
+    let [list, preview] = halves(area);
+    draw_list(drills, list, ui);
+    if let Some(listed) = drills.film.marked() {
+        draw_shot(listed, preview, ui);
+    }
+    Message::plain("choose a shot; Enter plays it, filmed balls and simulated ones together")
+}
+
+/// The first row of a page of the film: nobody plays there.
+pub fn draw_film_header(title: &str, more: &str, area: Rect, ui: &mut Ui) {
+    let line = Line::from(vec![
+        Span::styled(format!(" {title}"), ui.theme.text()),
+        Span::styled(format!("  {more}"), ui.theme.faint()),
+    ]);
+    ui.buffer.set_line(area.x, area.y, &line, area.width);
+}
+
+/// What became of a shot by the film.
+pub const fn outcome(listed: &Listed) -> &'static str {
+    if listed.is_point { "point" } else { "no point" }
+}
+
+fn halves(area: Rect) -> [Rect; 2] {
+    let list = Rect { width: LIST.min(area.width), ..area };
+    [list, Rect { x: list.right() + 1, width: area.width.saturating_sub(list.width + 1), ..area }]
+}
+
+/// Places in the list of the shots in view: the marked one is among the first `most`.
+fn in_view(mark: usize, most: usize) -> impl Iterator<Item = (usize, &'static Listed)> {
+    let first = mark.saturating_sub(most / 2).min(listed().len().saturating_sub(most));
+    listed().iter().enumerate().skip(first)
+}
+
+/// What the mouse points at.
+pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
+    let [list, _] = halves(area);
+    let mark = drills.film.mark();
+    // The first row is the title's.
+    let rows = list.y + 1..list.bottom();
+    let line = rows.clone().zip(in_view(mark, rows.len())).find(|(y, _)| *y == at.y).map(|(_, (n, _))| n);
+    list.contains(at).then(|| Target::list(line, mark))
+}
+
+fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
+    let mark = drills.film.mark();
+    let title = Line::from(Span::styled(format!("All {}", listed().len()), ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    for (end, label) in [(SPEED_END, " m/s "), (LENGTH_END, " seconds ")] {
+        write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
+    }
+    for ((n, listed), y) in in_view(mark, usize::from(inner.height)).zip(inner.y..inner.bottom()) {
+        let style = if n == mark { ui.theme.accent() } else { ui.theme.text() };
+        if n == mark {
+            ui.buffer.set_string(inner.x, y, ui.caps.pick("▸", ">"), style);
+        }
+        let filmed = &listed.filmed;
+        write_right(ui.buffer, inner.x, inner.x + NUMBER_END, y, &format!("shot {:>3}", filmed.number), style);
+        if listed.is_point {
+            let style = if n == mark { style } else { ui.theme.good() };
+            ui.buffer.set_string(inner.x + NUMBER_END + 2, y, "point", style);
+        }
+        write_right(ui.buffer, inner.x, inner.x + SPEED_END, y, &fixed(filmed.speed(), 1), style);
+        write_right(ui.buffer, inner.x, inner.x + LENGTH_END, y, &fixed(filmed.lasts(), 1), style);
+    }
+}
+
+fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
+    let title = format!("Shot {}, {}", listed.filmed.number, outcome(listed));
+    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let width = inner.width.saturating_sub(2).min(READABLE);
+    let paragraphs = [
+        (String::new(), ui.theme.text()),
+        ("Three cushions, filmed at 50 pictures a second on a heated match table.".to_owned(), ui.theme.text()),
+        (
+            "The stroke is fitted to the cue ball's first 2 seconds; all that comes after, and the object balls, the simulator \
+             predicts."
+                .to_owned(),
+            ui.theme.text(),
+        ),
+    ];
+    let rows: usize = paragraphs.iter().map(|(text, _)| wrap(text, usize::from(width)).len()).sum();
+    let room = Rect { height: inner.height.saturating_sub(rows as u16), ..inner };
+    let view = TableView {
+        table: table(),
+        layout: &listed.layout,
+        shot: None,
+        time: 0.0,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &[],
+        film: None,
+        theme: ui.theme,
+        caps: ui.caps,
+    };
+    draw_table(&view, room, ui);
+    let outer = Mapping::fit(table(), room).outer();
+    let left = outer.x.min(inner.right().saturating_sub(width + 1)).max(inner.x + 1);
+    let text = Rect { x: left, y: outer.bottom(), width, height: inner.bottom().saturating_sub(outer.bottom()) };
+    write_paragraphs(&paragraphs, text, ui);
+}

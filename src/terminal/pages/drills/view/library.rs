@@ -1,0 +1,260 @@
+//! The list of exercises, and the marked one on a small table with what is to be learnt.
+
+use ratatui::{
+    layout::{Position, Rect},
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::{
+    drills::{Category, Exercise},
+    terminal::{
+        pages::{
+            Target,
+            drills::{
+                DrillsPage,
+                view::{READABLE, draw_header, percent, write_paragraphs},
+            },
+        },
+        ui::{
+            Ui,
+            geometry::Mapping,
+            message::Message,
+            panel::draw_title,
+            table::{TableView, draw_table},
+            text::{cut, wrap, write_right},
+            theme::Theme,
+        },
+        words,
+    },
+};
+
+/// Columns of the list, of a hundred: on narrow screens, and on wide ones, where the titles of the bundled exercises need no
+/// more than so many columns.
+const LIST: (u16, u16) = (58, 33);
+const LIST_ENOUGH: u16 = 54;
+/// Columns at which grade, points and best run end, from the list's right edge.
+const GRADE_END: u16 = 12;
+const MADE_END: u16 = 5;
+const RUN_END: u16 = 1;
+/// Rows of the small table, at least.
+const TABLE_ROWS: u16 = 9;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    let sessions = drills.book.sessions().len();
+    let more = match sessions {
+        0 => String::new(),
+        1 => "1 session so far".to_owned(),
+        _ => format!("{sessions} sessions so far"),
+    };
+    draw_header(drills, "practice", &more, header, ui);
+    let [list, preview] = halves(area);
+    draw_list(drills, list, ui);
+    match drills.catalogue.marked() {
+        Some(exercise) => draw_exercise(drills, exercise, preview, ui),
+        None => draw_nothing(drills, list, ui),
+    }
+    standing(drills)
+}
+
+/// The list's part of the page, and that of the marked exercise.
+fn halves(area: Rect) -> [Rect; 2] {
+    let share = |of| area.width * of / 100;
+    let list = Rect { width: share(LIST.0).min(LIST_ENOUGH.max(share(LIST.1))), ..area };
+    [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
+}
+
+/// What the mouse points at.
+pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
+    let catalogue = &drills.catalogue;
+    let [list, _] = halves(area);
+    // The first row is the title's.
+    let rows = list.y + 1..list.bottom();
+    let found = catalogue.found();
+    let shown = in_view(&found, catalogue.mark(), rows.len());
+    let line = rows.zip(shown).find(|(y, _)| *y == at.y).and_then(|(_, row)| match row {
+        Row::Exercise(n, _) => Some(n),
+        Row::Heading(_) => None,
+    });
+    list.contains(at).then(|| Target::list(line, catalogue.mark()))
+}
+
+fn standing(drills: &DrillsPage) -> Message {
+    let book = &drills.book;
+    if !book.is_known {
+        return Message::plain("reading what was played so far");
+    }
+    if !book.troubles.is_empty() {
+        return Message::warning(book.troubles.join("; "));
+    }
+    Message::plain("choose an exercise; Enter opens it")
+}
+
+/// A row of the list.
+enum Row<'a> {
+    Heading(Category),
+    /// With its place among those that are listed.
+    Exercise(usize, &'a Exercise),
+}
+
+fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
+    let catalogue = &drills.catalogue;
+    let found = catalogue.found();
+    let title = Line::from(Span::styled(filter_words(drills, found.len()), ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    if found.is_empty() {
+        return;
+    }
+    for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
+        let end = (area.right() + 1).saturating_sub(end);
+        if area.x + 2 + title.width() as u16 + 12 < end {
+            write_right(ui.buffer, area.x, end, area.y, label, ui.theme.faint());
+        }
+    }
+    for (row, y) in in_view(&found, catalogue.mark(), usize::from(inner.height)).zip(inner.y..inner.bottom()) {
+        let area = Rect { y, height: 1, ..inner };
+        match row {
+            Row::Heading(category) => {
+                ui.buffer.set_stringn(area.x + 1, y, category.title(), usize::from(area.width), ui.theme.good());
+            }
+            Row::Exercise(n, exercise) => draw_row(drills, exercise, n == catalogue.mark(), area, ui),
+        }
+    }
+}
+
+/// The rows of the list from the first one that is shown on, so that the marked one is among the first `most`.
+fn in_view<'a>(found: &[&'a Exercise], mark: usize, most: usize) -> impl Iterator<Item = Row<'a>> {
+    let mut rows = Vec::new();
+    for (n, exercise) in found.iter().enumerate() {
+        if n == 0 || found[n - 1].category != exercise.category {
+            rows.push(Row::Heading(exercise.category));
+        }
+        rows.push(Row::Exercise(n, exercise));
+    }
+    let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == mark)).unwrap_or(0);
+    let first = marked.saturating_sub(most / 2).min(rows.len().saturating_sub(most));
+    rows.into_iter().skip(first)
+}
+
+/// How many exercises are listed, and which.
+fn filter_words(drills: &DrillsPage, found: usize) -> String {
+    let catalogue = &drills.catalogue;
+    let filter = &catalogue.filter;
+    let parts = [
+        filter.category.map(|category| category.title().to_owned()),
+        filter.grade.map(|grade| format!("grade {grade}")),
+        filter.text.as_ref().map(|text| format!("\"{text}\"")),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    if parts.is_empty() { format!("All {found}") } else { format!("{found}: {}", parts.join(", ")) }
+}
+
+fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rect, ui: &mut Ui) {
+    let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
+    if is_marked {
+        ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
+    }
+    let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
+    let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
+    ui.buffer.set_stringn(area.x + 2, area.y, title, room, style);
+    let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
+    write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
+    if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
+        let made = format!("{}/{}", score.made, score.tried);
+        write_right(ui.buffer, area.x, area.right() - MADE_END, area.y, &made, style);
+        write_right(ui.buffer, area.x, area.right() - RUN_END, area.y, &score.high_run.to_string(), style);
+    }
+}
+
+fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut Ui) {
+    let room = usize::from(area.width.saturating_sub(4));
+    let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
+    let title = Line::from(Span::styled(title, ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    let Ok(table) = exercise.table() else { return };
+    // The text has the rows that it needs, and the table the others.
+    let mut paragraphs = about(drills, exercise, ui.theme);
+    let width = inner.width.saturating_sub(2).min(READABLE);
+    let rows = |paragraphs: &[Paragraph]| {
+        let rows: usize = paragraphs.iter().map(|one| wrap(&one.text, usize::from(width)).len()).sum();
+        rows as u16
+    };
+    // Where there is little room, what adds least goes.
+    while rows(&paragraphs) + TABLE_ROWS > inner.height
+        && let Some(least) = paragraphs.iter().rposition(|one| one.is_extra)
+    {
+        paragraphs.remove(least);
+    }
+    let room =
+        Rect { height: inner.height.saturating_sub(rows(&paragraphs)).max(TABLE_ROWS.min(inner.height)), ..inner };
+    let view = TableView {
+        table: &table,
+        layout: &exercise.layout,
+        shot: None,
+        time: 0.0,
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &[],
+        film: None,
+        theme: ui.theme,
+        caps: ui.caps,
+    };
+    draw_table(&view, room, ui);
+    let outer = Mapping::fit(&table, room).outer();
+    let left = outer.x.min(inner.right() - width - 1).max(inner.x + 1);
+    let text = Rect { x: left, y: outer.bottom(), width, height: inner.bottom().saturating_sub(outer.bottom()) };
+    let paragraphs: Vec<_> = paragraphs.into_iter().map(|one| (one.text, one.style)).collect();
+    write_paragraphs(&paragraphs, text, ui);
+}
+
+/// A paragraph about an exercise.
+struct Paragraph {
+    text: String,
+    style: Style,
+    /// Whether it may be left out.
+    is_extra: bool,
+}
+
+/// What is to be learnt from an exercise, and how often it is made.
+fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragraph> {
+    let mut all = Vec::new();
+    let mut add = |text: String, style, is_extra| all.push(Paragraph { text, style, is_extra });
+    if !exercise.point.is_empty() {
+        add(String::new(), theme.text(), true);
+        add(exercise.point.clone(), theme.text(), false);
+    }
+    add(String::new(), theme.text(), true);
+    let grade = if exercise.grade == 0 { String::new() } else { format!(", grade {}", exercise.grade) };
+    add(format!("rule: {}{grade}", exercise.rule), theme.text(), false);
+    if let Some(par) = exercise.par {
+        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(words::percent);
+        add(format!("par: beginner {beginner}, club {club}, expert {expert} %"), theme.text(), false);
+    }
+    match drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
+        Some(score) => {
+            let rate = percent(score.rate.rate);
+            let words = format!("you: {} of {}, {rate}, best run {}", score.made, score.tried, score.high_run);
+            add(words, theme.good(), false);
+        }
+        None => add("you: not tried yet".to_owned(), theme.faint(), false),
+    }
+    if !exercise.tags.is_empty() {
+        let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{tag}")).collect();
+        add(tags.join(" "), theme.faint(), true);
+    }
+    all
+}
+
+fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
+    let filter = &drills.catalogue.filter;
+    let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
+        "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \
+         a code that somebody has sent you."
+    } else {
+        "No exercise is like that. 0 lists all."
+    };
+    let text = Rect { x: area.x + 2, y: area.y + 2, width: area.width - 3, height: area.height.saturating_sub(2) };
+    write_paragraphs(&[(words.to_owned(), ui.theme.faint())], text, ui);
+}

@@ -1,0 +1,101 @@
+//! The drill screens: the library, the exercise that is practised, the result of an exam, and the records.
+
+mod exercise;
+mod film;
+mod films;
+mod library;
+mod panels;
+mod panes;
+mod record;
+mod result;
+mod score;
+
+use ratatui::{
+    layout::{Position, Rect},
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    pages::{
+        PageArea, Target,
+        drills::{DrillsPage, Screen, keys::DrillContext},
+    },
+    ui::{
+        Ui,
+        message::Message,
+        status_line::{draw_question, draw_status},
+        text::{cut, wrap, write_right},
+    },
+    words::{self, skill_word},
+};
+
+/// Most columns of a line that is good to read.
+const READABLE: u16 = 80;
+
+/// Draws the page that is open; gives the first row of what stands below it.
+pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
+    let (header, body, status) = (area.header, area.body, area.status);
+    let standing = match (drills.page(), &drills.turn) {
+        (Screen::Exercise, Some(turn)) => exercise::draw(drills, turn, header, body, ui),
+        (Screen::Result, Some(turn)) => result::draw(drills, turn, header, body, ui),
+        (Screen::Record, _) => record::draw(drills, header, body, ui),
+        (Screen::Films, _) => films::draw(drills, header, body, ui),
+        (Screen::Film, _) => film::draw(drills, header, body, ui),
+        _ => library::draw(drills, header, body, ui),
+    };
+    let message = drills.message.clone();
+    match &drills.question {
+        Some(question) => {
+            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+            draw_question(&Message::plain(before + &question.text()), status, ui)
+        }
+        None => draw_status(&message.unwrap_or(standing), status, ui),
+    }
+}
+
+/// What the mouse points at.
+pub fn target(drills: &DrillsPage, area: &PageArea, at: Position) -> Option<Target> {
+    match drills.place() {
+        DrillContext::Library | DrillContext::Search => library::target(drills, area.body, at),
+        DrillContext::Films => films::target(drills, area.body, at),
+        _ => None,
+    }
+}
+
+/// The first row of a page behind the tabs: what it is, more about that, and who plays.
+fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mut Ui) {
+    let player = format!("player: {} ", skill_word(drills.skill()));
+    let room = usize::from(area.width).saturating_sub(player.chars().count() + 2);
+    let title = cut(wrap(title, room.saturating_sub(1)), 1, room.saturating_sub(1), ui.caps).swap_remove(0);
+    let mut line = Line::from(Span::styled(format!(" {title}"), ui.theme.text()));
+    let more = Span::styled(format!("  {more}"), ui.theme.faint());
+    if line.width() + more.width() <= room {
+        line.push_span(more);
+    }
+    ui.buffer.set_line(area.x, area.y, &line, room as u16);
+    write_right(ui.buffer, area.x, area.right(), area.y, &player, ui.theme.text());
+}
+
+/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
+/// so by its end. Gives the first row that is left.
+fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) -> u16 {
+    let width = usize::from(area.width);
+    let mut row = area.y;
+    for (text, style) in paragraphs {
+        let room = usize::from(area.bottom() - row);
+        if room == 0 {
+            break;
+        }
+        for line in cut(wrap(text, width), room, width, ui.caps) {
+            ui.buffer.set_stringn(area.x, row, line, width, *style);
+            row += 1;
+        }
+    }
+    row
+}
+
+/// A share as people say it, like `55 %`.
+fn percent(share: f64) -> String {
+    format!("{} %", words::percent(share))
+}

@@ -1,0 +1,199 @@
+//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the one that is taught.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    drills::changes,
+    physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
+    table::CueBall,
+    terminal::{
+        capabilities::Capabilities,
+        pages::drills::{
+            Lesson, Meets, Sight, Turn, Watched,
+            view::{percent, write_paragraphs},
+        },
+        tasks::drills::Taught,
+        ui::{Ui, panel::draw_title},
+        words::{fixed, rail_name},
+    },
+};
+
+/// Fullness from which on a hit is called 100 % full.
+const FULL: f64 = 0.995;
+
+/// Draws the numbers of the stroke that is set, or was meant.
+pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
+    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
+    // In a match one plays both sides.
+    let title =
+        if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
+    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let degree = ui.caps.pick("°", " deg");
+    let millimetres = |radii: f64, [more, less]: [&str; 2]| {
+        let offset = 1000.0 * turn.table.radius * radii;
+        match fixed(offset.abs(), 1).as_str() {
+            "0.0" => "middle".to_owned(),
+            size => format!("{size} mm {}", if offset > 0.0 { more } else { less }),
+        }
+    };
+    let rows = [
+        ("aim", fixed(cue.phi.to_degrees(), 2) + degree),
+        ("side", millimetres(cue.a, ["left", "right"])),
+        ("height", millimetres(cue.b, ["up", "down"])),
+        ("speed", format!("{} m/s", fixed(cue.speed, 2))),
+        (
+            "cue",
+            match fixed(cue.theta.to_degrees(), 1).as_str() {
+                "0.0" => "level".to_owned(),
+                angle => format!("{angle}{degree} up"),
+            },
+        ),
+    ];
+    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let line = Line::from(vec![
+            Span::styled(format!("{name:<7}"), ui.theme.faint()),
+            Span::styled(value, ui.theme.text()),
+        ]);
+        ui.buffer.set_line(inner.x + 1, row, &line, inner.width.saturating_sub(1));
+    }
+}
+
+/// Draws where the stroke is aimed and what is to be learnt; once it was played, how it compares.
+pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
+    let settled = turn.watched().filter(|watched| watched.is_settled);
+    let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
+    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    let mut paragraphs = Vec::new();
+    if let Some(watched) = settled {
+        paragraphs.extend(differences(turn, watched, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
+    } else {
+        if let Some(sight) = turn.sight() {
+            paragraphs.push((sight_words(&sight, turn.cue_ball), ui.theme.accent()));
+            match turn.least_elevation() {
+                Ok(LeastElevation { theta, over: Some(over) }) => {
+                    paragraphs.push((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
+                }
+                Ok(LeastElevation { over: None, .. }) => {}
+                Err(NoRoom { obstacle }) => {
+                    paragraphs.push((no_room_words(obstacle, turn.cue_ball), ui.theme.warning()))
+                }
+            }
+        }
+        // In a game the balls have gone elsewhere, and what was to be learnt with them.
+        let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
+        match turn.taught() {
+            Some(taught) if turn.shows_hint => paragraphs.push((hint(turn, taught, ui.caps), ui.theme.text())),
+            _ if is_elsewhere || turn.exercise.point.is_empty() => {}
+            _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
+        }
+    }
+    write_paragraphs(&paragraphs, text, ui);
+}
+
+/// What the line of aim meets.
+fn sight_words(sight: &Sight, cue_ball: CueBall) -> String {
+    let way = fixed(100.0 * sight.way, 0);
+    match sight.meets {
+        Meets::Ball(hit) => {
+            // Head-on has no side.
+            let sides = if hit.fullness > FULL { ["", ""] } else { [", right side", ", left side"] };
+            let side = sides[usize::from(hit.left)];
+            format!("{} {:.0} % full{side}, {way} cm", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
+        }
+        Meets::Cushion(mark) => {
+            format!("{} at {} diamonds, {way} cm", rail_name(mark.rail), fixed(mark.diamond, 1))
+        }
+    }
+}
+
+/// How low the cue can be held, and what it passes over.
+fn least_words(theta: f64, over: Obstacle, cue_ball: CueBall, caps: Capabilities) -> String {
+    let degree = caps.pick("°", " deg");
+    format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over, cue_ball))
+}
+
+/// What keeps the cue from being held at all.
+fn no_room_words(obstacle: Obstacle, cue_ball: CueBall) -> String {
+    format!("no room for the cue: the {} is in the way", obstacle_word(obstacle, cue_ball))
+}
+
+fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
+    match obstacle {
+        Obstacle::Rail(rail) => rail_name(rail).to_owned(),
+        Obstacle::Ball(ball) => format!("{} ball", cue_ball.names()[ball]),
+    }
+}
+
+/// SeriesId shot it is that is taught.
+const fn teacher(taught: &Taught) -> &'static str {
+    if taught.is_own { "taught" } else { "coach" }
+}
+
+/// What a player has to change to get from one stroke to another, or `none` where nobody could tell them apart.
+fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities) -> String {
+    let words = changes(&turn.table, from, to).join(", ");
+    match words.as_str() {
+        "" => none.to_owned(),
+        _ if caps.unicode => words,
+        _ => words.replace('°', " deg"),
+    }
+}
+
+/// How often the stroke is made that is taught, and how to set it.
+fn hint(turn: &Turn, taught: &Taught, caps: Capabilities) -> String {
+    let advice = &taught.advice;
+    let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", caps);
+    format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
+}
+
+/// How often the stroke is made, and the one that is taught.
+fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
+    let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent);
+    match &turn.lesson {
+        Lesson::Known(taught) => {
+            format!("Yours makes {own}, {} {}", teacher(taught), percent(taught.advice.chance.rate))
+        }
+        Lesson::Pending | Lesson::Missing => format!("Yours makes {own}"),
+    }
+}
+
+/// What would make the stroke the one that is taught, and what the player's hand has added to it.
+fn differences(turn: &Turn, watched: &Watched, caps: Capabilities) -> [String; 2] {
+    let lesson = match &turn.lesson {
+        Lesson::Known(taught) => {
+            let changes = told(turn, [&watched.meant, &taught.advice.cue], "no change worth telling", caps);
+            format!("{}: {changes}", teacher(taught))
+        }
+        Lesson::Pending => "the coach is still thinking".to_owned(),
+        Lesson::Missing => "the coach has found no shot".to_owned(),
+    };
+    let added = told(turn, [&watched.meant, &watched.outcome.played.stroke], "nothing worth telling", caps);
+    [lesson, format!("your hand: {added}")]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        simulation::Rail,
+        terminal::capabilities::{Depth, Glyphs},
+    };
+
+    #[test]
+    fn the_least_elevation_is_told_with_what_the_cue_passes_over() {
+        let caps = |unicode| Capabilities { depth: Depth::True, glyphs: Glyphs::Letters, unicode };
+        let theta = 7.26_f64.to_radians();
+        let over_rail = least_words(theta, Obstacle::Rail(Rail::Top), CueBall::White, caps(true));
+        assert_eq!(over_rail, "cue at least 7.3° up, over the top rail");
+        let over_ball = least_words(theta, Obstacle::Ball(1), CueBall::White, caps(false));
+        assert_eq!(over_ball, "cue at least 7.3 deg up, over the yellow ball");
+        assert_eq!(
+            no_room_words(Obstacle::Ball(1), CueBall::Yellow),
+            "no room for the cue: the white ball is in the way"
+        );
+    }
+}

@@ -1,0 +1,124 @@
+//! Which part of the page of an exercise is for what: the arrangement that leaves the table the most room wins.
+
+use ratatui::layout::Rect;
+
+use crate::{table::Table, terminal::ui::geometry::Mapping};
+
+/// Rows of the panels below the table where all of them stand there: a title and seven lines.
+const BELOW: u16 = 8;
+/// The same where there is a column beside it: a title and four lines.
+const BELOW_BESIDE: u16 = 5;
+/// Columns beside the table: at least, and at most.
+const BESIDE: (u16, u16) = (22, 36);
+/// Columns of the stroke and the tip where all panels stand side by side.
+const STROKE_WIDTH: u16 = 22;
+const TIP_WIDTH: u16 = 14;
+const SIGHT_WIDTH: u16 = 12;
+/// Columns that the score's title needs.
+const SCORE_WIDTH: u16 = 30;
+/// Rows of the stroke's numbers with their title, and of the sight below the tip.
+const STROKE_ROWS: u16 = 6;
+const SIGHT_ROWS: u16 = 4;
+/// Most rows of tip and sight.
+const PRECISION_ROWS: u16 = 13;
+/// Share of the aim's words in the room that they have beside the score.
+const AIM: (u16, u16) = (3, 5);
+/// Columns from which on all panels find room side by side.
+const ALL_BELOW_WIDTH: u16 = 112;
+
+/// The areas of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Panes {
+    /// Rails and cloth are drawn as large as fits in here.
+    pub table: Rect,
+    /// The numbers of the stroke.
+    pub stroke: Rect,
+    /// The cue ball's face.
+    pub tip: Rect,
+    /// The shooter's view of the first ball.
+    pub sight: Rect,
+    /// Where the aim leads, or what came of the stroke.
+    pub aim: Rect,
+    /// The score.
+    pub score: Rect,
+}
+
+impl Panes {
+    /// Divides `area` for `table`.
+    pub fn new(table: &Table, area: Rect) -> Self {
+        let (below, beside) = (Self::all_below(table, area), Self::some_beside(table, area));
+        let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
+        if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
+    }
+
+    fn all_below(table: &Table, area: Rect) -> Self {
+        let upper = Rect { height: area.height.saturating_sub(BELOW), ..area };
+        let top = Mapping::fit(table, upper).outer().bottom().min(area.bottom());
+        let panel = |x: u16, width: u16| {
+            let left = (area.x + x).min(area.right());
+            Rect::new(left, top, width.min(area.right() - left), area.bottom() - top)
+        };
+        let sight = STROKE_WIDTH + TIP_WIDTH + 2;
+        let aim = sight + SIGHT_WIDTH + 1;
+        let room = area.width.saturating_sub(aim + 1);
+        let words = (room * AIM.0 / AIM.1).min(room.saturating_sub(SCORE_WIDTH));
+        let score = aim + words + 1;
+        Self {
+            table: upper,
+            stroke: panel(0, STROKE_WIDTH),
+            tip: panel(STROKE_WIDTH + 1, TIP_WIDTH),
+            sight: panel(sight, SIGHT_WIDTH),
+            aim: panel(aim, words),
+            score: panel(score, area.width.saturating_sub(score)),
+        }
+    }
+
+    fn some_beside(table: &Table, area: Rect) -> Self {
+        let height = area.height.saturating_sub(BELOW_BESIDE);
+        let room = Rect { width: area.width.saturating_sub(BESIDE.0), height, ..area };
+        let outer = Mapping::fit(table, room).outer();
+        // What the table does not need goes to the column beside it, up to a width that is still good to read.
+        let width = area.width.saturating_sub(outer.width).clamp(BESIDE.0, BESIDE.1) - 1;
+        let left = area.right().saturating_sub(width);
+        let room = Rect { width: left - 1 - area.x, ..room };
+        let bottom = Mapping::fit(table, room).outer().bottom().min(area.bottom());
+        let rows = bottom - area.y;
+        let precision_rows = rows.saturating_sub(STROKE_ROWS).min(PRECISION_ROWS);
+        let sight_rows = SIGHT_ROWS.min(precision_rows);
+        let column = |y: u16, height: u16| Rect::new(left, y, width, height);
+        let aim = area.width * AIM.0 / AIM.1;
+        let below = |x: u16, width: u16| Rect::new(area.x + x, bottom, width, area.bottom() - bottom);
+        Self {
+            table: room,
+            stroke: column(area.y, rows - precision_rows),
+            tip: column(bottom - precision_rows, precision_rows - sight_rows),
+            sight: column(bottom - sight_rows, sight_rows),
+            aim: below(0, aim),
+            score: below(aim + 1, area.width - aim - 1),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_areas_overlap_at_any_size() {
+        let table = Table::default();
+        for width in 80..=240 {
+            for height in 21..=77 {
+                let panes = Panes::new(&table, Rect::new(0, 1, width, height));
+                let bed = Mapping::fit(&table, panes.table).outer();
+                let all = [bed, panes.stroke, panes.tip, panes.sight, panes.aim, panes.score];
+                for (n, one) in all.iter().enumerate() {
+                    assert!(one.right() <= width && one.bottom() <= height + 1, "{width}×{height} {n}: {one}");
+                    assert!(one.width >= 12 && one.height >= 4, "{width}×{height} {n}: {one}");
+                    for other in &all[n + 1..] {
+                        assert!(one.intersection(*other).is_empty(), "{width}×{height}: {one} and {other}");
+                    }
+                }
+            }
+        }
+    }
+}

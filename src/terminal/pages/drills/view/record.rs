@@ -1,0 +1,186 @@
+//! The page of records: the score of an exercise or of all, over time, by sessions, and the skill that it shows.
+
+use std::time::{Duration, UNIX_EPOCH};
+
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::{
+    drills::{Goal, Record, Session, Venue},
+    learning::{
+        moment,
+        run::history::{Odd, Point, Span as Values},
+    },
+    terminal::{
+        pages::drills::{
+            DrillsPage, Estimate, record_of,
+            view::{READABLE, draw_header, percent, write_paragraphs},
+        },
+        ui::{
+            Ui,
+            chart::{Chart, Curve, SeriesId, draw_chart},
+            message::Message,
+            panel::draw_title,
+            text::{cut, wrap, write_right},
+        },
+        words::chance_words,
+    },
+};
+
+/// Columns of the numbers beside the chart, of a hundred, at least and at most.
+const NUMBERS: (u16, u16, u16) = (40, 38, 56);
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    let scope = drills.records.scope();
+    let title = scope.map_or("all exercises", |name| {
+        drills.catalogue.library().get(name).map_or(name, |exercise| exercise.title.as_str())
+    });
+    draw_header(drills, "record", title, header, ui);
+    let sessions = drills.book.sessions_of(scope);
+    let top = Rect { height: (area.height / 2).max(11), ..area };
+    let (share, least, most) = NUMBERS;
+    let numbers = Rect { width: (top.width * share / 100).clamp(least, most), ..top };
+    draw_numbers(drills, &sessions, scope, numbers, ui);
+    let chart = Rect { x: numbers.right() + 1, width: top.width - numbers.width - 1, ..top };
+    let points = points(&sessions, scope);
+    let curves = [Curve { points: &points, odd: Odd::default(), whose: SeriesId::Own }];
+    let tried = points.last().map_or(0, |point| point.shots.1);
+    let chart_of = Chart {
+        title: "made of 100, session by session",
+        curves: &curves,
+        shots: (0.0, tried.max(10) as f64),
+        values: Some((0.0, 100.0)),
+        log: false,
+        smoothing: 0.0,
+        selected: false,
+        with_shots: true,
+        unit: "tries",
+        note: points.is_empty().then_some("nothing is played yet"),
+    };
+    draw_chart(&chart_of, chart, ui);
+    let list = Rect { y: top.bottom(), height: area.bottom() - top.bottom(), ..area };
+    draw_sessions(drills, &sessions, scope, list, ui);
+    if sessions.is_empty() {
+        return Message::plain("nothing is played yet");
+    }
+    Message::plain(match &drills.records.estimate {
+        Estimate::Known(Some(_), _) => "w takes the estimated skill as your own",
+        Estimate::Working => "the skill is being estimated",
+        _ => "",
+    })
+}
+
+fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
+    let title = if scope.is_some() { "This exercise" } else { "All" };
+    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let record = Record::of(sessions.iter().copied(), |session, attempt| match scope {
+        Some(name) => attempt.exercise == name,
+        None => !session.attempts.is_empty(),
+    });
+    let mut rows = vec![("attempts", record.tried.to_string())];
+    if record.tried > 0 {
+        rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
+        rows.push(("average", record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning"))));
+        rows.push(("high run", record.high_run.to_string()));
+    }
+    if record.helped > 0 {
+        rows.push(("hints", format!("{} of the attempts", record.helped)));
+    }
+    let mut y = inner.y;
+    for (name, value) in rows {
+        let line = Line::from(vec![
+            Span::styled(format!("{name:<10}"), ui.theme.faint()),
+            Span::styled(value, ui.theme.text()),
+        ]);
+        ui.buffer.set_line(inner.x + 1, y, &line, inner.width.saturating_sub(1));
+        y += 1;
+    }
+    let skill = match &drills.records.estimate {
+        Estimate::Unknown => return,
+        Estimate::Working => ("your skill: being estimated".to_owned(), ui.theme.faint()),
+        Estimate::Known(_, sentence) => (sentence.clone(), ui.theme.good()),
+        Estimate::Missing(sentence) => (sentence.clone(), ui.theme.faint()),
+    };
+    let rest = Rect { x: inner.x + 1, y: y + 1, width: inner.width - 1, height: inner.bottom().saturating_sub(y + 1) };
+    write_paragraphs(&[skill], rest, ui);
+}
+
+/// The share of points in each session, over the attempts made.
+fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
+    let mut before = 0;
+    let shares = sessions.iter().filter_map(|session| {
+        let record = record_of(session, scope);
+        let (first, last) = (before + 1, before + record.tried as u64);
+        before = last;
+        let share = 100.0 * record.rate.rate;
+        let finite = Values { min: share, mean: share, max: share, not_positive: u64::from(share <= 0.0) };
+        (record.tried > 0).then_some(Point { shots: (first, last), finite: Some(finite), odd: Odd::default() })
+    });
+    shares.collect()
+}
+
+/// What stands in place of the sessions where there are none.
+const EMPTY: &str = "A session begins with the first stroke that you play at an exercise, or with the first point or miss that \
+                     you note there from a real table.";
+
+/// Columns at which the numbers of a session end.
+const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
+const WHAT: u16 = 48;
+
+fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
+    let title = Line::from(vec![Span::styled("Sessions", ui.theme.text()), Span::styled(" UTC", ui.theme.faint())]);
+    let inner = draw_title(&title, area, ui);
+    if sessions.is_empty() {
+        let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2).min(READABLE), ..inner };
+        write_paragraphs(&[(EMPTY.to_owned(), ui.theme.faint())], text, ui);
+        return;
+    }
+    for (end, label) in ENDS {
+        write_right(ui.buffer, area.x, area.x + end + 1, area.y, &format!(" {label} "), ui.theme.faint());
+    }
+    let top = drills.records.top(sessions.len());
+    for (session, y) in sessions.iter().rev().skip(top).zip(inner.y..inner.bottom()) {
+        let record = record_of(session, scope);
+        let put = |buffer: &mut Buffer, end: u16, text: &str, style: Style| {
+            write_right(buffer, inner.x, inner.x + end, y, text, style);
+        };
+        ui.buffer.set_string(inner.x + 1, y, started(session), ui.theme.faint());
+        put(ui.buffer, ENDS[0].0, &format!("{}/{}", record.made, record.tried), ui.theme.text());
+        put(ui.buffer, ENDS[1].0, &percent(record.rate.rate), ui.theme.text());
+        put(ui.buffer, ENDS[2].0, &record.high_run.to_string(), ui.theme.text());
+        let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
+        put(ui.buffer, ENDS[3].0, &average, ui.theme.text());
+        let room = usize::from(inner.width.saturating_sub(WHAT));
+        let what = cut(wrap(&what(session, scope), room), 1, room, ui.caps).swap_remove(0);
+        ui.buffer.set_stringn(inner.x + WHAT, y, what, room, ui.theme.faint());
+    }
+}
+
+/// When a session began, to the minute, UTC; nothing where its file says what no clock can.
+fn started(session: &Session) -> String {
+    let time = UNIX_EPOCH.checked_add(Duration::from_secs(session.started));
+    time.map_or(String::new(), |time| moment(time).replace('T', " ").chars().take(16).collect())
+}
+
+/// What was practised, and where.
+fn what(session: &Session, scope: Option<&str>) -> String {
+    let title = session.exercises.first().map_or("", |exercise| exercise.title.as_str());
+    let goal = match session.goal {
+        Goal::Free => "free".to_owned(),
+        Goal::Run(points) => format!("run of {points}"),
+        Goal::Exam => "exam".to_owned(),
+        Goal::Game { .. } => "game".to_owned(),
+        Goal::Match { .. } => "match".to_owned(),
+    };
+    let place = if session.venue == Venue::Table { ", real table" } else { "" };
+    if scope.is_some() || session.goal == Goal::Exam {
+        format!("{goal}{place}")
+    } else {
+        format!("{title}: {goal}{place}")
+    }
+}

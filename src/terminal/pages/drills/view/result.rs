@@ -1,0 +1,73 @@
+//! The result of an exam: every exercise with what came of it, and what the score is worth.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    drills::exam,
+    terminal::{
+        pages::drills::{
+            DrillsPage, Turn,
+            view::{draw_header, percent, write_paragraphs},
+        },
+        ui::{
+            Ui,
+            message::Message,
+            panel::draw_title,
+            text::{cut, wrap, write_right},
+        },
+    },
+};
+
+/// Columns of the score beside the list, at least.
+const SCORE: u16 = 34;
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    let session = &turn.session;
+    draw_header(drills, "exam", "", header, ui);
+    let score = SCORE.max(area.width * 2 / 5);
+    let list = Rect { width: area.width - score - 1, ..area };
+    let inner = draw_title(&Line::from(Span::styled("Exercises", ui.theme.text())), list, ui);
+    let signs = ui.caps.pick(["●", "○"], ["x", "o"]);
+    for (n, (attempt, y)) in session.attempts.iter().zip(inner.y..inner.bottom()).enumerate() {
+        let Some(exercise) = session.exercise_of(attempt) else { continue };
+        let (sign, style) = if attempt.made { (signs[0], ui.theme.good()) } else { (signs[1], ui.theme.warning()) };
+        write_right(ui.buffer, inner.x, inner.x + 3, y, &(n + 1).to_string(), ui.theme.faint());
+        ui.buffer.set_string(inner.x + 4, y, sign, style);
+        let chance = attempt.chance.map_or(String::new(), percent);
+        let room = usize::from(inner.width.saturating_sub(6 + 7));
+        let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
+        ui.buffer.set_stringn(inner.x + 6, y, title, room, ui.theme.text());
+        write_right(ui.buffer, inner.x, inner.right(), y, &chance, ui.theme.faint());
+    }
+    let end = list.right();
+    write_right(ui.buffer, list.x, end + 1, list.y, " your stroke makes ", ui.theme.faint());
+    let score = Rect { x: end + 1, width: score, ..area };
+    let inner = draw_title(&Line::from(Span::styled("Score", ui.theme.text())), score, ui);
+    let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
+    let Some(mark) = exam::mark(session) else { return Message::plain("nothing was played") };
+    let expected = |name: &str, points: f64| format!("{name:<10}{points:>5.1} of {}", mark.tried);
+    let paragraphs = [
+        (format!("{} of {} made", mark.made, mark.tried), ui.theme.accent()),
+        (String::new(), ui.theme.text()),
+        ("Who plays the shots that are taught makes, on average in the same exam:".to_owned(), ui.theme.text()),
+    ];
+    let top = write_paragraphs(&paragraphs, text, ui) + 1;
+    let players =
+        [("beginner", mark.expected.beginner), ("club", mark.expected.club), ("expert", mark.expected.expert)];
+    for ((name, points), y) in players.into_iter().zip(top..text.bottom()) {
+        let style = if name == mark.nearest { ui.theme.good() } else { ui.theme.text() };
+        ui.buffer.set_stringn(text.x, y, expected(name, points), usize::from(text.width), style);
+    }
+    let rest = Rect { y: (top + 4).min(text.bottom()), height: text.bottom().saturating_sub(top + 4), ..text };
+    let helped = session.record().helped;
+    let mut paragraphs = vec![(format!("Grade: {}", mark.nearest), ui.theme.good())];
+    if helped > 0 {
+        paragraphs.push((format!("{helped} with a hint"), ui.theme.faint()));
+    }
+    write_paragraphs(&paragraphs, rest, ui);
+    Message::good(format!("the exam is over: {} of {}, nearest to the {} player", mark.made, mark.tried, mark.nearest))
+}

@@ -1,0 +1,115 @@
+//! The panel of what counts: the goal, the points, the runs.
+
+use ratatui::{
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::{
+    drills::{Attempt, Goal, Record, Session, Venue, exam},
+    terminal::{
+        pages::drills::{
+            DrillsPage, Turn,
+            view::{percent, write_paragraphs},
+        },
+        ui::{Ui, panel::draw_title},
+        words::chance_words,
+    },
+};
+
+/// Draws the panel.
+pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
+    let session = turn.told();
+    let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
+    let title = Line::from(Span::styled(format!("{place}{}", goal_words(session.goal)), ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    let top = draw_marks(&session, text, ui);
+    let text = Rect { y: top, height: text.bottom() - top, ..text };
+    let mut paragraphs: Vec<(String, Style)> =
+        lines(&session).into_iter().map(|words| (words, ui.theme.text())).collect();
+    let ever = drills.book.score_of(&turn.exercise.name);
+    if let Some(ever) = ever.filter(|ever| ever.tried > session.attempts.len() && session.goal != Goal::Exam) {
+        // What is open is not told here either.
+        let hidden = turn.session.attempts.len() - session.attempts.len();
+        if hidden == 0 {
+            let words = format!("in all: {} of {}, best run {}", ever.made, ever.tried, ever.high_run);
+            paragraphs.push((words, ui.theme.faint()));
+        }
+    }
+    write_paragraphs(&paragraphs, text, ui);
+}
+
+fn goal_words(goal: Goal) -> String {
+    match goal {
+        Goal::Free => "free repetition".to_owned(),
+        Goal::Run(points) => format!("run of {points}"),
+        Goal::Exam => "exam".to_owned(),
+        Goal::Game { innings: 0 } => "game".to_owned(),
+        Goal::Game { innings: 1 } => "game, 1 inning".to_owned(),
+        Goal::Game { innings } => format!("game, {innings} innings"),
+        Goal::Match { innings: 0 } => "match".to_owned(),
+        Goal::Match { innings } => format!("match, {innings} innings"),
+    }
+}
+
+/// The attempts of an exam or the points of a run, a sign each; gives the first row that is left.
+fn draw_marks(session: &Session, area: Rect, ui: &mut Ui) -> u16 {
+    let signs = ui.caps.pick(["●", "○", "·"], ["x", "o", "."]);
+    let style = [ui.theme.good(), ui.theme.warning(), ui.theme.faint()];
+    let sign = |made: Option<bool>| match made {
+        Some(true) => 0,
+        Some(false) => 1,
+        None => 2,
+    };
+    let marks: Vec<usize> = match session.goal {
+        Goal::Exam => {
+            let done = session.attempts.iter().map(|attempt: &Attempt| sign(Some(attempt.made)));
+            done.chain(std::iter::repeat(2)).take(session.exercises.len()).collect()
+        }
+        Goal::Run(points) => (0..points.min(40)).map(|n| sign((n < session.run()).then_some(true))).collect(),
+        _ => return area.y,
+    };
+    let spans: Vec<Span> = marks.iter().map(|&mark| Span::styled(signs[mark], style[mark])).collect();
+    ui.buffer.set_line(area.x, area.y, &Line::from(spans), area.width);
+    area.y + 1
+}
+
+fn lines(session: &Session) -> Vec<String> {
+    let record = session.record();
+    let Record { tried, made, helped, .. } = record;
+    let mut lines = Vec::new();
+    if session.goal == Goal::Exam {
+        let number = (tried + 1).min(session.exercises.len());
+        lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));
+        if let Some(mark) = exam::mark(session) {
+            let [beginner, club, expert] =
+                [mark.expected.beginner, mark.expected.club, mark.expected.expert].map(|points| format!("{points:.1}"));
+            lines.push(format!("so far a beginner makes {beginner}, club {club}, an expert {expert}"));
+        }
+        return lines;
+    }
+    if tried == 0 {
+        lines.push("no attempt yet".to_owned());
+        return lines;
+    }
+    let average = record.average.map_or(String::new(), |average| format!(", average {average:.2}"));
+    if session.is_match() {
+        for cue_ball in [session.cue_ball, session.cue_ball.other()] {
+            let Record { made, innings, high_run, .. } = session.side(cue_ball);
+            lines.push(format!("{cue_ball}: {made} in {innings} innings, best run {high_run}"));
+        }
+    } else if session.is_game() {
+        let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
+        lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
+        lines.push(format!("run {}, best {}", session.run(), record.high_run));
+    } else {
+        lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
+        lines.push(format!("run {}, best {}{average}", session.run(), record.high_run));
+    }
+    if helped > 0 {
+        lines.push(format!("{helped} of them with a hint ({})", percent(helped as f64 / tried as f64)));
+    }
+    lines
+}

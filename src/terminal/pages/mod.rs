@@ -1,0 +1,86 @@
+//! The pages of the program. Each folder is one of them: its state, what its keys do, and its view.
+//!
+//! A page sees itself and a drawing context, never the app. What it wants done outside it says as an
+//! [`Effect`](super::effect::Effect).
+
+pub mod coach;
+pub mod drills;
+pub mod settings;
+pub mod training;
+
+use ratatui::layout::{Position, Rect};
+
+use super::ui::{Ui, geometry::Mapping, message::Message};
+use crate::table::CueBall;
+
+/// What the app asks of every page. What its keys do is typed: each page has actions of its own.
+pub trait Page {
+    /// Draws the page; gives the first row of what stands below its picture.
+    fn draw(&self, area: &PageArea, ui: &mut Ui) -> u16;
+
+    /// What is drawn at a cell of the screen that answers to the mouse.
+    fn target(&self, area: &PageArea, at: Position) -> Option<Target>;
+
+    /// What the status line says.
+    fn message(&self) -> Option<&Message>;
+
+    /// The same, to be changed.
+    fn message_mut(&mut self) -> &mut Option<Message>;
+
+    /// Takes text that was typed or pasted; `false` where none is typed.
+    fn take_text(&mut self, _: &str) -> bool {
+        false
+    }
+
+    /// Lets `seconds` pass for whatever moves.
+    fn tick(&mut self, _: f64) {}
+
+    /// Seconds until the next picture; `None` while nothing moves by itself.
+    fn frame_interval(&self) -> Option<f64> {
+        None
+    }
+
+    /// The ball that the player plays with.
+    fn cue_ball(&self) -> CueBall {
+        CueBall::White
+    }
+}
+
+/// The parts of the screen that are a page's own: all but the tabs and the keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PageArea {
+    /// The whole screen.
+    pub screen: Rect,
+    /// What the tabs leave of the first row.
+    pub header: Rect,
+    /// The rows between.
+    pub body: Rect,
+    /// The row above the keys; longer sentences grow upwards.
+    pub status: Rect,
+}
+
+impl PageArea {
+    /// The parts of `screen`, with what the tabs leave of its first row.
+    pub fn new(screen: Rect, header: Rect) -> Self {
+        let body = Rect::new(screen.x, screen.y + 1, screen.width, screen.height.saturating_sub(3));
+        Self { screen, header, body, status: Rect { y: body.bottom(), height: 1, ..screen } }
+    }
+}
+
+/// Something on a page that answers to the mouse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The cloth of the coach's table.
+    Table(Mapping),
+    /// A shot that may be chosen, by its place in the list.
+    Shot(usize),
+    /// A list with a mark, and how many lines the mark is away, down where positive; `None` where there is no line.
+    List(Option<isize>),
+}
+
+impl Target {
+    /// A list whose line `line` is where the mouse is, and whose mark is at the line `mark`.
+    pub fn list(line: Option<usize>, mark: usize) -> Self {
+        Self::List(line.map(|line| line.cast_signed() - mark.cast_signed()))
+    }
+}

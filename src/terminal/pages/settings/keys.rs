@@ -1,0 +1,153 @@
+//! The keys of the settings, a table for each page and for what is typed or answered there.
+
+use crossterm::event::KeyCode::{
+    Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
+};
+
+use crate::terminal::keymap::{
+    Binding,
+    Section::{self, OwnKeys, Program, Settings},
+    bind, key, letter, mark,
+};
+
+use SettingsAction as A;
+use SettingsCondition as W;
+
+/// What a key does on the settings' screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettingsAction {
+    /// Goes back to the screen before.
+    Back,
+    /// Moves the mark by lines, down where positive.
+    Line(isize),
+    /// Takes the next value of the marked setting, or the one before.
+    Value(isize),
+    /// Begins to type a value.
+    Type,
+    /// Goes back to the default of what is marked.
+    Default,
+    /// Goes to the other page.
+    Turn,
+    /// Lists the keys of another place, the next where positive.
+    KeyContext(isize),
+    /// Asks for another key for what is marked.
+    Press,
+    /// Takes what was typed, or says yes.
+    Yes,
+    /// Leaves all as it is.
+    No,
+    /// Takes the last character back.
+    Erase,
+}
+
+/// When a binding of the settings may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettingsCondition {
+    /// On its page.
+    Here,
+    /// Where what is marked is not as by default.
+    Changed,
+}
+
+/// What is on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SettingsContext {
+    /// The settings with their values.
+    Values,
+    /// What can be done, and the keys that do it.
+    Keys,
+    /// A value that is typed.
+    Typing,
+    /// A key that is to be pressed.
+    Pressing,
+    /// A question.
+    Question,
+}
+
+impl SettingsContext {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Values, Self::Keys, Self::Typing, Self::Pressing, Self::Question];
+
+    /// Its keys.
+    pub const fn bindings(self) -> &'static [Binding<A, W>] {
+        match self {
+            Self::Values => VALUES,
+            Self::Keys => KEYS,
+            Self::Typing => TYPING,
+            Self::Pressing => PRESSING,
+            Self::Question => QUESTION,
+        }
+    }
+
+    /// Whether letters are typed there, or answers.
+    pub const fn takes_letters(self) -> bool {
+        matches!(self, Self::Typing | Self::Pressing | Self::Question)
+    }
+}
+
+const BACK: Binding<A, W> =
+    bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the screen before");
+
+/// The settings.
+#[rustfmt::skip]
+pub const VALUES: &[Binding<A, W>] = &[
+    bind(Settings, W::Here, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
+        Some(("change", 2)), "take the value before, the next value"),
+    bind(Settings, W::Here, &[key(Enter, A::Type)], Some(("type", 1)), "type a value"),
+    bind(Settings, W::Here, &[
+        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
+        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
+        ], Some(("choose", 2)), "mark another setting"),
+    bind(Settings, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default"),
+    bind(Settings, W::Here, &[key(Tab, A::Turn)], Some(("keys", 1)), "to the keys"),
+    BACK,
+];
+
+/// The keys.
+#[rustfmt::skip]
+pub const KEYS: &[Binding<A, W>] = &[
+    bind(OwnKeys, W::Here, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
+    bind(OwnKeys, W::Here, &[key(Left, A::KeyContext(-1)), key(Right, A::KeyContext(1)), letter('h', A::KeyContext(-1)), letter('l', A::KeyContext(1))],
+        Some(("page", 2)), "list the keys of another page"),
+    bind(OwnKeys, W::Here, &[
+        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
+        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
+        ], Some(("choose", 2)), "mark something else"),
+    bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the keys that it has by default"),
+    bind(OwnKeys, W::Here, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
+    BACK,
+];
+
+/// A value that is typed.
+#[rustfmt::skip]
+pub const TYPING: &[Binding<A, W>] = &[
+    bind(Settings, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
+    bind(Settings, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
+    bind(Settings, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
+];
+
+/// A key that is to be pressed.
+#[rustfmt::skip]
+pub const PRESSING: &[Binding<A, W>] = &[
+    bind(OwnKeys, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
+];
+
+/// A question.
+#[rustfmt::skip]
+pub const QUESTION: &[Binding<A, W>] = &[
+    bind(OwnKeys, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
+    bind(OwnKeys, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+];
+
+/// The words of `action` by itself, where its binding does several things.
+pub const fn words(action: SettingsAction, section: Section) -> Option<&'static str> {
+    Some(match action {
+        A::Line(lines) if matches!(section, Section::Settings) => return mark!(lines, "setting"),
+        A::Line(lines) => return mark!(lines, "line"),
+        A::Value(1) => "take the next value",
+        A::Value(-1) => "take the value before",
+        A::KeyContext(1) => "list the keys of the next page",
+        A::KeyContext(-1) => "list the keys of the page before",
+        _ => return None,
+    })
+}

@@ -1,0 +1,126 @@
+//! The page of the keys: what each page of the program can do, and giving that another key.
+
+use crossterm::event::KeyCode::{Char, Down, Enter, Esc, F, Tab, Up};
+
+use crate::terminal::{
+    config::Change,
+    keymap::{
+        KeyEntry, KeyPage, Section,
+        chord::Chord,
+        remap::{Keys, chord as chord_named, name},
+        works_of,
+    },
+};
+
+/// The pages whose keys are listed, and what the marks are at.
+#[derive(Debug)]
+pub struct OwnKeys {
+    pages: Vec<KeyPage>,
+    /// KeyContext of the page whose keys are listed among `pages`.
+    page: usize,
+    mark: usize,
+}
+
+impl OwnKeys {
+    /// The keys of `pages`, each in the order of the help.
+    pub fn new(mut pages: Vec<KeyPage>) -> Self {
+        for page in &mut pages {
+            page.entries.sort_by_key(|entry| Section::ALL.iter().position(|section| *section == entry.section));
+        }
+        Self { pages, page: 0, mark: 0 }
+    }
+
+    /// The page whose keys are listed.
+    pub fn page(&self) -> &KeyPage {
+        &self.pages[self.page]
+    }
+
+    /// What is marked.
+    pub fn marked(&self) -> Option<&KeyEntry> {
+        self.page().entries.get(self.mark)
+    }
+
+    /// KeyContext of the mark among the commands.
+    pub const fn mark(&self) -> usize {
+        self.mark
+    }
+
+    /// Moves the mark by lines, down where positive.
+    pub fn move_mark(&mut self, lines: isize) {
+        let count = self.page().entries.len();
+        self.mark = self.mark.saturating_add_signed(lines).min(count.saturating_sub(1));
+    }
+
+    /// Lists another page's keys, the next where positive; after the last comes the first.
+    pub fn choose_place(&mut self, pages: isize) {
+        let count = self.pages.len();
+        self.page = (self.page + count).saturating_add_signed(pages) % count;
+        self.mark = 0;
+    }
+
+    /// The keys that what is marked has by default.
+    fn chords(&self) -> &[Chord] {
+        self.marked().map_or(&[], |entry| &entry.chords)
+    }
+
+    /// Whether the marked command has other keys than by default.
+    pub fn is_changed(&self, keys: &Keys) -> bool {
+        !keys.about(self.chords()).is_empty()
+    }
+
+    /// Everything that the marked command's first key does, on all pages: another key that does its work does all of it.
+    pub fn works(&self) -> Vec<(&'static str, &'static str)> {
+        self.chords().first().map_or_else(Vec::new, |chord| works_of(&self.pages, *chord))
+    }
+
+    /// What `pressed` does now that is not the work of what is marked.
+    pub fn other_works(&self, pressed: Chord, keys: &Keys) -> Vec<(&'static str, &'static str)> {
+        let own = self.works();
+        let works = works_of(&self.pages, keys.work_of(pressed).unwrap_or(pressed));
+        works.into_iter().filter(|work| !own.contains(work)).collect()
+    }
+
+    /// A key that may be given to what is marked.
+    ///
+    /// # Errors
+    /// A sentence that says why not.
+    pub fn check(&self, pressed: Chord, keys: &Keys) -> Result<Chord, String> {
+        let written = name(pressed);
+        let event = pressed.event();
+        let is_needed = event.modifiers.is_empty() && matches!(event.code, Enter | Esc | Up | Down | Tab | F(5));
+        if chord_named(&written) != Some(pressed) {
+            return Err(
+                "this key has no name in the settings; accepted are letters, signs, named keys like Home, F1 to \
+                        F12, also with Ctrl or Shift"
+                    .to_owned(),
+            );
+        }
+        if is_needed || matches!(event.code, Char('c' | 'z')) && pressed == Chord::ctrl(event.code) {
+            return Err(format!("{written} keeps its work: without it there might be no way back; press another key"));
+        }
+        let chords = self.chords();
+        let Some(first) = chords.first() else { return Err("nothing is marked".to_owned()) };
+        let does_it = keys.work_of(pressed).map_or(chords.contains(&pressed), |meant| meant == *first);
+        if does_it { Err(format!("{written} does this already")) } else { Ok(pressed) }
+    }
+
+    /// Gives `pressed` the work of what is marked.
+    pub fn give(&self, pressed: Chord, keys: &mut Keys) -> Change {
+        keys.remove(pressed);
+        let chords = self.chords();
+        let added = chords.first().filter(|_| !chords.contains(&pressed)).map(|meant| (pressed, *meant));
+        if let Some((pressed, meant)) = added {
+            keys.add(pressed, meant);
+        }
+        Change::Keys(vec![pressed], added)
+    }
+
+    /// Brings back the keys that what is marked has by default.
+    pub fn to_default(&self, keys: &mut Keys) -> Change {
+        let gone = keys.about(self.chords());
+        for pressed in &gone {
+            keys.remove(*pressed);
+        }
+        Change::Keys(gone, None)
+    }
+}

@@ -1,0 +1,122 @@
+//! What each page of the program can do with its keys, and the marked one in words.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    capabilities::Capabilities,
+    keymap::{
+        KeyEntry,
+        chord::{Chord, keys_text},
+    },
+    pages::settings::{
+        SettingsPage,
+        view::{Row, draw_list, write_paragraphs},
+    },
+    ui::{
+        Ui,
+        panel::draw_title,
+        text::{cut, wrap},
+    },
+};
+
+/// Columns of the keys.
+const KEYS: u16 = 14;
+
+/// All rows of the list.
+pub fn rows(settings: &SettingsPage) -> Vec<Row<&KeyEntry>> {
+    let mut rows = Vec::new();
+    let mut heading = None;
+    for (n, entry) in settings.keys.page().entries.iter().enumerate() {
+        if heading.replace(entry.section) != Some(entry.section) {
+            rows.push(Row::Heading(entry.section.title()));
+        }
+        rows.push(Row::Entry(n, entry));
+    }
+    rows
+}
+
+/// Draws the list and the words; gives what the status line says while there is no news.
+pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
+    let (left, right) = ui.caps.pick(("◂ ", " ▸"), ("< ", " >"));
+    let title = Line::from(vec![
+        Span::styled("Keys ", ui.theme.text()),
+        Span::styled(left, ui.theme.faint()),
+        Span::styled(settings.keys.page().name, ui.theme.accent()),
+        Span::styled(right, ui.theme.faint()),
+    ]);
+    let inner = draw_title(&title, list, ui);
+    let rows = rows(settings);
+    draw_list(&rows, settings.keys.mark(), inner, ui, |entry, is_marked, area, ui| {
+        draw_entry(settings, entry, is_marked, area, ui);
+    });
+    if let Some(entry) = settings.keys.marked() {
+        draw_words(settings, entry, words, ui);
+    }
+    "Enter gives what is marked another key"
+}
+
+fn draw_entry(settings: &SettingsPage, entry: &KeyEntry, is_marked: bool, area: Rect, ui: &mut Ui) {
+    let is_changed = !settings.settings.keys.about(&entry.chords).is_empty();
+    let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "none".to_owned());
+    let keys = cut(wrap(&keys, usize::from(KEYS - 2)), 1, usize::from(KEYS - 2), ui.caps).swap_remove(0);
+    ui.buffer.set_stringn(area.x, area.y, keys, usize::from(KEYS), ui.theme.accent());
+    if is_changed {
+        ui.buffer.set_string(area.x + KEYS - 2, area.y, ui.caps.pick("•", "*"), ui.theme.good());
+    }
+    let room = usize::from(area.width.saturating_sub(KEYS + 1));
+    let text = cut(wrap(entry.words, room), 1, room, ui.caps).swap_remove(0);
+    ui.buffer.set_stringn(
+        area.x + KEYS,
+        area.y,
+        text,
+        room,
+        if is_marked { ui.theme.accent() } else { ui.theme.text() },
+    );
+}
+
+/// The keys that do it now, the user's own first; `None` where none does.
+fn keys_of(settings: &SettingsPage, entry: &KeyEntry, caps: Capabilities) -> Option<String> {
+    let keys = &settings.settings.keys;
+    let text = keys_text(entry.chords.iter().flat_map(|chord| keys.for_work_of(*chord)), caps);
+    (!text.is_empty()).then_some(text)
+}
+
+fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui) {
+    let title = Line::from(Span::styled(entry.section.title(), ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "no key".to_owned());
+    let mut paragraphs = vec![
+        (entry.words.to_owned(), ui.theme.text()),
+        (format!("Keys: {keys}. By default: {}.", keys_text(entry.chords.iter().copied(), ui.caps)), ui.theme.text()),
+    ];
+    let works = settings.keys.works();
+    if let (Some(chord), true) = (entry.chords.first(), works.len() > 1) {
+        let all = tell(&works);
+        paragraphs.push((
+            format!("A key of your own does all that {} does: {all}.", keys_text([*chord], ui.caps)),
+            ui.theme.faint(),
+        ));
+    }
+    write_paragraphs(&paragraphs, inner, ui);
+}
+
+/// What a key does, page by page.
+fn tell(works: &[(&str, &str)]) -> String {
+    let works: Vec<String> = works.iter().map(|(page, what)| format!("{what} ({page})")).collect();
+    works.join("; ")
+}
+
+/// What is asked while a key is to be pressed.
+pub fn press(settings: &SettingsPage) -> String {
+    let what = settings.keys.marked().map_or("", |entry| entry.words);
+    format!("press the key that is to do this: {what}")
+}
+
+/// What is asked about a key that does something else.
+pub fn taken(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
+    let works = settings.keys.other_works(chord, &settings.settings.keys);
+    format!("{} does something else: {}. Shall it do this instead? y/n", keys_text([chord], caps), tell(&works))
+}

@@ -1,0 +1,144 @@
+//! The settings' screen: the settings with their values, or the keys; beside them what is marked in words.
+
+mod keys;
+mod values;
+
+use ratatui::{
+    layout::{Position, Rect},
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    capabilities::Capabilities,
+    pages::{
+        PageArea, Target,
+        settings::{Input, Screen, SettingsPage},
+    },
+    ui::{
+        Ui,
+        message::Message,
+        status_line::{draw_question, draw_status},
+        text::{cut, end_of, wrap},
+    },
+};
+
+/// Columns of the list, of a hundred, and at most.
+const LIST: (u16, u16) = (54, 70);
+/// Columns of the screen from which on the words on a key stand beside the list; otherwise they have some rows below it.
+const BESIDE: u16 = 100;
+const BELOW: u16 = 7;
+/// Rows from which on paragraphs stand apart.
+const APART: u16 = 10;
+
+/// A row of a list.
+enum Row<T> {
+    /// What the rows below it have in common.
+    Heading(&'static str),
+    /// Something that can be marked, by its place among all of them.
+    Entry(usize, T),
+}
+
+/// Draws the page that is open; gives the first row of what stands below it.
+pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
+    let (rest, status) = (area.header, area.status);
+    let path = end_of(&settings.path.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
+    ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
+    let [list, words] = halves(settings.page, area.body);
+    let standing = match settings.page {
+        Screen::Values => values::draw(settings, list, words, ui),
+        Screen::Keys => keys::draw(settings, list, words, ui),
+    };
+    if let Some(question) = question(settings, ui.caps) {
+        return draw_question(&Message::plain(question), status, ui);
+    }
+    let message = settings.message.clone().unwrap_or(Message::plain(standing));
+    draw_status(&message, status, ui)
+}
+
+/// What is being put in, as it stands on the status line.
+fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
+    match settings.input.as_ref()? {
+        Input::Value(typed) if typed.is_empty() && settings.other_in_file(settings.marked()).is_some() => {
+            let entry = settings.marked();
+            Some(format!("{} = _ Enter alone keeps {}", entry.key, (entry.get)(&settings.settings)))
+        }
+        Input::Value(typed) => Some(format!("{} = {typed}_", settings.marked().key)),
+        Input::Key => Some(keys::press(settings)),
+        Input::Taken(chord) => Some(keys::taken(settings, *chord, caps)),
+    }
+}
+
+/// The list's part of the page, and that of the words.
+fn halves(page: Screen, area: Rect) -> [Rect; 2] {
+    if page == Screen::Keys && area.width < BESIDE {
+        let list = Rect { height: area.height.saturating_sub(BELOW), ..area };
+        return [list, Rect { y: list.bottom(), height: area.height - list.height, ..area }];
+    }
+    let list = Rect { width: (area.width * LIST.0 / 100).min(LIST.1), ..area };
+    [list, Rect { x: list.right() + 1, width: area.width - list.width - 1, ..area }]
+}
+
+/// What the mouse points at.
+pub fn target(settings: &SettingsPage, area: &PageArea, at: Position) -> Option<Target> {
+    let [list, _] = halves(settings.page, area.body);
+    let (places, mark) = match settings.page {
+        Screen::Values => (places(&values::rows()), settings.mark()),
+        Screen::Keys => (places(&keys::rows(settings)), settings.keys.mark()),
+    };
+    // The first row is the title's.
+    let inner = list.y + 1..list.bottom();
+    let first = first_in_view(&places, mark, inner.len());
+    let line = inner.zip(places.into_iter().skip(first)).find(|(y, _)| *y == at.y).and_then(|(_, place)| place);
+    list.contains(at).then(|| Target::list(line, mark))
+}
+
+/// The place of each row among those that can be marked; headings have none.
+fn places<T>(rows: &[Row<T>]) -> Vec<Option<usize>> {
+    let place = |row: &Row<T>| if let Row::Entry(place, _) = row { Some(*place) } else { None };
+    rows.iter().map(place).collect()
+}
+
+/// The first row of a list that is shown, so that the marked one is among the first `most`.
+fn first_in_view(places: &[Option<usize>], mark: usize, most: usize) -> usize {
+    let marked = places.iter().position(|place| *place == Some(mark)).unwrap_or(0);
+    marked.saturating_sub(most / 2).min(places.len().saturating_sub(most))
+}
+
+/// Draws the rows of a list that are in view; `draw` draws those that can be marked into theirs.
+fn draw_list<T>(rows: &[Row<T>], mark: usize, area: Rect, ui: &mut Ui, draw: impl Fn(&T, bool, Rect, &mut Ui)) {
+    let first = first_in_view(&places(rows), mark, usize::from(area.height));
+    for (row, y) in rows.iter().skip(first).zip(area.y..area.bottom()) {
+        match row {
+            Row::Heading(title) => {
+                ui.buffer.set_stringn(area.x + 1, y, title, usize::from(area.width), ui.theme.good());
+            }
+            Row::Entry(place, entry) => {
+                let is_marked = *place == mark;
+                if is_marked {
+                    ui.buffer.set_string(area.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+                }
+                draw(entry, is_marked, Rect { x: area.x + 2, y, width: area.width.saturating_sub(2), height: 1 }, ui);
+            }
+        }
+    }
+}
+
+/// Writes paragraphs into a panel from its top on, with blank rows between them where there is room.
+fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) {
+    let gap = u16::from(area.height >= APART);
+    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
+    let width = usize::from(area.width);
+    let mut y = area.y + gap;
+    for (text, style) in paragraphs {
+        let room = usize::from(area.bottom().saturating_sub(y));
+        if room == 0 {
+            return;
+        }
+        for line in cut(wrap(text, width), room, width, ui.caps) {
+            ui.buffer.set_line(area.x, y, &Line::from(Span::styled(line, *style)), area.width);
+            y += 1;
+        }
+        y += gap;
+    }
+}

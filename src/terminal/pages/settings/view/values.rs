@@ -1,0 +1,98 @@
+//! The settings with their values, by groups, and the marked one in words.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    config::{ENTRIES, Entry, Settings},
+    pages::settings::{
+        SettingsPage,
+        view::{Row, draw_list, write_paragraphs},
+    },
+    ui::{
+        Ui,
+        panel::draw_title,
+        text::{cut, wrap},
+    },
+};
+
+/// Columns of the names.
+const NAME: u16 = 11;
+
+/// All rows of the list.
+pub fn rows() -> Vec<Row<&'static Entry>> {
+    let mut rows = Vec::new();
+    for (n, entry) in ENTRIES.iter().enumerate() {
+        if n == 0 || ENTRIES[n - 1].group != entry.group {
+            rows.push(Row::Heading(entry.group));
+        }
+        rows.push(Row::Entry(n, entry));
+    }
+    rows
+}
+
+/// Draws the list and the words; gives what the status line says while there is no news.
+pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
+    let changed = ENTRIES.iter().filter(|entry| settings.is_changed(entry)).count();
+    let of = if changed == 0 { String::new() } else { format!(" {changed} changed") };
+    let title = Line::from(vec![Span::styled("Settings", ui.theme.text()), Span::styled(of, ui.theme.faint())]);
+    let inner = draw_title(&title, list, ui);
+    draw_list(&rows(), settings.mark(), inner, ui, |entry, is_marked, area, ui| {
+        draw_entry(settings, entry, is_marked, area, ui);
+    });
+    draw_words(settings, words, ui);
+    if settings.is_writable {
+        "what is set holds at once and at every start"
+    } else {
+        "what is set holds until the program ends, while the file cannot be read or written"
+    }
+}
+
+fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rect, ui: &mut Ui) {
+    let is_changed = settings.is_changed(entry);
+    let (name, value) =
+        if is_marked { (ui.theme.accent(), ui.theme.accent()) } else { (ui.theme.faint(), ui.theme.text()) };
+    ui.buffer.set_string(area.x, area.y, entry.key, name);
+    if is_changed {
+        ui.buffer.set_string(area.x + NAME - 1, area.y, ui.caps.pick("•", "*"), ui.theme.good());
+    }
+    let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
+    let x = area.x + NAME;
+    let room = usize::from(area.right().saturating_sub(x + 5));
+    let text = cut(wrap(&shown(&(entry.get)(&settings.settings)), room), 1, room, ui.caps).swap_remove(0);
+    let mut spans =
+        vec![Span::styled(left, ui.theme.faint()), Span::styled(text, value), Span::styled(right, ui.theme.faint())];
+    if let Some(other) = settings.other_in_file(entry) {
+        let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
+        let whole = format!(" now; the file has {}", shown(&other));
+        // Where there is no room, the words on the marked setting say the rest.
+        let note = if whole.chars().count() <= room { whole } else { " now".to_owned() };
+        spans.push(Span::styled(note, ui.theme.warning()));
+    }
+    ui.buffer.set_line(x, area.y, &Line::from(spans), area.right().saturating_sub(x));
+}
+
+/// A value without the quotes that TOML wants.
+fn shown(value: &str) -> String {
+    value.trim_matches(['"', '\'']).to_owned()
+}
+
+fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
+    let entry = settings.marked();
+    let title = Line::from(Span::styled(entry.key, ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    let default = (entry.get)(&Settings::default());
+    let mut paragraphs = vec![
+        (entry.about.to_owned(), ui.theme.text()),
+        (format!("Accepted: {}.", entry.accepted), ui.theme.text()),
+        (format!("Default: {default}."), if settings.is_changed(entry) { ui.theme.text() } else { ui.theme.faint() }),
+    ];
+    if let Some(other) = settings.other_in_file(entry) {
+        let now = (entry.get)(&settings.settings);
+        let keep = if settings.is_writable { " Enter twice keeps it." } else { "" };
+        paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), ui.theme.warning()));
+    }
+    write_paragraphs(&paragraphs, inner, ui);
+}

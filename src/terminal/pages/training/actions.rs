@@ -1,0 +1,199 @@
+//! What each key does to the training screen, and when it may be used.
+
+use std::time::Instant;
+
+use crate::{
+    learning::{
+        policy::kept::{KeepError, is_name},
+        run::{follow::Condition as RunCondition, request::Request},
+    },
+    terminal::{
+        effect::Effect,
+        pages::training::{
+            Form, Question, Screen, TrainingPage, Watch,
+            keys::{TrainingAction as Action, TrainingCondition as Condition},
+            question::proposed_name,
+            watch::{NO_POLICY, Named},
+        },
+        tasks::training::{Keeping, Launch},
+        ui::message::Message,
+    },
+};
+
+impl TrainingPage {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        let Some(watch) = &self.watch else {
+            return match when {
+                Condition::Here => None,
+                Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet; n starts one"),
+                Condition::MarkedCanGoOn => self.refusal_of_marked(),
+                _ => Some("no run is watched"),
+            };
+        };
+        match when {
+            Condition::Here => None,
+            Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
+            Condition::MarkedCanGoOn => self.refusal_of_marked(),
+            Condition::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
+            Condition::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
+            Condition::Paused => refuse(!watch.is_paused(), "the run is not paused"),
+            Condition::AtWork | Condition::Working => {
+                refuse(!watch.is_at_work(), "the run is not at work; r goes on with one that has not finished")
+                    .or(refuse(when == Condition::Working && watch.is_paused(), "the run is paused"))
+            }
+            Condition::CanGoOn => {
+                refuse(self.is_launched(watch.folder()), "the run is being started").or(watch.refusal_to_go_on())
+            }
+            Condition::Known => refuse(!watch.is_known(), "there is no run yet")
+                .or(refuse(watch.condition() == RunCondition::Removed, "the run has been removed")),
+            Condition::HasPolicy => self
+                .disabled_reason(Condition::Known)
+                .or(refuse(watch.lacks_config(), "config.json of the run cannot be read: its table is not known"))
+                .or(refuse(!watch.has_policy, NO_POLICY)),
+            Condition::Shots => {
+                refuse(watch.replay.reel().is_none(), "no shots yet: they come with the first measurement")
+            }
+        }
+    }
+
+    /// Why the marked run cannot go on.
+    fn refusal_of_marked(&self) -> Option<&'static str> {
+        let is_launched = self.list.marked().is_some_and(|run| self.is_launched(&run.folder));
+        is_launched.then_some("the run is being started").or(self.list.refusal_to_go_on())
+    }
+
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.back(),
+            Action::Line(lines) => self.list.move_mark(lines),
+            Action::Choose => self.choose(),
+            Action::New => {
+                self.form = Form::new();
+                self.pages.push(Screen::Form);
+            }
+            Action::Resume => return self.resume(),
+            Action::Field(fields) => self.form.move_mark(fields),
+            Action::Value(step) => self.form.choose(step, self.list.runs()),
+            Action::Erase => match &mut self.question {
+                Some(question) => question.erase(),
+                None => self.form.erase(),
+            },
+            Action::Start => return self.start(),
+            Action::Yes => return self.yes(),
+            Action::No => self.question = None,
+            other => return self.steer(other),
+        }
+        None
+    }
+
+    fn back(&mut self) {
+        if self.pages.pop() == Some(Screen::Watch) {
+            self.watch = None;
+        }
+    }
+
+    fn choose(&mut self) {
+        let Some(folder) = self.list.marked().map(|run| run.folder.clone()) else { return };
+        if self.page() != Screen::Compare {
+            self.show(&folder);
+            return;
+        }
+        self.pages.pop();
+        let Some(watch) = &mut self.watch else { return };
+        if watch.folder() == folder {
+            self.message = Some(Message::warning("a run cannot be compared with itself; c chooses another"));
+        } else {
+            watch.other = Some(Named::new(&folder, &self.places.runs));
+        }
+    }
+
+    fn start(&mut self) -> Option<Effect> {
+        match self.form.launch(&self.folder) {
+            Ok(launch) => {
+                self.show(&launch.folder);
+                self.launched = Some((launch.folder.clone(), Instant::now()));
+                Some(Effect::Train(Box::new(launch)))
+            }
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    fn resume(&mut self) -> Option<Effect> {
+        if self.page() == Screen::Runs {
+            let folder = self.list.marked()?.folder.clone();
+            self.show(&folder);
+        }
+        let folder = self.watch.as_ref()?.folder().to_owned();
+        self.message = Some(Message::plain("going on from the last checkpoint"));
+        self.launched = Some((folder.clone(), Instant::now()));
+        Some(Effect::Train(Box::new(Launch::resume(&folder))))
+    }
+
+    /// What the keys do to the run that is watched, and to how it is shown.
+    fn steer(&mut self, action: Action) -> Option<Effect> {
+        let Self { watch: Some(watch), question, message, .. } = self else { return None };
+        let progress = watch.progress();
+        let Watch { charts, replay, .. } = watch;
+        match action {
+            Action::Show(n) => charts.toggle(n),
+            Action::Chart(steps) => charts.select(steps),
+            Action::Enlarge => charts.enlarge(),
+            Action::Log => charts.toggle_log(),
+            Action::Smooth => charts.smooth(),
+            Action::Zoom(steps) => *message = charts.zoom(steps, progress).err().map(Message::warning),
+            Action::Pan(steps) => charts.pan(steps, progress),
+            Action::All => charts.show_all(),
+            Action::Follow => charts.follow_end(),
+            Action::Compare if watch.other.is_some() => watch.other = None,
+            Action::Compare => self.pages.push(Screen::Compare),
+            Action::Pause => {
+                let request = if watch.is_paused() { Request::GoOn } else { Request::Pause };
+                return Some(Effect::Send(request, watch.folder().to_owned()));
+            }
+            Action::Stop => *question = Some(Question::Stop),
+            Action::Abandon => *question = Some(Question::Abandon),
+            Action::Use => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
+            Action::Keep => *question = Some(Question::Name(proposed_name(&watch.own.name))),
+            Action::Play => replay.toggle(),
+            Action::Shot(shots) => replay.step(shots),
+            _ => {}
+        }
+        None
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        let question = self.question.take()?;
+        // Between the question and its answer the run may have ended.
+        if let Some(reason) = self.disabled_reason(question.when()) {
+            self.message = Some(Message::warning(reason));
+            return None;
+        }
+        let folder = self.watch.as_ref()?.folder().to_owned();
+        match question {
+            Question::Stop => Some(Effect::Send(Request::Stop, folder)),
+            Question::Abandon => Some(Effect::Send(Request::Abandon, folder)),
+            Question::Replace(name) => Some(self.keep(name, true)),
+            Question::Name(typed) => {
+                let name = typed.trim().to_owned();
+                if is_name(&name) {
+                    return Some(self.keep(name, false));
+                }
+                self.question = Some(Question::Name(typed));
+                self.message = Some(Message::warning(KeepError::Name(name).to_string()));
+                None
+            }
+        }
+    }
+
+    fn keep(&self, name: String, replace: bool) -> Effect {
+        let from = self.watch.as_ref().map(Watch::policy).unwrap_or_default();
+        let folder = self.places.policies.clone();
+        Effect::Keep(Box::new(Keeping { from, folder, name, replace }))
+    }
+}

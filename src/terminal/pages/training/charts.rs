@@ -1,0 +1,319 @@
+//! Which charts are shown of a run, how, and which part of it.
+
+use crate::{learning::run::quantity::Quantity, terminal::ui::chart::whole};
+
+/// Degrees of smoothing, as shares of the shots that are shown, and the one at the start: what is raw shows behind it.
+const SMOOTHING: [f64; 4] = [0.0, 0.01, 0.03, 0.1];
+const FIRST_SMOOTHING: usize = 1;
+/// Fewest shots that are shown.
+const LEAST_SHOTS: f64 = 100.0;
+/// A part that follows the end moves by this share of itself at a time: a chart that moves with every line would send
+/// kilobytes with each.
+const FOLLOW_STEP: f64 = 0.25;
+/// Training, s, by which it moves at least: at a high speed a narrow part would move with every line all the same.
+const FOLLOW_SECONDS: f64 = 5.0;
+/// Steps that a part which follows the end is wide at least, so that neighbours overlap.
+const LEAST_STEPS: f64 = 2.0;
+/// Why a part that follows the end gets no narrower.
+const TOO_FAST: &str =
+    "a narrower part would move too often at this speed; the left arrow holds it still, then + shows less";
+/// Why there is no part of a run that has just begun.
+const TOO_SHORT: &str = "the run has played too few shots yet for a part that moves on with it";
+/// Share of the part by which it is moved by hand.
+const PAN_STEP: f64 = 0.25;
+
+/// How far a run is, as far as charts depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Shots played.
+    pub shots: u64,
+    /// Shots planned, where that is known.
+    pub planned: Option<u64>,
+    /// Shots that it plays a second; 0 where it is not at work.
+    pub speed: f64,
+}
+
+impl Progress {
+    /// The shots by which a part that follows the end moves at least: a power of two, because a speed is never quite the
+    /// same, and each other step would draw all anew.
+    fn least_step(&self) -> f64 {
+        let step = FOLLOW_SECONDS * self.speed;
+        if step >= 1.0 && step.is_finite() { step.log2().ceil().exp2() } else { 0.0 }
+    }
+}
+
+/// Part of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Part {
+    /// Shots from its beginning to its end.
+    width: f64,
+    /// Its end, unless it follows the end of the run.
+    end: Option<f64>,
+}
+
+/// Which charts are shown, how, and which part of the run.
+#[derive(Debug)]
+pub struct Charts {
+    shown: [bool; Quantity::COUNT],
+    log: [bool; Quantity::COUNT],
+    selected: usize,
+    enlarged: bool,
+    smoothing: usize,
+    part: Option<Part>,
+}
+
+impl Default for Charts {
+    fn default() -> Self {
+        let first = |n| n < 4;
+        Self {
+            shown: std::array::from_fn(first),
+            log: [false; Quantity::COUNT],
+            selected: 0,
+            enlarged: false,
+            smoothing: FIRST_SMOOTHING,
+            part: None,
+        }
+    }
+}
+
+impl Charts {
+    /// The quantities whose charts are drawn, by their places in [`Quantity::ALL`].
+    pub fn drawn(&self) -> Vec<usize> {
+        if self.enlarged {
+            return vec![self.selected];
+        }
+        (0..Quantity::COUNT).filter(|&n| self.shown[n]).collect()
+    }
+
+    /// Whether any chart is shown.
+    pub fn any(&self) -> bool {
+        self.shown.contains(&true)
+    }
+
+    /// Whether this chart is the selected one and there are others.
+    pub fn is_selected(&self, n: usize) -> bool {
+        n == self.selected && !self.enlarged && self.shown.iter().filter(|shown| **shown).count() > 1
+    }
+
+    /// Whether this chart has a logarithmic scale.
+    pub const fn is_log(&self, n: usize) -> bool {
+        self.log[n]
+    }
+
+    /// Over which share of the shots that are shown the curves are smoothed.
+    pub const fn smoothing(&self) -> f64 {
+        SMOOTHING[self.smoothing]
+    }
+
+    /// Whether only a part of the run is shown.
+    pub const fn is_part(&self) -> bool {
+        self.part.is_some()
+    }
+
+    /// Shows the chart of a quantity and selects it, or hides it.
+    pub fn toggle(&mut self, n: usize) {
+        self.shown[n] = !self.shown[n];
+        self.enlarged = false;
+        if self.shown[n] {
+            self.selected = n;
+        } else if n == self.selected {
+            self.select(1);
+        }
+    }
+
+    /// Selects another of the charts, the next where positive.
+    pub fn select(&mut self, steps: isize) {
+        let all: Vec<usize> = (0..Quantity::COUNT).filter(|&n| self.shown[n]).collect();
+        // The first one beyond where the selected one has just been hidden.
+        let place = match all.iter().position(|&n| n == self.selected) {
+            Some(place) => around(place, steps, all.len()),
+            None => all.iter().position(|&n| n > self.selected).unwrap_or(0),
+        };
+        if let Some(&n) = all.get(place) {
+            self.selected = n;
+        }
+    }
+
+    /// Enlarges the selected chart, or shows all again.
+    pub const fn enlarge(&mut self) {
+        self.enlarged = !self.enlarged;
+    }
+
+    /// Draws the selected chart on a logarithmic scale, or not.
+    pub const fn toggle_log(&mut self) {
+        self.log[self.selected] = !self.log[self.selected];
+    }
+
+    /// Takes the next degree of smoothing.
+    pub const fn smooth(&mut self) {
+        self.smoothing = (self.smoothing + 1) % SMOOTHING.len();
+    }
+
+    /// The shots that are shown of a run.
+    pub fn range(&self, progress: Progress) -> (f64, f64) {
+        let all = whole(progress.shots, progress.planned);
+        let Some(Part { width, end }) = self.part else { return all };
+        if let Some(end) = end {
+            return (end - width, end);
+        }
+        let least = progress.least_step();
+        let width = width.max(LEAST_STEPS * least);
+        if width >= all.1 - all.0 {
+            return all;
+        }
+        let step = (FOLLOW_STEP * width).max(least);
+        let end = ((progress.shots as f64 / step).ceil() * step).clamp(all.0 + width, all.1);
+        (end - width, end)
+    }
+
+    /// Shows half as many shots, or twice as many where negative: around the end while that is followed, else around
+    /// the middle.
+    ///
+    /// # Errors
+    /// A sentence where fewer shots cannot be shown.
+    pub fn zoom(&mut self, steps: isize, progress: Progress) -> Result<(), &'static str> {
+        let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
+        let is_moved = self.part.is_some_and(|part| part.end.is_some());
+        let width = if steps > 0 {
+            let least = if is_moved { 0.0 } else { LEAST_STEPS * progress.least_step() };
+            let width = (0.5 * (to - from)).max(LEAST_SHOTS).max(least);
+            if width >= to - from {
+                return Err(match self.part {
+                    _ if least <= LEAST_SHOTS => "fewer shots are not shown",
+                    Some(_) => TOO_FAST,
+                    None => TOO_SHORT,
+                });
+            }
+            width
+        } else {
+            2.0 * (to - from)
+        };
+        if width >= all.1 - all.0 {
+            self.part = None;
+            return Ok(());
+        }
+        let end = is_moved.then(|| (0.5 * (from + to + width)).clamp(all.0 + width, all.1));
+        self.part = Some(Part { width, end });
+        Ok(())
+    }
+
+    /// Shows later shots, or earlier ones where negative.
+    pub fn pan(&mut self, steps: isize, progress: Progress) {
+        let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
+        if let Some(part) = &mut self.part {
+            // As wide as it is seen: while it follows a fast run it is wider than was asked for.
+            part.width = to - from;
+            let end = to + steps as f64 * PAN_STEP * part.width;
+            part.end = Some(end.min(all.1).max(all.0 + part.width));
+        }
+    }
+
+    /// Shows all of the run.
+    pub const fn show_all(&mut self) {
+        self.part = None;
+    }
+
+    /// Follows the end of the run.
+    pub const fn follow_end(&mut self) {
+        if let Some(part) = &mut self.part {
+            part.end = None;
+        }
+    }
+}
+
+/// The place `steps` after `from` among `count`, around the end.
+pub fn around(from: usize, steps: isize, count: usize) -> usize {
+    (from.cast_signed() + steps).rem_euclid(count.cast_signed()).cast_unsigned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(shots: u64, speed: f64) -> Progress {
+        Progress { shots, planned: Some(1_000_000), speed }
+    }
+
+    #[test]
+    fn zooming_follows_the_end_until_somebody_moves_the_part() {
+        let mut charts = Charts::default();
+        let all = charts.range(at(700_000, 0.0));
+        charts.zoom(1, at(700_000, 0.0)).unwrap();
+        charts.zoom(1, at(700_000, 0.0)).unwrap();
+        let (from, to) = charts.range(at(700_000, 0.0));
+        assert!((4.0 * (to - from) - (all.1 - all.0)).abs() < 1e-6);
+        assert!(from < 700_000.0 && to >= 700_000.0, "{from} {to}");
+        let later = charts.range(at(to as u64 + 1, 0.0));
+        assert!(later.1 > to && later.0 > from, "it moves on with the run");
+        charts.pan(-1, at(700_000, 0.0));
+        let moved = charts.range(at(700_000, 0.0));
+        assert_eq!(moved, charts.range(at(900_000, 0.0)), "it stays where it was put");
+        let middle = 0.5 * (moved.0 + moved.1);
+        charts.zoom(1, at(900_000, 0.0)).unwrap();
+        let (from, to) = charts.range(at(900_000, 0.0));
+        assert!((0.5 * (from + to) - middle).abs() < 1e-6);
+        charts.follow_end();
+        assert!(charts.range(at(900_000, 0.0)).1 >= 900_000.0);
+        for _ in 0..9 {
+            charts.zoom(-1, at(900_000, 0.0)).unwrap();
+        }
+        assert!(!charts.is_part());
+    }
+
+    #[test]
+    fn a_part_that_follows_the_end_moves_in_steps() {
+        let mut charts = Charts::default();
+        for _ in 0..4 {
+            charts.zoom(1, at(700_000, 0.0)).unwrap();
+        }
+        let ranges: Vec<_> = (700_000..800_000).step_by(500).map(|shots| charts.range(at(shots, 0.0))).collect();
+        let moves = ranges.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        assert!((1..=10).contains(&moves), "{moves}");
+    }
+
+    #[test]
+    fn a_fast_run_moves_its_part_every_few_seconds_at_most() {
+        let mut charts = Charts::default();
+        let refused = (0..30).find_map(|_| charts.zoom(1, at(700_000, 433.0)).err());
+        assert_eq!(refused, Some(TOO_FAST));
+        let seconds: Vec<u64> = (0..100).collect();
+        // Its speed is never quite the same.
+        let ranges = seconds.iter().map(|n| charts.range(at(700_000 + 433 * n, 430.0 + (n % 7) as f64)));
+        let ranges: Vec<_> = ranges.collect();
+        let moves = ranges.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        assert!((5..=20).contains(&moves), "{moves} in 100 s");
+        let (from, to) = charts.range(at(700_000, 433.0));
+        assert!(to - from < 20_000.0, "{from} {to}");
+        charts.pan(-1, at(700_000, 433.0));
+        charts.zoom(1, at(700_000, 433.0)).unwrap();
+        let held = charts.range(at(700_000, 433.0));
+        assert!(held.1 - held.0 < 0.6 * (to - from), "a part that does not move may be narrow");
+        charts.follow_end();
+        assert!(charts.range(at(700_000, 433.0)).1 - charts.range(at(700_000, 433.0)).0 >= to - from);
+    }
+
+    #[test]
+    fn the_part_never_leaves_the_run() {
+        let mut charts = Charts::default();
+        charts.zoom(1, at(10, 0.0)).unwrap();
+        for steps in [-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1] {
+            charts.pan(steps, at(500_000, 0.0));
+            let (from, to) = charts.range(at(500_000, 0.0));
+            assert!(from >= 0.0 && to <= whole(500_000, Some(1_000_000)).1 && from < to, "{from} {to}");
+        }
+    }
+
+    #[test]
+    fn a_hidden_chart_is_not_selected() {
+        let mut charts = Charts::default();
+        charts.toggle(0);
+        assert!(charts.is_selected(1) && !charts.is_selected(0));
+        for n in [1, 2, 3] {
+            charts.toggle(n);
+        }
+        assert!(!charts.any() && charts.drawn().is_empty());
+        charts.toggle(7);
+        charts.enlarge();
+        assert_eq!(charts.drawn(), [7]);
+    }
+}

@@ -1,0 +1,214 @@
+//! The form for a new run.
+
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
+
+use crate::{
+    game::Reward,
+    learning::{
+        agents::AGENTS,
+        run::{list::Summary, run_name},
+        timestamp,
+    },
+    terminal::{pages::training::charts::around, tasks::training::Launch},
+};
+
+/// Tables that a run can be started on.
+pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
+/// Numbers of shots to choose from; others can be typed.
+const BUDGETS: [u64; 9] =
+    [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
+/// Most digits of a number that is typed; every number of so many digits fits.
+const DIGITS: usize = 18;
+
+/// A field of the form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Field {
+    /// The agent.
+    Agent,
+    /// What it is rewarded for.
+    Reward,
+    /// The table.
+    Table,
+    /// Shots to play.
+    Shots,
+    /// The seed.
+    Seed,
+    /// The run whose weights it starts with.
+    From,
+}
+
+impl Field {
+    /// All of them, in their order on the screen.
+    pub const ALL: [Self; 6] = [Self::Agent, Self::Reward, Self::Table, Self::Shots, Self::Seed, Self::From];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Agent => "agent",
+            Self::Reward => "reward",
+            Self::Table => "table",
+            Self::Shots => "shots",
+            Self::Seed => "seed",
+            Self::From => "start with",
+        }
+    }
+}
+
+/// What is filled in.
+#[derive(Debug)]
+pub struct Form {
+    /// The marked field.
+    pub field: Field,
+    /// KeyContext of the agent in [`AGENTS`].
+    pub agent: usize,
+    /// What it is rewarded for.
+    pub reward: Reward,
+    /// The table's name.
+    pub table: &'static str,
+    /// Shots to play, as they were typed.
+    pub shots: String,
+    /// The seed, as it was typed.
+    pub seed: String,
+    /// Name and folder of the run whose weights it starts with.
+    pub from: Option<(String, PathBuf)>,
+    /// When the form was opened: the run's name begins with it.
+    opened: String,
+}
+
+impl Form {
+    /// The form with what is usual.
+    pub fn new() -> Self {
+        Self {
+            field: Field::Agent,
+            agent: 0,
+            reward: Reward::default(),
+            table: TABLES[0],
+            shots: "5000000".into(),
+            seed: "1".into(),
+            from: None,
+            opened: timestamp(),
+        }
+    }
+
+    /// Marks another field, the next where positive.
+    pub fn move_mark(&mut self, fields: isize) {
+        self.field = neighbour(&Field::ALL, self.field, fields);
+    }
+
+    /// Takes the next value of the marked field, or the one before. `runs` are those whose weights can be taken.
+    pub fn choose(&mut self, step: isize, runs: &[Summary]) {
+        match self.field {
+            Field::Agent => {
+                self.agent = around(self.agent, step, AGENTS.len());
+                // Another agent's weights are of no use.
+                self.from = None;
+            }
+            Field::Reward => self.reward = neighbour(&Reward::ALL, self.reward, step),
+            Field::Table => self.table = neighbour(&TABLES, self.table, step),
+            Field::Shots => {
+                let shots = self.shots.parse::<u64>().unwrap_or(0);
+                let next = if step > 0 {
+                    BUDGETS.into_iter().find(|&budget| budget > shots)
+                } else {
+                    BUDGETS.into_iter().rfind(|&budget| budget < shots)
+                };
+                if let Some(next) = next {
+                    self.shots = next.to_string();
+                }
+            }
+            Field::Seed => {
+                let seed = self.seed.parse::<u64>().unwrap_or(0).saturating_add_signed(step as i64);
+                self.seed = seed.to_string();
+            }
+            Field::From => {
+                let agent = AGENTS[self.agent].name;
+                let own = runs
+                    .iter()
+                    .filter(|run| run.agent == agent)
+                    .map(|run| Some((run.name.clone(), run.folder.clone())));
+                let choices: Vec<Option<(String, PathBuf)>> = std::iter::once(None).chain(own).collect();
+                self.from = neighbour(&choices, self.from.clone(), step);
+            }
+        }
+    }
+
+    /// The number in the marked field, if it is one that can be typed.
+    fn number(&mut self) -> Option<&mut String> {
+        match self.field {
+            Field::Shots => Some(&mut self.shots),
+            Field::Seed => Some(&mut self.seed),
+            _ => None,
+        }
+    }
+
+    /// Adds a digit to the number in the marked field; `false` where it is none or takes none.
+    pub fn typed(&mut self, letter: char) -> bool {
+        let Some(number) = self.number().filter(|_| letter.is_ascii_digit()) else { return false };
+        if number == "0" {
+            number.clear();
+        }
+        if number.len() < DIGITS {
+            number.push(letter);
+        }
+        true
+    }
+
+    /// Takes the last digit of the number in the marked field back.
+    pub fn erase(&mut self) {
+        if let Some(number) = self.number() {
+            number.pop();
+        }
+    }
+
+    /// The name of the run's folder.
+    pub fn name(&self) -> String {
+        run_name(&self.opened, AGENTS[self.agent].name, self.table, self.reward, &self.seed)
+    }
+
+    /// The command line that starts the same run.
+    pub fn command(&self) -> String {
+        let Self { agent, reward, table, shots, seed, .. } = self;
+        let agent = AGENTS[*agent].name;
+        let from = self.from.as_ref().map_or(String::new(), |(name, _)| format!(" --from {name}"));
+        format!("carom train --agent {agent} --reward {reward} --table {table} --steps {shots} --seed {seed}{from}")
+    }
+
+    /// What starts the run in a folder of `runs`.
+    ///
+    /// # Errors
+    /// A sentence that says which number is wrong.
+    pub fn launch(&self, runs: &Path) -> Result<Launch, String> {
+        if !self.shots.parse::<u64>().is_ok_and(|shots| shots > 0) {
+            return Err(format!("{:?} is no number of shots; accepted is any number from 1 on", self.shots));
+        }
+        if self.seed.parse::<u64>().is_err() {
+            return Err(format!("{:?} is no seed; accepted is any number from 0 on", self.seed));
+        }
+        let folder = runs.join(self.name());
+        let reward = self.reward.to_string();
+        let mut arguments: Vec<OsString> = vec!["train".into()];
+        for (option, value) in [
+            ("--agent", AGENTS[self.agent].name),
+            ("--reward", &reward),
+            ("--table", self.table),
+            ("--steps", &self.shots),
+            ("--seed", &self.seed),
+        ] {
+            arguments.extend([option.into(), value.into()]);
+        }
+        if let Some((_, from)) = &self.from {
+            arguments.extend(["--from".into(), from.into()]);
+        }
+        arguments.extend(["--run".into(), folder.clone().into()]);
+        Ok(Launch { arguments, folder })
+    }
+}
+
+/// The element `steps` after `from`, around the end; the first where `from` is not among them.
+fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
+    let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
+    all[around(place, steps, all.len())].clone()
+}

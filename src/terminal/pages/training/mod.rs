@@ -1,0 +1,299 @@
+//! The state of the training screen: which page is open, the list of runs, the form, and the run that is watched.
+//!
+//! Training happens in processes of its own, which this screen only starts, follows and steers. [`actions`] is what
+//! each key does.
+
+mod actions;
+mod charts;
+mod form;
+pub mod keys;
+mod page;
+mod question;
+mod replay;
+mod runs;
+mod view;
+mod watch;
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use crate::{
+    game::Reward,
+    learning::{
+        Policy,
+        run::{
+            follow::{Condition, Update},
+            request::Request,
+        },
+    },
+    storage::Places,
+    table::Table,
+    terminal::{
+        pages::training::keys::TrainingContext,
+        tasks::{
+            advice::CoachQuery,
+            training::{Failure, Keeping, Kept, Report, Slot, Subscriptions},
+        },
+        ui::message::Message,
+    },
+};
+
+pub use form::{Field, Form};
+pub use question::Question;
+pub use runs::RunList;
+pub use watch::{NO_POLICY, Named, Watch};
+
+/// Time for which a run that is started is believed to come: within it nothing else is started in its folder.
+const LAUNCHING: Duration = Duration::from_secs(5);
+
+/// A page of the training screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// The list of runs.
+    Runs,
+    /// The form for a new run.
+    Form,
+    /// The run that is watched.
+    Watch,
+    /// The list of runs, to choose one to compare with.
+    Compare,
+}
+
+impl Screen {
+    /// SeriesId keys it has.
+    pub const fn place(self) -> TrainingContext {
+        match self {
+            Self::Runs => TrainingContext::Runs,
+            Self::Form => TrainingContext::Form,
+            Self::Watch => TrainingContext::Watch,
+            Self::Compare => TrainingContext::Compare,
+        }
+    }
+}
+
+/// The state of the training screen.
+#[derive(Debug)]
+pub struct TrainingPage {
+    /// Where runs and policies are.
+    pub places: Places,
+    /// The folder whose runs are listed, and in which new ones are started.
+    pub folder: PathBuf,
+    /// The list of runs.
+    pub list: RunList,
+    /// The form for a new run.
+    pub form: Form,
+    /// The run that is watched.
+    pub watch: Option<Watch>,
+    /// What is asked.
+    pub question: Option<Question>,
+    /// What the status line says.
+    pub message: Option<Message>,
+    /// Whether there is nothing behind the first page.
+    pub alone: bool,
+    /// The folder of the run that was started last, and when, until it is seen to be at work or to have failed.
+    launched: Option<(PathBuf, Instant)>,
+    /// The pages one has come through; the last one is open.
+    pages: Vec<Screen>,
+}
+
+impl TrainingPage {
+    /// The screen before it is opened.
+    pub fn new(places: Places) -> Self {
+        Self {
+            folder: places.runs.clone(),
+            places,
+            list: RunList::default(),
+            form: Form::new(),
+            watch: None,
+            question: None,
+            message: None,
+            alone: false,
+            launched: None,
+            pages: Vec::new(),
+        }
+    }
+
+    /// Opens the page that was open last, or the list.
+    pub fn open(&mut self) {
+        self.message = None;
+        if self.pages.is_empty() {
+            self.pages.push(Screen::Runs);
+        }
+    }
+
+    /// Opens with a run, or with the list of those in `list`, by default the user's; there is nothing behind its first
+    /// page.
+    pub fn open_alone(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
+        self.alone = true;
+        self.pages = vec![Screen::Runs];
+        if let Some(list) = list {
+            self.folder = list;
+        }
+        if let Some(run) = run {
+            self.show(&run);
+        }
+    }
+
+    /// Opens the page of the run in `folder`.
+    fn show(&mut self, folder: &Path) {
+        let watch = Watch::new(folder, &self.places.runs);
+        self.list.mark_named(&watch.own.name);
+        self.watch = Some(watch);
+        self.pages.retain(|page| *page == Screen::Runs);
+        self.pages.push(Screen::Watch);
+    }
+
+    /// Whether a process for the run in `folder` has been started and may still be on its way.
+    fn is_launched(&self, folder: &Path) -> bool {
+        self.launched.as_ref().is_some_and(|(launched, since)| launched == folder && since.elapsed() < LAUNCHING)
+    }
+
+    /// Whether one has gone back from the first page.
+    pub const fn is_left(&self) -> bool {
+        self.pages.is_empty()
+    }
+
+    /// The page that is open.
+    pub fn page(&self) -> Screen {
+        self.pages.last().copied().unwrap_or(Screen::Runs)
+    }
+
+    /// What is on the screen: the page, or what is asked there.
+    pub fn place(&self) -> TrainingContext {
+        match &self.question {
+            None => self.page().place(),
+            Some(Question::Name(_)) => TrainingContext::Name,
+            Some(_) => TrainingContext::Question,
+        }
+    }
+
+    /// What has to be found out now.
+    pub fn wanted(&self) -> Subscriptions {
+        let lists = matches!(self.page(), Screen::Runs | Screen::Form | Screen::Compare);
+        let folder = |named: &Named| named.run.folder.clone();
+        Subscriptions {
+            runs: lists.then(|| self.folder.clone()),
+            followed: [
+                self.watch.as_ref().map(|watch| folder(&watch.own)),
+                self.watch.as_ref().and_then(|watch| watch.other.as_ref()).map(folder),
+            ],
+        }
+    }
+
+    /// Takes what has come of something; a policy that is to be used in the coach goes on to it, with its table.
+    pub fn receive(&mut self, report: Report) -> Option<(Table, CoachQuery)> {
+        match report {
+            Report::Runs(found) => self.list.take(found),
+            Report::Followed(Slot::Main, folder, update) => self.followed(&folder, *update),
+            Report::Followed(Slot::Compared, folder, update) => {
+                let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
+                if let Some(other) = other.filter(|other| other.run.folder == folder) {
+                    other.run.apply(*update);
+                }
+            }
+            Report::Recorded(folder, reel) => {
+                if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
+                    watch.replay.offer(reel);
+                }
+            }
+            Report::HasPolicy(folder, has_policy) => {
+                if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
+                    watch.has_policy = has_policy;
+                }
+                self.close_question();
+            }
+            Report::TrainerFailed(folder, failure) => self.failed(&folder, &failure),
+            Report::Sent(request, Ok(())) => {
+                self.message = Some(Message::plain(match request {
+                    Request::Pause => "the run is asked to pause",
+                    Request::GoOn => "the run is asked to go on",
+                    Request::Stop => "the run is asked to stop: it measures itself and saves first",
+                    Request::Abandon => "the run is asked to end, and its folder goes",
+                }));
+            }
+            Report::Sent(_, Err(sentence)) => {
+                self.message = Some(Message::warning(format!("the run cannot be asked: {sentence}")));
+            }
+            Report::Kept(keeping, outcome) => self.kept(keeping, outcome),
+            Report::Policy(folder, policy) => return self.policy(&folder, policy),
+        }
+        None
+    }
+
+    /// Event of the run in `folder`.
+    fn followed(&mut self, folder: &Path, update: Update) {
+        let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
+        let before = watch.condition();
+        watch.apply(update);
+        let has_changed = !watch.condition().is_like(before);
+        // Before it is seen for the first time it may have been as it was still.
+        if has_changed && before != Condition::Unknown && self.is_launched(folder) {
+            self.launched = None;
+        }
+        // What was said of what was is no news any more.
+        if has_changed && !matches!(before, Condition::Stalled(_)) {
+            self.message = None;
+        }
+        self.close_question();
+    }
+
+    /// A process that was to train in `folder` has failed. That is nothing to worry about where another one trains there.
+    fn failed(&mut self, folder: &Path, failure: &Failure) {
+        let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_at_work());
+        let at_work = watch.and_then(|watch| watch.own.run.standing.as_ref()).map(|standing| standing.process);
+        if at_work.is_some() && at_work != failure.process {
+            return;
+        }
+        if self.is_launched(folder) {
+            self.launched = None;
+        }
+        let name = Named::new(folder, &self.places.runs).name;
+        self.message = Some(Message::warning(format!("{name}: {}", failure.sentence)));
+    }
+
+    /// What makes no sense any more is not asked any more.
+    fn close_question(&mut self) {
+        let when = self.question.as_ref().map(Question::when);
+        if let Some(reason) = when.and_then(|when| self.disabled_reason(when)) {
+            self.question = None;
+            self.message = Some(Message::warning(reason));
+        }
+    }
+
+    fn kept(&mut self, keeping: Keeping, outcome: Result<Kept, String>) {
+        let name = keeping.name;
+        match outcome {
+            Ok(Kept::Done) => {
+                let call = watch::quoted(&name);
+                self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
+            }
+            // Whoever has left the run meanwhile is not asked any more.
+            Ok(Kept::Taken) if self.page() == Screen::Watch && self.question.is_none() => {
+                self.question = Some(Question::Replace(name));
+            }
+            Ok(Kept::Taken) => {}
+            Err(sentence) => self.message = Some(Message::warning(format!("{name} is not kept: {sentence}"))),
+        }
+    }
+
+    fn policy(&mut self, folder: &Path, policy: Result<Arc<Policy>, String>) -> Option<(Table, CoachQuery)> {
+        let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder)?;
+        let table = watch.table()?.clone();
+        match policy {
+            Ok(policy) => {
+                let rule = watch.reward().and_then(Reward::rule).unwrap_or_default();
+                Some((
+                    table,
+                    CoachQuery { policy: Some((watch.own.name.clone(), policy)), rule, ..CoachQuery::default() },
+                ))
+            }
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+}

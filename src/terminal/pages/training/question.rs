@@ -1,0 +1,99 @@
+//! What the training screen asks before it does something.
+
+use crate::{
+    learning::policy::kept::{LONGEST_NAME, is_letter},
+    terminal::{
+        pages::training::{keys::TrainingCondition, watch::Watch},
+        words::count,
+    },
+};
+
+/// A question that waits for an answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Whether to stop the run and save it.
+    Stop,
+    /// Whether to abandon the run.
+    Abandon,
+    /// Under which name the policy is kept, as far as it is typed.
+    Name(String),
+    /// Whether the policy that has this name already may be replaced.
+    Replace(String),
+}
+
+impl Question {
+    /// The question about the run that is watched.
+    pub fn text(&self, watch: &Watch) -> String {
+        let name = &watch.own.name;
+        match self {
+            Self::Stop => format!("stop {name}: measure it, save it and end it? y/n"),
+            Self::Abandon => {
+                let shots = count(watch.own.run.shots());
+                let best = watch.own.run.best();
+                let best = best.map_or(String::new(), |best| format!(", with a best held-out reward of {best:.3}"));
+                format!("abandon {name}: end it now and delete its folder? {shots} shots are lost{best}. y/n")
+            }
+            Self::Name(typed) => format!("keep the weights under the name: {typed}_"),
+            Self::Replace(name) => format!("there is a policy called {name} already; replace it? y/n"),
+        }
+    }
+
+    /// As long as what it may be asked and answered.
+    pub const fn when(&self) -> TrainingCondition {
+        match self {
+            Self::Stop | Self::Abandon => TrainingCondition::AtWork,
+            Self::Name(_) | Self::Replace(_) => TrainingCondition::HasPolicy,
+        }
+    }
+
+    /// A letter was typed; `false` where none is taken.
+    pub fn typed(&mut self, letter: char) -> bool {
+        let Self::Name(name) = self else { return false };
+        if !letter.is_control() && name.len() + letter.len_utf8() <= LONGEST_NAME {
+            name.push(letter);
+        }
+        true
+    }
+
+    /// Takes the last letter back.
+    pub fn erase(&mut self) {
+        if let Self::Name(name) = self {
+            name.pop();
+        }
+    }
+}
+
+/// A name for the policy of the run called `run`: the last part of that, as far as it may stand in a name.
+pub fn proposed_name(run: &str) -> String {
+    let last = run.rsplit(['/', '\\']).find(|part| !part.is_empty()).unwrap_or_default();
+    let letters = last.chars().enumerate().map(|(n, letter)| {
+        let is_kept = is_letter(letter) && (n > 0 || letter != '.');
+        if is_kept { letter } else { '-' }
+    });
+    let mut name: String = letters.collect();
+    while name.len() > LONGEST_NAME {
+        name.pop();
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learning::policy::kept::is_name;
+
+    #[test]
+    fn every_run_is_proposed_a_name_that_is_accepted() {
+        let long = "\u{e4}".repeat(80);
+        for (run, name) in [
+            ("20261120-ddpg", "20261120-ddpg"),
+            ("/home/me/runs/group/seed-1", "seed-1"),
+            ("runs/my run (2)/", "my-run--2-"),
+            (".hidden", "-hidden"),
+            (long.as_str(), &long[..100]),
+        ] {
+            assert_eq!(proposed_name(run), name);
+            assert!(is_name(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! The latest shots on held-out layouts, played one after the other.
+//!
+//! A new set of shots plays through once and rests at its last shot; then nothing moves until another set comes or
+//! somebody wants to see it again.
+
+use crate::terminal::{
+    shot::playback::Playback,
+    tasks::reel::{Reel, Scene},
+};
+
+/// Seconds between two pictures.
+pub const INTERVAL: f64 = 0.1;
+/// Seconds that the balls lie still before the next shot.
+const REST: f64 = 1.0;
+
+/// What moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Motion {
+    /// Nothing: the set has been played, or somebody has stopped it.
+    Stopped,
+    /// The shot.
+    Playing,
+    /// Nothing for so many seconds, then the next shot.
+    Resting(f64),
+}
+
+/// Shots that are replayed.
+#[derive(Debug)]
+pub struct Replay {
+    reel: Option<Reel>,
+    /// A newer set that waits until this one is through.
+    waiting: Option<Reel>,
+    index: usize,
+    playback: Playback,
+    motion: Motion,
+    /// Whether somebody has stopped it: then nothing moves until somebody wants it.
+    held: bool,
+}
+
+impl Default for Replay {
+    fn default() -> Self {
+        Self {
+            reel: None,
+            waiting: None,
+            index: 0,
+            playback: Playback::default(),
+            motion: Motion::Stopped,
+            held: false,
+        }
+    }
+}
+
+impl Replay {
+    /// Takes a new set; it plays at once, or after the one that is playing. A set that is not newer than the one that is
+    /// shown is no news.
+    pub fn offer(&mut self, reel: Reel) {
+        if reel.scenes.is_empty() || self.reel.as_ref().is_some_and(|shown| shown.after >= reel.after) {
+            return;
+        }
+        if self.reel.is_some() && (self.motion != Motion::Stopped || self.held) {
+            self.waiting = Some(reel);
+        } else {
+            self.begin(reel);
+        }
+    }
+
+    fn begin(&mut self, reel: Reel) {
+        self.reel = Some(reel);
+        self.show(0);
+        self.motion = Motion::Playing;
+    }
+
+    /// Puts the shot with this number on the table, before its stroke.
+    fn show(&mut self, index: usize) {
+        self.index = index;
+        self.playback.jump(0.0);
+    }
+
+    /// The set that is shown.
+    pub const fn reel(&self) -> Option<&Reel> {
+        self.reel.as_ref()
+    }
+
+    /// The present shot's number in the set, from 0.
+    pub const fn index(&self) -> usize {
+        self.index
+    }
+
+    /// The present shot.
+    pub fn scene(&self) -> Option<&Scene> {
+        self.reel.as_ref()?.scenes.get(self.index)
+    }
+
+    /// Seconds since the stroke.
+    pub const fn time(&self) -> f64 {
+        self.playback.time
+    }
+
+    /// Whether anything moves.
+    pub fn is_playing(&self) -> bool {
+        self.motion != Motion::Stopped
+    }
+
+    /// Plays, or stops; at the end of the set it plays the newest from its beginning.
+    pub fn toggle(&mut self) {
+        if self.is_playing() {
+            self.motion = Motion::Stopped;
+            self.held = true;
+            return;
+        }
+        self.held = false;
+        if self.is_through() {
+            match self.waiting.take() {
+                Some(newer) => self.begin(newer),
+                None => self.show(0),
+            }
+        } else if self.is_at_the_end() {
+            self.show(self.index + 1);
+        }
+        self.motion = Motion::Playing;
+    }
+
+    fn duration(&self) -> f64 {
+        self.scene().and_then(|scene| scene.shot.as_ref()).map_or(0.0, |shot| shot.recording.duration())
+    }
+
+    fn is_at_the_end(&self) -> bool {
+        self.playback.time >= self.duration()
+    }
+
+    fn is_through(&self) -> bool {
+        let last = self.reel.as_ref().map_or(0, |reel| reel.scenes.len().saturating_sub(1));
+        self.index >= last && self.is_at_the_end()
+    }
+
+    /// Shows another shot before its stroke, the next where positive, and stops there.
+    pub fn step(&mut self, shots: isize) {
+        let count = self.reel.as_ref().map_or(0, |reel| reel.scenes.len());
+        if count > 0 {
+            let index = self.index.saturating_add_signed(shots).min(count - 1);
+            self.show(index);
+        }
+        self.motion = Motion::Stopped;
+        self.held = true;
+    }
+
+    /// Lets `seconds` pass.
+    pub fn tick(&mut self, seconds: f64) {
+        match self.motion {
+            Motion::Stopped => {}
+            Motion::Playing => {
+                self.playback.playing = true;
+                self.playback.tick(seconds, self.duration());
+                if self.is_at_the_end() {
+                    self.motion = Motion::Resting(REST);
+                }
+            }
+            Motion::Resting(left) if left > seconds => self.motion = Motion::Resting(left - seconds),
+            Motion::Resting(_) if !self.is_through() => {
+                self.show(self.index + 1);
+                self.motion = Motion::Playing;
+            }
+            Motion::Resting(_) => match self.waiting.take() {
+                Some(newer) => self.begin(newer),
+                None => self.motion = Motion::Stopped,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        learning::run::examples::{Example, Examples},
+        table::Table,
+    };
+    use crate::{physics::CueInputs, table::Layout};
+
+    fn reel(after: u64) -> Reel {
+        let layout = Layout::opening(&Table::default());
+        let cue = CueInputs::parse("0,0,0,30,1").unwrap();
+        let examples = Examples { after, shots: vec![Example { layout, cue, reward: 0.0 }; 3] };
+        Reel::record(&examples, &Table::default())
+    }
+
+    fn pass(replay: &mut Replay) -> Vec<(u64, usize)> {
+        let mut seen = Vec::new();
+        let mut seconds = 0.0;
+        while replay.is_playing() && seconds < 1e3 {
+            let now = (replay.reel().unwrap().after, replay.index());
+            if seen.last() != Some(&now) {
+                seen.push(now);
+            }
+            replay.tick(INTERVAL);
+            seconds += INTERVAL;
+        }
+        seen
+    }
+
+    #[test]
+    fn a_set_plays_once_and_rests_at_its_last_shot() {
+        let mut replay = Replay::default();
+        replay.offer(reel(1));
+        assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2)]);
+        assert_eq!(replay.time(), replay.duration());
+        replay.offer(reel(1));
+        assert!(!replay.is_playing(), "the same set is no news");
+        replay.toggle();
+        assert_eq!(pass(&mut replay).len(), 3);
+    }
+
+    #[test]
+    fn a_newer_set_waits_for_the_end_of_the_one_that_plays() {
+        let mut replay = Replay::default();
+        replay.offer(reel(1));
+        replay.tick(0.3);
+        replay.offer(reel(2));
+        replay.offer(reel(3));
+        assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2), (3, 0), (3, 1), (3, 2)]);
+    }
+
+    #[test]
+    fn what_somebody_has_stopped_stays_stopped() {
+        let mut replay = Replay::default();
+        replay.offer(reel(1));
+        replay.step(1);
+        replay.offer(reel(2));
+        assert!(!replay.is_playing());
+        assert_eq!((replay.reel().unwrap().after, replay.index()), (1, 1));
+        replay.toggle();
+        assert_eq!(pass(&mut replay).last(), Some(&(2, 2)));
+    }
+}

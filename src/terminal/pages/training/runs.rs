@@ -1,0 +1,84 @@
+//! The list of runs and the mark in it.
+
+use crate::learning::run::list::{Listing, Stage, Summary};
+
+/// The list of runs.
+#[derive(Debug, Default)]
+pub struct RunList {
+    /// The runs, newest first; nothing before they were looked for.
+    known: Option<Vec<Summary>>,
+    /// Why they cannot be listed.
+    trouble: Option<String>,
+    /// Sentences on those that cannot be read.
+    unreadable: Vec<String>,
+    /// Name of the marked run: it keeps its mark where others come before it.
+    marked: Option<String>,
+}
+
+impl RunList {
+    /// Takes what was found.
+    pub fn take(&mut self, found: Result<Listing, String>) {
+        match found {
+            Ok(Listing { mut runs, unreadable }) => {
+                self.unreadable = unreadable;
+                runs.sort_by(|one, other| (&other.started, &other.name).cmp(&(&one.started, &one.name)));
+                self.known = Some(runs);
+                self.trouble = None;
+            }
+            Err(sentence) => self.trouble = Some(sentence),
+        }
+    }
+
+    /// The runs, newest first.
+    pub fn runs(&self) -> &[Summary] {
+        self.known.as_deref().unwrap_or_default()
+    }
+
+    /// Whether they have been looked for.
+    pub const fn is_known(&self) -> bool {
+        self.known.is_some()
+    }
+
+    /// Why they cannot be listed.
+    pub fn trouble(&self) -> Option<&str> {
+        self.trouble.as_deref()
+    }
+
+    /// Sentences on those that cannot be read.
+    pub fn unreadable(&self) -> &[String] {
+        &self.unreadable
+    }
+
+    /// KeyContext of the marked run in the list; the first where none was marked or it is gone.
+    pub fn mark(&self) -> usize {
+        let is_marked = |run: &Summary| Some(&run.name) == self.marked.as_ref();
+        self.runs().iter().position(is_marked).unwrap_or(0)
+    }
+
+    /// The marked run; none where there are no runs.
+    pub fn marked(&self) -> Option<&Summary> {
+        self.runs().get(self.mark())
+    }
+
+    /// Moves the mark by lines, down where positive, as far as there are any.
+    pub fn move_mark(&mut self, lines: isize) {
+        let last = self.runs().len().saturating_sub(1);
+        let mark = self.mark().saturating_add_signed(lines).min(last);
+        self.marked = self.runs().get(mark).map(|run| run.name.clone());
+    }
+
+    /// Marks the run called `name`.
+    pub fn mark_named(&mut self, name: &str) {
+        self.marked = Some(name.to_owned());
+    }
+
+    /// Why the marked run cannot go on; `None` where it can.
+    pub fn refusal_to_go_on(&self) -> Option<&'static str> {
+        match self.marked().map(|run| run.state) {
+            None => Some("there is no run yet; n starts one"),
+            Some(state) if state.is_at_work() => Some("this run is at work; Enter watches it"),
+            Some(Stage::Finished) => Some("this run is finished; n starts a new one, with its weights if you like"),
+            Some(_) => None,
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The charts of a run, and of the one that it is compared with.
+
+use std::ops::RangeInclusive;
+
+use ratatui::layout::Rect;
+
+use crate::{
+    learning::run::{follow::Followed, history::Point, quantity::Quantity},
+    terminal::{
+        pages::training::{Watch, view::panes::grid},
+        ui::{
+            Ui,
+            chart::{Chart, Curve, SeriesId, draw_chart},
+        },
+    },
+};
+
+/// Draws those that are chosen.
+pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
+    let charts = &watch.charts;
+    let shots = charts.range(watch.progress());
+    let range = shots.0..=shots.1;
+    let drawn = charts.drawn();
+    if drawn.is_empty() {
+        let words = "No chart is shown; 1 to 9 show some, ? lists them.";
+        ui.buffer.set_stringn(
+            area.x + 3,
+            area.y + 1,
+            words,
+            usize::from(area.width.saturating_sub(4)),
+            ui.theme.faint(),
+        );
+        return;
+    }
+    for (&n, (place, is_last)) in drawn.iter().zip(grid(drawn.len(), area)) {
+        let quantity = Quantity::ALL[n];
+        let title = title(n, watch);
+        let own = points(&watch.own.run, quantity, &range);
+        let other = watch.other.as_ref().map(|other| points(&other.run, quantity, &range));
+        let mut curves = Vec::new();
+        if let (Some(other), Some(points)) = (&watch.other, &other) {
+            curves.push(Curve { points, odd: other.run.history.odd(quantity), whose: SeriesId::Other });
+        }
+        curves.push(Curve { points: &own, odd: watch.own.run.history.odd(quantity), whose: SeriesId::Own });
+        let chart = Chart {
+            title: &title,
+            curves: &curves,
+            shots,
+            values: None,
+            log: charts.is_log(n),
+            smoothing: charts.smoothing(),
+            selected: charts.is_selected(n),
+            with_shots: is_last,
+            unit: "shots",
+            note: missing(&watch.own.run, quantity),
+        };
+        draw_chart(&chart, place, ui);
+    }
+}
+
+/// Why a run that has reported something has nothing to show of a quantity.
+fn missing(run: &Followed, quantity: Quantity) -> Option<&'static str> {
+    let last = run.history.last()?;
+    match quantity {
+        Quantity::HeldOut | Quantity::Reach if run.history.best().is_none() => Some("comes with the first measurement"),
+        Quantity::ActorLoss if last.actor_loss.is_none() => Some("this agent has no actor"),
+        Quantity::Exploration if last.exploration.is_none() => Some("the run does not report it"),
+        _ => None,
+    }
+}
+
+fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Vec<Point> {
+    run.history.points(quantity, range.clone())
+}
+
+/// The key and the quantity. What is measured is no share of successes where the reward says something else.
+fn title(n: usize, watch: &Watch) -> String {
+    let quantity = Quantity::ALL[n];
+    let name = if quantity == Quantity::HeldOut && !watch.is_share() { "held-out reward" } else { quantity.name() };
+    format!("{} {name}", n + 1)
+}

@@ -1,0 +1,149 @@
+//! The form for a new run.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    game::Reward,
+    learning::{agents::AGENTS, run::Schedule},
+    terminal::{
+        pages::training::{Field, Form, TrainingPage},
+        ui::{Ui, panel::draw_title, text::wrap},
+        words::count,
+    },
+};
+
+/// Columns of the fields' names, and of their values.
+const NAME: u16 = 14;
+const VALUE: u16 = 20;
+
+/// Draws the form, and below it what it starts.
+pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
+    let form = &training.form;
+    for (field, n) in Field::ALL.into_iter().zip(0..) {
+        let y = area.y + 1 + 2 * n;
+        let is_marked = field == form.field;
+        let (value, note) = words(form, field);
+        let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
+        if is_marked {
+            ui.buffer.set_string(area.x + 1, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+        }
+        ui.buffer.set_string(area.x + 3, y, field.name(), ui.theme.faint());
+        let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
+        let x = area.x + 3 + NAME;
+        let end = ui
+            .buffer
+            .set_line(
+                x - 2,
+                y,
+                &Line::from(vec![
+                    Span::styled(left, ui.theme.faint()),
+                    Span::styled(value, style),
+                    Span::styled(right, ui.theme.faint()),
+                ]),
+                area.right() - x,
+            )
+            .0;
+        let x = (x + VALUE).max(end + 2);
+        let room = usize::from(area.right().saturating_sub(x + 1));
+        // The row below is free.
+        for (line, y) in wrap(&note, room).into_iter().take(2).zip(y..) {
+            ui.buffer.set_stringn(x, y, line, room, ui.theme.faint());
+        }
+    }
+    let rows = 2 * Field::ALL.len() as u16 + 2;
+    let below = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
+    let title = Line::from(Span::styled("The same on the command line", ui.theme.text()));
+    let inner = draw_title(&title, below, ui);
+    let lines = command_lines(&form.command(), usize::from(area.width.saturating_sub(6)));
+    let name =
+        Line::from(vec![Span::styled("run           ", ui.theme.faint()), Span::styled(form.name(), ui.theme.text())]);
+    let lines = lines.into_iter().map(|line| Line::styled(line, ui.theme.text())).chain([Line::default(), name]);
+    for (line, y) in lines.zip(inner.y..inner.bottom()) {
+        ui.buffer.set_line(inner.x + 3, y, &line, inner.width.saturating_sub(4));
+    }
+}
+
+/// The command in lines of at most `width` columns, broken before an option.
+fn command_lines(command: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for (n, option) in command.split(" --").enumerate() {
+        let part = if n == 0 { option.to_owned() } else { format!(" --{option}") };
+        let last = lines.len() - 1;
+        if lines[last].chars().count() + part.chars().count() + 2 > width && n > 0 {
+            lines[last].push_str(" \\");
+            lines.push(format!(" {part}"));
+        } else {
+            lines[last].push_str(&part);
+        }
+    }
+    lines
+}
+
+/// A field's value, and what it means.
+fn words(form: &Form, field: Field) -> (String, String) {
+    match field {
+        Field::Agent => {
+            let agent = AGENTS[form.agent];
+            (agent.name.to_owned(), agent.title.to_owned())
+        }
+        Field::Reward => (form.reward.to_string(), reward_words(form.reward).to_owned()),
+        Field::Table => {
+            let note = match form.table {
+                "match" => "2.84 x 1.42 m, as filmed balls run",
+                "textbook" => "2.84 x 1.42 m, the thesis' equations",
+                _ => "as in the thesis",
+            };
+            (form.table.to_owned(), note.to_owned())
+        }
+        Field::Shots => match form.shots.parse() {
+            Ok(shots) => {
+                let every = count(Schedule::for_shots(shots).evaluate_every);
+                (count(shots), format!("measured every {every} shots"))
+            }
+            Err(_) => (form.shots.clone(), "type a number".to_owned()),
+        },
+        Field::Seed => {
+            let note = if form.seed.is_empty() { "type a number" } else { "the same seed gives the same weights" };
+            (form.seed.clone(), note.to_owned())
+        }
+        Field::From => match &form.from {
+            None => ("new weights".to_owned(), "or those of a run of this agent".to_owned()),
+            Some((name, _)) => (name.clone(), String::new()),
+        },
+    }
+}
+
+fn reward_words(reward: Reward) -> &'static str {
+    match reward {
+        Reward::R1 => "meeting an object ball",
+        Reward::R1Difficulty => "r1, less after cushions",
+        Reward::R2 => "r1, and balls that end close together",
+        Reward::R3 => "meeting both: a straight-rail point",
+        Reward::R4 => "r3, and balls that end close together",
+        Reward::OneCushion => "a point over one cushion",
+        Reward::ThreeCushion => "a point over three cushions",
+    }
+}
+
+/// What the status line says while there is no news.
+pub fn standing(training: &TrainingPage) -> String {
+    match training.form.field {
+        Field::Shots | Field::Seed => "arrows choose a value, digits type one; Enter starts the run".to_owned(),
+        _ => "arrows choose; Enter starts the run".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_command_is_broken_so_that_a_shell_still_takes_it() {
+        let lines = command_lines("carom train --agent ddpg --steps 10 --from a-long-name", 24);
+        assert_eq!(lines, ["carom train \\", "  --agent ddpg \\", "  --steps 10 \\", "  --from a-long-name"]);
+        assert_eq!(lines.iter().map(|line| line.chars().count()).max(), Some(20));
+    }
+}

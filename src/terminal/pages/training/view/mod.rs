@@ -1,0 +1,70 @@
+//! The training screen: the list of runs, the form for a new one, and a run as it learns.
+
+mod charts;
+mod form;
+mod header;
+mod numbers;
+mod panes;
+mod replay;
+mod runs;
+mod watch;
+
+use ratatui::layout::{Position, Rect};
+
+use crate::terminal::{
+    pages::{
+        PageArea, Target,
+        training::{Screen, TrainingPage, keys::TrainingContext},
+    },
+    ui::{
+        Ui,
+        message::Message,
+        status_line::{draw_question, draw_status},
+    },
+};
+
+/// Draws the page that is open; gives the first row of what stands below it.
+pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
+    let (head, body, status) = (area.header, area.body, area.status);
+    let standing = match (training.page(), &training.watch) {
+        (Screen::Watch, Some(watch)) => {
+            header::draw(watch, head, ui);
+            watch::draw(training, watch, body, ui);
+            let (sentence, is_bad) = watch.advice();
+            if is_bad { Message::warning(sentence) } else { Message::plain(sentence) }
+        }
+        (Screen::Form, _) => {
+            title("a new run", head, ui);
+            form::draw(training, body, ui);
+            Message::plain(form::standing(training))
+        }
+        (open, _) => {
+            let words = if open == Screen::Compare { "compare with" } else { "training runs" };
+            title(words, head, ui);
+            runs::draw(training, body, ui);
+            runs::standing(training)
+        }
+    };
+    let message = training.message.clone();
+    match (&training.question, &training.watch) {
+        (Some(question), Some(watch)) => {
+            let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+            let question = Message::warning(before + &question.text(watch));
+            draw_question(&question, status, ui)
+        }
+        _ => draw_status(&message.unwrap_or(standing), status, ui),
+    }
+}
+
+/// What the mouse points at.
+pub fn target(training: &TrainingPage, area: &PageArea, at: Position) -> Option<Target> {
+    match training.place() {
+        TrainingContext::Runs | TrainingContext::Compare => runs::target(training, area.body, at),
+        _ => None,
+    }
+}
+
+/// The first row of the pages that show no run.
+fn title(words: &str, area: Rect, ui: &mut Ui) {
+    ui.buffer.set_stringn(area.x + 1, area.y, words, usize::from(area.width.saturating_sub(1)), ui.theme.text());
+}

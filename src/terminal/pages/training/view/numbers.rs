@@ -1,0 +1,165 @@
+//! The panel of a run's numbers.
+
+use std::path::Path;
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    learning::{
+        evaluation::SuccessRate,
+        run::{follow::Condition, standing::Phase},
+    },
+    terminal::{
+        pages::training::{Named, TrainingPage, Watch},
+        ui::{
+            Ui,
+            chart::{SeriesId, curve_mark},
+            panel::draw_title,
+            text::write_right,
+        },
+        words::{count, time_words},
+    },
+};
+
+/// Most columns of a name and its value.
+const WIDE: u16 = 30;
+/// What stands where nothing is known.
+const UNKNOWN: &str = "-";
+
+/// Draws the panel.
+pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
+    let mut title = vec![Span::styled(if watch.other.is_some() { "Compared" } else { "Numbers" }, ui.theme.text())];
+    if watch.other.is_none()
+        && let Some(from) = watch.own.run.config.as_ref().and_then(|config| config.from.as_ref())
+    {
+        let path = Path::new(&from.path);
+        let name = path.strip_prefix(&training.places.runs).unwrap_or(path).display();
+        title.push(Span::styled(format!(" from {name}"), ui.theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_legend(watch, inner, ui);
+    let mut columns = columns(watch);
+    if !watch.is_at_work() {
+        // What is not known now will not be.
+        for rows in &mut columns {
+            rows.retain(|(_, value)| value != UNKNOWN);
+        }
+    }
+    let [left, right] = columns;
+    let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
+    let lines = left.len().max(right.len());
+    // Air above, where there is some.
+    let top = inner.y + u16::from(usize::from(inner.height) > lines + 2);
+    for (rows, x) in [(left, inner.x + 1), (right, inner.x + width + 3)] {
+        for ((name, value), y) in rows.into_iter().zip(top..inner.bottom()) {
+            ui.buffer.set_stringn(x, y, name, usize::from(width), ui.theme.faint());
+            write_right(ui.buffer, x + name.len() as u16 + 1, x + width, y, &value, ui.theme.text());
+        }
+    }
+}
+
+/// SeriesId curve is which, and how far the run is that this one is compared with; gives the rest of the panel.
+fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
+    let Some(other) = &watch.other else { return area };
+    let named = |whose, named: &Named| {
+        let mark = curve_mark(whose, ui.theme, ui.caps);
+        let name = Span::styled(format!(" {}", named.name), mark.style);
+        Line::from(vec![mark, name])
+    };
+    let far = format!(
+        "{} {} after {} shots",
+        measured(other),
+        known(other.run.held_out(), |value| format!("{value:.3}")),
+        count(other.run.shots())
+    );
+    let far = Line::styled(format!("   {far}"), ui.theme.text());
+    let lines = [named(SeriesId::Own, &watch.own), named(SeriesId::Other, other), far];
+    let rows = (lines.len() as u16).min(area.height);
+    for (line, y) in lines.iter().zip(area.y..area.y + rows) {
+        ui.buffer.set_line(area.x + 1, y, line, area.width.saturating_sub(1));
+    }
+    Rect { y: area.y + rows, height: area.height - rows, ..area }
+}
+
+/// What the held-out layouts measure.
+fn measured(run: &Named) -> &'static str {
+    if run.is_share() { "success" } else { "reward" }
+}
+
+type Row = (&'static str, String);
+
+/// Names and values: how far the run is and how fast it goes, and what it has learnt with what. In either the most
+/// important come first, for not all find room everywhere.
+fn columns(watch: &Watch) -> [Vec<Row>; 2] {
+    let run = &watch.own.run;
+    let (standing, last) = (run.standing.as_ref(), run.history.last());
+    let shots = watch.own.run.shots();
+    let seconds = standing.map(|standing| standing.seconds).or(last.map(|record| record.seconds));
+    let updates = standing.map(|standing| standing.updates).or(last.map(|record| record.updates));
+    // Speeds are of a run at work alone.
+    let working = standing.filter(|_| watch.is_at_work());
+    let speed = |value: Option<f64>| known(value.filter(|value| value.is_finite()), |value| count(value as u64));
+    let is_going_on = matches!(watch.condition(), Condition::Is(Phase::Training | Phase::Measuring));
+    let left = run.time_left().filter(|_| is_going_on);
+    let exploration = standing.map(|standing| standing.exploration).or(last.and_then(|record| record.exploration));
+    let memory = standing.and_then(|standing| standing.memory).or(last.and_then(|record| record.memory));
+    let three = |value: f64| format!("{value:.3}");
+    let config = run.config.as_ref();
+    let held_out = run.held_out();
+    let mut learnt = vec![(measured(&watch.own), known(held_out, three)), ("best", known(run.best(), three))];
+    if watch.is_share() {
+        learnt.insert(
+            1,
+            (
+                "95 % within",
+                known(held_out.zip(config), |(rate, config)| {
+                    let layouts = config.schedule.evaluation_layouts;
+                    let SuccessRate { low, high, .. } =
+                        SuccessRate::new((rate * layouts as f64).round() as usize, layouts);
+                    format!("{low:.3}-{high:.3}")
+                }),
+            ),
+        );
+    }
+    learnt.extend([
+        ("exploration", known(exploration, three)),
+        ("memory filled", known(memory, |share| format!("{:.0} %", 100.0 * share))),
+        ("learning rate", known(last, |record| rate(record.learning_rate))),
+        ("updates", known(updates, count)),
+        ("seed", known(config, |config| config.plan.seed.to_string())),
+    ]);
+    if let Some(config) = config {
+        learnt.extend([
+            ("agent", config.agent.clone()),
+            ("reward", config.plan.reward.to_string()),
+            ("table", config.table.name.clone()),
+        ]);
+    }
+    [
+        vec![
+            ("shots", count(shots)),
+            ("planned", known(watch.planned(), count)),
+            ("trained for", known(seconds, time_words)),
+            ("time left", known(left, |left| time_words(left.as_secs_f64()))),
+            ("shots/s", speed(working.map(|standing| standing.shots_per_second))),
+            ("updates/s", speed(working.map(|standing| standing.updates_per_second))),
+            ("measured every", known(config, |config| count(config.schedule.evaluate_every))),
+            ("layouts", known(config, |config| count(config.schedule.evaluation_layouts as u64))),
+            ("started", known(config, |config| config.started.replace('T', " ").replace('Z', ""))),
+            ("carom", known(config, |config| config.version.clone())),
+        ],
+        learnt,
+    ]
+}
+
+/// A learning rate in as few digits as say something.
+fn rate(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+fn known<T>(value: Option<T>, words: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| UNKNOWN.to_owned(), words)
+}

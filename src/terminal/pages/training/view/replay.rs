@@ -1,0 +1,67 @@
+//! The small table, on which a run's latest shots are replayed.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    pages::training::Watch,
+    tasks::reel::Scene,
+    ui::{
+        Ui,
+        panel::draw_title,
+        table::{TableView, draw_table},
+        text::write_right,
+    },
+    words::short_count,
+};
+
+/// Draws the table with its title.
+pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
+    let replay = &watch.replay;
+    let dot = ui.caps.pick(" · ", " - ");
+    let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), replay.reel(), replay.scene())
+    else {
+        let inner = draw_title(&Line::from(Span::styled("Shots", ui.theme.text())), area, ui);
+        let words = if watch.lacks_config() {
+            ["", "shots need the run's", "configuration"]
+        } else {
+            ["", "shots come with the", "first measurement"]
+        };
+        for (text, y) in words.into_iter().zip(inner.y..inner.bottom()) {
+            ui.buffer.set_stringn(inner.x + 2, y, text, usize::from(inner.width.saturating_sub(2)), ui.theme.faint());
+        }
+        return;
+    };
+    let (outcome, style) = match example.reward {
+        reward if !watch.is_share() => (format!("{reward:.2}"), ui.theme.text()),
+        reward if reward >= 1.0 => ("point".to_owned(), ui.theme.good()),
+        _ => ("miss".to_owned(), ui.theme.warning()),
+    };
+    let title = Line::from(vec![
+        Span::styled(format!("Shot {} of {}", replay.index() + 1, reel.scenes.len()), ui.theme.text()),
+        Span::styled(dot, ui.theme.faint()),
+        Span::styled(outcome, style),
+    ]);
+    let inner = draw_title(&title, area, ui);
+    let after = format!(" after {} shots ", short_count(reel.after));
+    let free = area.x + title.width() as u16 + 5;
+    if usize::from(area.right().saturating_sub(free)) > after.len() {
+        write_right(ui.buffer, free, area.right().saturating_sub(1), area.y, &after, ui.theme.faint());
+    }
+    let view = TableView {
+        table,
+        layout: &example.layout,
+        shot: shot.as_ref(),
+        time: replay.time(),
+        is_moving: true,
+        front: 0,
+        is_lean: false,
+        spots: &[],
+        film: None,
+        theme: ui.theme,
+        caps: ui.caps,
+    };
+    draw_table(&view, inner, ui);
+}

@@ -1,0 +1,191 @@
+//! The list of runs.
+
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+    style::Style,
+    text::{Line, Span},
+};
+
+use crate::{
+    learning::run::list::{Stage, Summary},
+    terminal::{
+        pages::{
+            Target,
+            training::{Screen, TrainingPage},
+        },
+        ui::{Ui, message::Message, panel::draw_title, text::write_right},
+        words::{count, short_count},
+    },
+};
+
+/// Blanks between two columns.
+const GAP: usize = 2;
+
+/// A column of the list.
+struct Column {
+    heading: &'static str,
+    is_number: bool,
+    /// The columns with the largest ones go first where there is no room for all.
+    dispensable: u8,
+    text: fn(&Summary) -> String,
+}
+
+const COLUMNS: [Column; 9] = [
+    Column { heading: "run", is_number: false, dispensable: 0, text: |run| run.name.clone() },
+    Column { heading: "agent", is_number: false, dispensable: 4, text: |run| run.agent.clone() },
+    Column { heading: "reward", is_number: false, dispensable: 3, text: |run| run.reward.to_string() },
+    Column { heading: "table", is_number: false, dispensable: 5, text: |run| run.table.clone() },
+    Column { heading: "shots", is_number: true, dispensable: 2, text: |run| short_count(run.shots) },
+    Column { heading: "%", is_number: true, dispensable: 0, text: |run| percent(run) },
+    Column { heading: "best", is_number: true, dispensable: 0, text: |run| reward(run.best_reward) },
+    Column { heading: "last", is_number: true, dispensable: 1, text: |run| reward(run.last_reward) },
+    Column { heading: "state", is_number: false, dispensable: 0, text: |run| run.state.name().to_owned() },
+];
+
+fn percent(run: &Summary) -> String {
+    // The last turn goes a little beyond the plan.
+    format!("{:.0}", (100.0 * run.shots as f64 / run.planned_shots.max(1) as f64).min(100.0))
+}
+
+fn reward(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
+}
+
+/// Draws the list and, below it, more of the marked run.
+pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
+    let list = &training.list;
+    let (runs, mark) = (list.runs(), list.mark());
+    if runs.is_empty() {
+        return draw_empty(training, area, ui);
+    }
+    let widths: Vec<usize> = COLUMNS
+        .iter()
+        .map(|column| {
+            let cells = runs.iter().map(|run| (column.text)(run).chars().count());
+            cells.chain([column.heading.len()]).max().unwrap_or(0)
+        })
+        .collect();
+    let columns = kept(&widths, usize::from(area.width).saturating_sub(3));
+    let mut x = area.x + 3;
+    let mut places = Vec::new();
+    for &column in &columns {
+        // A name that is too long for all is cut.
+        let width = (widths[column] as u16).min(area.right().saturating_sub(x));
+        places.push((&COLUMNS[column], x, width));
+        x = (x + width + GAP as u16).min(area.right());
+    }
+    let put = |buffer: &mut Buffer, y: u16, style: Style, text: &dyn Fn(&Column) -> String| {
+        for (column, x, width) in &places {
+            if column.is_number {
+                write_right(buffer, *x, x + width, y, &text(column), style);
+            } else {
+                buffer.set_stringn(*x, y, text(column), usize::from(*width), style);
+            }
+        }
+    };
+    put(ui.buffer, area.y + 1, ui.theme.faint(), &|column| column.heading.to_owned());
+    for (n, y) in in_view(training, area) {
+        let run = &runs[n];
+        let style = match run.state {
+            _ if n == mark => ui.theme.accent(),
+            Stage::Running | Stage::Paused => ui.theme.good(),
+            Stage::Stalled | Stage::Failed | Stage::Died => ui.theme.warning(),
+            Stage::Finished | Stage::Interrupted => ui.theme.text(),
+        };
+        if n == mark {
+            ui.buffer.set_string(area.x + 1, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+        }
+        put(ui.buffer, y, style, &|column| (column.text)(run));
+    }
+    draw_marked(training, &runs[mark], mark, Rect { y: area.bottom() - 3, height: 3, ..area }, ui);
+}
+
+/// The runs that have a row, by their place in the list, and their rows.
+fn in_view(training: &TrainingPage, area: Rect) -> impl Iterator<Item = (usize, u16)> {
+    let list = &training.list;
+    // Above it are a blank row and the headings, below it what is told of the marked run.
+    let rows = area.height.saturating_sub(6);
+    let (most, count) = (usize::from(rows), list.runs().len());
+    let first = list.mark().saturating_sub(most / 2).min(count.saturating_sub(most));
+    (first..count).zip(area.y + 2..area.y + 2 + rows)
+}
+
+/// What the mouse points at.
+pub fn target(training: &TrainingPage, area: Rect, at: Position) -> Option<Target> {
+    let run = in_view(training, area).find(|(_, y)| *y == at.y).map(|(n, _)| n);
+    area.contains(at).then(|| Target::list(run, training.list.mark()))
+}
+
+/// The columns that fit into `room`.
+fn kept(widths: &[usize], room: usize) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..COLUMNS.len()).collect();
+    while kept.iter().map(|&n| widths[n] + GAP).sum::<usize>() > room + GAP {
+        match kept.iter().copied().filter(|&n| COLUMNS[n].dispensable > 0).max_by_key(|&n| COLUMNS[n].dispensable) {
+            Some(least) => kept.retain(|&n| n != least),
+            None => break,
+        }
+    }
+    kept
+}
+
+fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, ui: &mut Ui) {
+    let of = format!(" {} of {}", mark + 1, training.list.runs().len());
+    let title = Line::from(vec![Span::styled("Run", ui.theme.text()), Span::styled(of, ui.theme.faint())]);
+    let inner = draw_title(&title, area, ui);
+    let lines = [
+        format!(
+            "{} for {} on \"{}\", seed {}: {} of {} shots",
+            run.agent,
+            run.reward,
+            run.table,
+            run.seed,
+            count(run.shots),
+            count(run.planned_shots)
+        ),
+        format!("started {}, last written {}", people(&run.started), people(&run.changed)),
+    ];
+    for (line, y) in lines.iter().zip(inner.y..inner.bottom()) {
+        ui.buffer.set_stringn(inner.x + 2, y, line, usize::from(inner.width.saturating_sub(3)), ui.theme.text());
+    }
+}
+
+/// `2026-11-20T14:30:05Z` as people write it.
+fn people(moment: &str) -> String {
+    moment.replace('T', " ").replace('Z', " UTC")
+}
+
+fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
+    let list = &training.list;
+    let lines: &[&str] = match list.trouble() {
+        Some(_) => &["The runs cannot be listed."],
+        None if !list.is_known() => &["Looking for runs"],
+        None if training.page() == Screen::Compare => &["There is no run to compare with."],
+        None => &[
+            "No agent has been trained here yet.",
+            "",
+            "Press n to start a run: an agent plays shot after shot and learns from them,",
+            "and you see how. It goes on without this screen; come back whenever you like.",
+        ],
+    };
+    for (line, y) in lines.iter().zip(area.y + 2..area.bottom()) {
+        ui.buffer.set_stringn(area.x + 3, y, line, usize::from(area.width.saturating_sub(4)), ui.theme.text());
+    }
+}
+
+/// What the status line says while there is no news.
+pub fn standing(training: &TrainingPage) -> Message {
+    let list = &training.list;
+    if let Some(sentence) = list.trouble() {
+        return Message::warning(sentence);
+    }
+    if !list.unreadable().is_empty() {
+        return Message::warning(list.unreadable().join("; "));
+    }
+    let running = list.runs().iter().filter(|run| run.state.is_at_work()).count();
+    Message::plain(match running {
+        0 => "no run is at work".to_owned(),
+        1 => "1 run is at work".to_owned(),
+        _ => format!("{running} runs are at work"),
+    })
+}

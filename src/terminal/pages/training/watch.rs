@@ -1,0 +1,214 @@
+//! A run that is watched, perhaps beside another one.
+
+use std::path::{Path, PathBuf};
+
+use crate::{
+    game::Reward,
+    learning::run::{
+        POLICY,
+        follow::{Condition, Followed, Update},
+        standing::Phase,
+    },
+    table::Table,
+    terminal::pages::training::{
+        charts::{Charts, Progress},
+        replay::Replay,
+    },
+};
+
+/// Why a run's weights are of no use to the coach.
+pub const NO_POLICY: &str = "the run has no policy for the coach: it comes with the first measurement, and the thesis' \
+                             agents have none";
+
+/// A run and its name.
+#[derive(Debug)]
+pub struct Named {
+    /// How the command line calls it.
+    pub name: String,
+    /// What is known of it.
+    pub run: Followed,
+}
+
+impl Named {
+    /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
+    pub fn new(folder: &Path, runs: &Path) -> Self {
+        let name = folder.strip_prefix(runs).unwrap_or(folder).display().to_string();
+        Self { name, run: Followed::new(folder) }
+    }
+
+    /// Whether what its shots earn is a success or none; that is not known before its reward is.
+    pub fn is_share(&self) -> bool {
+        self.run.config.as_ref().is_some_and(|config| config.plan.reward.rule().is_some())
+    }
+}
+
+/// A run that is watched.
+#[derive(Debug)]
+pub struct Watch {
+    /// The run.
+    pub own: Named,
+    /// The run that it is compared with.
+    pub other: Option<Named>,
+    /// Which charts are shown, and how.
+    pub charts: Charts,
+    /// Its latest shots.
+    pub replay: Replay,
+    /// Whether it has left a policy that the coach can use.
+    pub has_policy: bool,
+}
+
+impl Watch {
+    /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
+    pub fn new(folder: &Path, runs: &Path) -> Self {
+        let (charts, replay) = (Charts::default(), Replay::default());
+        Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false }
+    }
+
+    /// Takes what has changed.
+    pub fn apply(&mut self, update: Update) {
+        self.own.run.apply(update);
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.own.run.folder
+    }
+
+    /// How it is.
+    pub const fn condition(&self) -> Condition {
+        self.own.run.condition
+    }
+
+    /// Whether there is anything in its folder.
+    pub const fn is_known(&self) -> bool {
+        !matches!(self.condition(), Condition::Unknown | Condition::Missing)
+    }
+
+    /// Whether it is there and its configuration cannot be read.
+    pub const fn lacks_config(&self) -> bool {
+        self.is_known() && self.own.run.config.is_none()
+    }
+
+    /// Shots planned, where that is known.
+    pub fn planned(&self) -> Option<u64> {
+        self.own.run.config.as_ref().map(|config| config.plan.shots)
+    }
+
+    /// What it is rewarded for, where that is known.
+    pub fn reward(&self) -> Option<Reward> {
+        self.own.run.config.as_ref().map(|config| config.plan.reward)
+    }
+
+    /// Its table, where that is known.
+    pub fn table(&self) -> Option<&Table> {
+        self.own.run.config.as_ref().map(|config| &config.table)
+    }
+
+    /// Whether what its shots earn is a success or none.
+    pub fn is_share(&self) -> bool {
+        self.own.is_share()
+    }
+
+    /// How far it is, or the run that it is compared with: charts show both.
+    pub fn progress(&self) -> Progress {
+        let runs = || [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
+        Progress {
+            shots: runs().map(Followed::shots).max().unwrap_or(0),
+            planned: self.planned_end(),
+            speed: runs().map(speed).fold(0.0, f64::max),
+        }
+    }
+
+    /// Where charts end: at the plan, or where the last turn of the run ended, which may be a few shots beyond.
+    fn planned_end(&self) -> Option<u64> {
+        self.planned().map(|planned| planned.max(self.own.run.shots()))
+    }
+
+    /// Whether a process works on it.
+    pub const fn is_at_work(&self) -> bool {
+        is_at_work(self.condition())
+    }
+
+    /// Whether it waits to be told to go on.
+    pub fn is_paused(&self) -> bool {
+        self.condition() == Condition::Is(Phase::Paused)
+    }
+
+    /// Why one cannot go on with it; `None` where one can.
+    pub const fn refusal_to_go_on(&self) -> Option<&'static str> {
+        match self.condition() {
+            Condition::Is(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
+            Condition::Is(Phase::Finished) => {
+                Some("the run is finished; n in the list starts a new one with its weights")
+            }
+            Condition::Is(Phase::Paused) => Some("the run is paused; p lets it go on"),
+            Condition::Is(_) | Condition::Stalled(_) => Some("the run is at work"),
+            Condition::Unknown | Condition::Missing => Some("there is no run yet"),
+            Condition::Removed => Some("the run has been removed"),
+        }
+    }
+
+    /// Where its policy is, if the agent has one that the coach can use.
+    pub fn policy(&self) -> PathBuf {
+        self.folder().join(POLICY)
+    }
+
+    /// What stands in the way of the run, or what can be done now, in a sentence; and whether that is bad news.
+    pub fn advice(&self) -> (String, bool) {
+        let Self { own: Named { name, run }, .. } = self;
+        let resume = format!("r goes on with it, or: carom train --resume {}", quoted(name));
+        let standing = run.standing.as_ref();
+        let reason = standing.and_then(|standing| standing.reason.as_deref());
+        let warning = standing.and_then(|standing| standing.warning.as_deref());
+        match run.condition {
+            Condition::Is(Phase::Failed) => {
+                (format!("{}; {resume}", reason.unwrap_or("the training has broken down")), true)
+            }
+            Condition::Died => (format!("the process that trained is gone without a word; {resume}"), true),
+            Condition::Stalled(since) => {
+                let seconds = since.as_secs();
+                (format!("nothing has come for {seconds} s, and the process is there: it may be suspended"), true)
+            }
+            Condition::Removed => ("the folder of the run has been removed; Esc goes back".to_owned(), true),
+            _ if !run.notices.is_empty() => (run.notices.join("; "), true),
+            Condition::Is(Phase::Stopped) | Condition::Interrupted => {
+                (format!("stopped before its end; {resume}"), false)
+            }
+            _ if warning.is_some() => (warning.unwrap_or_default().to_owned(), true),
+            Condition::Unknown => ("looking for the run".to_owned(), false),
+            Condition::Missing => ("waiting for the run to start".to_owned(), false),
+            Condition::Is(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
+            Condition::Is(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
+            Condition::Is(Phase::Training) => {
+                (format!("it goes on without this screen: carom watch {}", quoted(name)), false)
+            }
+            Condition::Is(Phase::Finished) if !self.has_policy => {
+                ("finished; it has left no policy for the coach".to_owned(), false)
+            }
+            Condition::Is(Phase::Finished) => {
+                ("finished; w uses these weights in the coach, k keeps them under a name".to_owned(), false)
+            }
+        }
+    }
+}
+
+/// Shots that a run plays a second, on average; 0 where nobody trains.
+fn speed(run: &Followed) -> f64 {
+    let standing = run.standing.as_ref().filter(|_| is_at_work(run.condition));
+    standing.map_or(0.0, |standing| standing.shots as f64 / standing.seconds.max(1.0))
+}
+
+/// Whether a process works on a run that is so.
+const fn is_at_work(condition: Condition) -> bool {
+    match condition {
+        Condition::Is(phase) => !phase.is_over(),
+        Condition::Stalled(_) => true,
+        _ => false,
+    }
+}
+
+/// The name as a shell takes it.
+pub fn quoted(name: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./".contains(letter);
+    if name.chars().all(is_plain) { name.to_owned() } else { format!("'{}'", name.replace('\'', r"'\''")) }
+}

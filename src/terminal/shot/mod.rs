@@ -1,0 +1,218 @@
+//! A recommended shot as the screen needs it: its recording, the dots of its paths, and how it meets the first ball.
+
+pub mod film;
+pub mod history;
+pub mod placing;
+pub mod playback;
+pub mod spin;
+
+use glam::DVec2;
+
+use crate::{
+    coach::{Hit, first_hit},
+    physics::{CueInputs, Impulse},
+    simulation::{EventKind, Rail, Recording, ShotError},
+    table::{BALLS, CueBall, Layout, Table},
+    terminal::shot::spin::Spin,
+};
+
+/// Distance of two dots of a path, m. The screen shows every second or third of them, as its sub-pixels ask for.
+pub const DOT_SPACING: f64 = 0.0275;
+/// Seconds between two looks at a path; at 10 m/s a ball moves 10 mm meanwhile, well below a dot's distance.
+const PATH_STEP: f64 = 0.001;
+
+/// A dot of a ball's path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dot {
+    /// When the ball is here, s.
+    pub time: f64,
+    /// Where, m.
+    pub place: DVec2,
+}
+
+/// The cue ball's first contact with one of the object balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The object ball, 1 or 2.
+    pub ball: usize,
+    /// Condition, s.
+    pub time: f64,
+    /// Where the cue ball is then, m.
+    pub place: DVec2,
+    /// Where the object ball is then, m.
+    pub other: DVec2,
+}
+
+/// What the cue ball meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Meeting {
+    /// An object ball, and how.
+    Ball(Hit),
+    /// A cushion, and after it perhaps an object ball.
+    Rail(Rail, Option<Hit>),
+    /// Nothing.
+    Nothing,
+}
+
+/// A shot ready to be shown and played.
+#[derive(Debug)]
+pub struct Shot {
+    /// What the player has to do.
+    pub cue: CueInputs,
+    /// What the stroke gives the cue ball.
+    pub impulse: Impulse,
+    /// Whether the shot makes the point.
+    pub solved: bool,
+    /// Where the shot comes from.
+    pub source: String,
+    /// What happens, exact at any time.
+    pub recording: Recording,
+    /// The dots of the three balls' paths.
+    pub paths: [Vec<Dot>; BALLS],
+    /// The first contact of the cue ball with an object ball.
+    pub contact: Option<Hit>,
+    /// Its first contact with each object ball that it meets.
+    pub contacts: Vec<Contact>,
+}
+
+impl Shot {
+    /// Records the shot `cue` from `layout`; `solved` says whether it makes the point, `source` where it comes from.
+    ///
+    /// # Errors
+    /// What the simulator refuses.
+    pub fn new(
+        table: &Table,
+        layout: &Layout,
+        cue: CueInputs,
+        solved: bool,
+        source: impl Into<String>,
+    ) -> Result<Self, ShotError> {
+        Ok(Self::of(table, Recording::new(table, layout, &cue)?, cue, solved, source))
+    }
+
+    /// The shot that was recorded; `cue` is the stroke to show with it.
+    pub fn of(table: &Table, recording: Recording, cue: CueInputs, solved: bool, source: impl Into<String>) -> Self {
+        Self {
+            cue,
+            impulse: *recording.impulse(),
+            solved,
+            source: source.into(),
+            paths: std::array::from_fn(|ball| dots(&recording, ball)),
+            contact: first_hit(table, &recording),
+            contacts: (1..BALLS).filter_map(|ball| first_contact(&recording, ball)).collect(),
+            recording,
+        }
+    }
+
+    /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.
+    pub fn spin(&self, time: f64, radius: f64) -> Option<Spin> {
+        let is_under_way = time > 0.0 && time < self.recording.duration();
+        is_under_way.then(|| Spin::of(&self.recording.state(0, time), self.recording.motion(0, time), radius))
+    }
+
+    /// What the cue ball meets first.
+    pub fn meeting(&self) -> Meeting {
+        let first = self.recording.events().iter().find_map(|event| match event.kind {
+            EventKind::BallRail(0, rail) => Some(Some(rail)),
+            EventKind::BallBall(0, _) => Some(None),
+            _ => None,
+        });
+        match (first.flatten(), self.contact) {
+            (Some(rail), hit) => Meeting::Rail(rail, hit),
+            (None, Some(hit)) => Meeting::Ball(hit),
+            (None, None) => Meeting::Nothing,
+        }
+    }
+
+    /// How the cue ball meets the first object ball, in words, for who plays with `cue_ball`.
+    pub fn contact_words(&self, cue_ball: CueBall) -> Option<String> {
+        let contact = self.contact?;
+        let side = if contact.left { "left" } else { "right" };
+        let percent = (100.0 * contact.fullness).round();
+        Some(format!("hits {} {percent} % full, {side} side", cue_ball.names()[contact.ball]))
+    }
+}
+
+fn first_contact(recording: &Recording, ball: usize) -> Option<Contact> {
+    let event = recording.events().iter().find(|event| event.kind == EventKind::BallBall(0, ball))?;
+    let place = |ball: usize| recording.state(ball, event.time).position;
+    Some(Contact { ball, time: event.time, place: place(0), other: place(ball) })
+}
+
+fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
+    let mut dots = Vec::new();
+    let mut last = recording.state(ball, 0.0).position;
+    let mut since_dot = 0.0;
+    let steps = (recording.duration() / PATH_STEP) as u32;
+    for step in 1..=steps {
+        let time = PATH_STEP * f64::from(step);
+        let place = recording.state(ball, time).position;
+        since_dot += place.distance(last);
+        last = place;
+        if since_dot >= DOT_SPACING {
+            // What is over counts for the next, so that the distance is right on average.
+            since_dot -= DOT_SPACING;
+            dots.push(Dot { time, place });
+        }
+    }
+    dots
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shot(layout: &str, cue: &str) -> Shot {
+        let table = Table::preset("textbook").unwrap();
+        let layout = Layout::parse(layout, &table).unwrap();
+        Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "policy").unwrap()
+    }
+
+    #[test]
+    fn fullness_and_side_are_those_the_player_sees() {
+        // The object ball lies half a radius to the right of the cue ball's way along x: its left side is hit.
+        let half = shot("-0.7,0 0,-0.03075 0.9,0.5", "0,0,0,0,3");
+        let contact = half.contact.unwrap();
+        assert_eq!(contact.ball, 1);
+        assert!((contact.fullness - 0.5).abs() < 0.01, "{contact:?}");
+        assert_eq!(half.contact_words(CueBall::White).unwrap(), "hits yellow 50 % full, left side");
+        assert_eq!(half.contact_words(CueBall::Yellow).unwrap(), "hits white 50 % full, left side");
+    }
+
+    #[test]
+    fn each_object_ball_is_met_where_the_cue_ball_touches_it_for_the_first_time() {
+        let shot = shot("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
+        let [yellow, red] = shot.contacts[..] else { panic!("{:?}", shot.contacts) };
+        assert!(yellow.time < red.time && yellow.place.distance(shot.contact.unwrap().place) < 1e-12);
+        for contact in [yellow, red] {
+            assert!((contact.place.distance(contact.other) - 0.0615).abs() < 1e-9, "{contact:?}");
+        }
+        assert!(matches!(shot.meeting(), Meeting::Ball(hit) if hit.ball == 1));
+    }
+
+    #[test]
+    fn a_cushion_before_the_first_ball_is_what_the_cue_ball_meets() {
+        let bank = shot("0,0 -0.5,0 1,0.5", "0,0,0,0,4");
+        assert!(
+            matches!(bank.meeting(), Meeting::Rail(Rail::Right, Some(hit)) if hit.ball == 1),
+            "{:?}",
+            bank.meeting()
+        );
+        assert_eq!(shot("0,0 -1,0.5 1,0.5", "0,0,0,0,0.2").meeting(), Meeting::Nothing);
+    }
+
+    #[test]
+    fn a_ball_that_is_touched_from_the_start_is_met_along_the_stroke() {
+        let contact = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3").contact.unwrap();
+        assert!((contact.fullness - 1.0).abs() < 1e-9, "{contact:?}");
+    }
+
+    #[test]
+    fn dots_are_evenly_spaced_along_the_way() {
+        let dots = &shot("-1,0 0,0.6 1,0.6", "0,0,0,0,1.5").paths[0];
+        assert!(dots.len() > 10);
+        for pair in dots.windows(2) {
+            assert!((pair[1].place.distance(pair[0].place) - DOT_SPACING).abs() < 0.01);
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Moving a ball by hand: it slides until it touches a ball or a cushion, and says which.
+
+use glam::DVec2;
+
+use crate::table::{BALLS, Layout, LayoutError, TOUCHING_TOLERANCE, Table};
+
+/// Step sizes of the arrow keys, mm; Shift makes them ten times larger, Ctrl ten times smaller.
+pub const STEPS: [f64; 5] = [1.0, 5.0, 10.0, 50.0, 100.0];
+
+/// Where a ball came to lie, and why it did not go all the way.
+#[derive(Debug, PartialEq)]
+pub struct Slide {
+    /// The layout after the move.
+    pub layout: Layout,
+    /// What the wanted place, or the way to it, would have broken.
+    pub stopped: Option<LayoutError>,
+}
+
+/// Moves `ball` by `step`, m, as far as the table and the other balls allow.
+pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide {
+    let start = layout.balls[ball];
+    let way = step.length();
+    let Some(direction) = step.try_normalize() else { return Slide { layout: *layout, stopped: None } };
+    let mut free = way;
+    let mut stopped = None;
+    let reach = table.reach();
+    for (from, along, limit) in [(start.x, direction.x, reach.x), (start.y, direction.y, reach.y)] {
+        let room = if along == 0.0 { f64::INFINITY } else { ((limit.copysign(along) - from) / along).max(0.0) };
+        // The last bit of a limit that was computed from other numbers refuses nobody.
+        if room + TOUCHING_TOLERANCE < free {
+            free = room;
+            let wanted = start + step;
+            let (max_x, max_y) = (reach.x, reach.y);
+            stopped = Some(LayoutError::Outside { ball, x: wanted.x, y: wanted.y, max_x, max_y });
+        }
+    }
+    let least = 2.0 * table.radius;
+    for other in (0..BALLS).filter(|&other| other != ball) {
+        let from_other = start - layout.balls[other];
+        // The ball's way is |from_other + s direction|; it touches where that is two radii.
+        let along = from_other.dot(direction);
+        let discriminant = along * along - (from_other.length_squared() - least * least);
+        if along >= 0.0 || discriminant <= 0.0 {
+            continue;
+        }
+        let room = (-along - discriminant.sqrt()).max(0.0);
+        if room + TOUCHING_TOLERANCE < free {
+            free = room;
+            let distance = (from_other + direction * (-along).min(way)).length();
+            stopped = Some(LayoutError::Overlap { first: ball.min(other), second: ball.max(other), distance, least });
+        }
+    }
+    let mut layout = *layout;
+    let end = if stopped.is_none() { start + step } else { start + direction * free };
+    layout.balls[ball] = end.clamp(-reach, reach);
+    Slide { layout, stopped }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    #[test]
+    fn a_free_ball_goes_all_the_way() {
+        let table = Table::default();
+        let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(0.1, 0.0));
+        assert_eq!(moved.stopped, None);
+        assert!((moved.layout.balls[0].x - -0.61).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_ball_stops_in_contact_with_another_even_if_the_step_would_jump_over_it() {
+        let table = Table::preset("textbook").unwrap();
+        let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(0.0, 0.5));
+        assert!(matches!(moved.stopped, Some(LayoutError::Overlap { first: 0, second: 1, .. })));
+        let gap = moved.layout.balls[0].distance(moved.layout.balls[1]) - 2.0 * table.radius;
+        assert!(gap.abs() < 1e-12, "{gap}");
+        let again = slide(&table, &moved.layout, 0, DVec2::new(0.0, 0.001));
+        assert!(again.stopped.is_some() && again.layout == moved.layout);
+        let away = slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.001));
+        assert_eq!(away.stopped, None);
+    }
+
+    #[test]
+    fn a_ball_stops_at_the_cushion_and_slides_along_it() {
+        let table = Table::default();
+        let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(-5.0, 0.0));
+        assert!(moved.stopped.unwrap().to_string().contains("outside the table"));
+        assert_eq!(moved.layout.balls[0].x, -table.half_length());
+        assert_eq!(slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.01)).stopped, None);
+    }
+
+    proptest! {
+        #[test]
+        fn no_series_of_moves_ever_gives_an_impossible_layout(
+            seed in any::<u64>(),
+            moves in prop::collection::vec((0..3_usize, -1.0..1.0_f64, -1.0..1.0_f64), 1..40),
+        ) {
+            let table = Table::default();
+            let mut layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(seed));
+            for (ball, x, y) in moves {
+                layout = slide(&table, &layout, ball, DVec2::new(x, y)).layout;
+                prop_assert_eq!(layout.validate(&table), Ok(()));
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! What the coach is asked and what it answers, as the screen needs it.
+
+use std::{sync::Arc, time::Duration};
+
+use crate::{
+    coach::{Kind, Map, Margin, Scatter, Skill},
+    game::Rule,
+    learning::{Policy, evaluation::SuccessRate},
+    terminal::shot::Shot,
+};
+
+/// SeriesId advice is asked, and for what. Two are equal if they ask the same.
+#[derive(Clone, Debug)]
+pub struct CoachQuery {
+    /// A policy that somebody has trained, with its name; without one those that are bundled are asked.
+    pub policy: Option<(String, Arc<Policy>)>,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who is to play the shot.
+    pub skill: Skill,
+    /// Whether the next point counts too.
+    pub plan: bool,
+}
+
+impl Default for CoachQuery {
+    fn default() -> Self {
+        Self { policy: None, rule: Rule::default(), skill: Skill::EXPERT, plan: true }
+    }
+}
+
+impl PartialEq for CoachQuery {
+    fn eq(&self, other: &Self) -> bool {
+        (self.rule, self.skill, self.plan) == (other.rule, other.skill, other.plan) && self.has_policy_of(other)
+    }
+}
+
+impl CoachQuery {
+    /// The policy's name.
+    pub fn name(&self) -> &str {
+        self.policy.as_ref().map_or("the bundled policy", |(name, _)| name)
+    }
+
+    /// Whether `other` is asked the same policy; a policy is never changed, only replaced.
+    pub fn has_policy_of(&self, other: &Self) -> bool {
+        match (&self.policy, &other.policy) {
+            (None, None) => true,
+            (Some((_, one)), Some((_, other))) => Arc::ptr_eq(one, other),
+            _ => false,
+        }
+    }
+}
+
+/// What an answer has cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Shots that were simulated.
+    pub simulations: u64,
+    /// How long the coach thought.
+    pub elapsed: Duration,
+}
+
+/// A shot that the coach proposes.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    /// The shot.
+    pub shot: Arc<Shot>,
+    /// What sort of shot it is, if it makes the point.
+    pub kind: Option<Kind>,
+    /// How often the player makes it, if that is known.
+    pub made: Option<SuccessRate>,
+    /// Probability of the point after this one, if it is known.
+    pub next: Option<f64>,
+    /// Whether the search had not ended: the share of points is then from the errors that it was chosen by, which flatters.
+    pub is_early: bool,
+}
+
+/// The coach's advice on a layout.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    /// The shot that it recommends, then the others that may be chosen.
+    pub proposals: Vec<Proposal>,
+    /// What it has cost, where that is to be told.
+    pub effort: Option<Effort>,
+}
+
+/// A closer look at a shot.
+#[derive(Clone, Debug)]
+pub struct ShotAnalysis {
+    /// How far off each input may be, if the shot makes the point.
+    pub margins: Option<[Margin; 5]>,
+    /// The outcome over all tips that do not slip off, as changes from the ball's centre.
+    pub tip: Map,
+    /// The outcome over direction and speed around the stroke.
+    pub aim: Map,
+    /// What comes of many attempts of the player.
+    pub scatter: Scatter,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tutors_are_equal_where_they_are_asked_the_same() {
+        let query = CoachQuery::default();
+        assert_eq!(query, query.clone());
+        for other in [
+            CoachQuery { rule: Rule::OneCushion, ..query.clone() },
+            CoachQuery { skill: Skill::CLUB, ..query.clone() },
+            CoachQuery { plan: false, ..query.clone() },
+        ] {
+            assert_ne!(query, other);
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What the drill screens want done outside, in this order, and what comes of it.
+
+use std::sync::{Arc, atomic::AtomicBool};
+
+use crate::{
+    coach::Skill,
+    drills::{Advice, Exercise, Played, Session},
+    game::Rule,
+    physics::CueInputs,
+    storage::Places,
+    study::filmed::FilmedShot,
+    table::{Layout, Table},
+    terminal::shot::{Shot, film::FilmScene},
+};
+
+/// Something that is to be done.
+#[derive(Clone, Debug)]
+pub enum DrillTask {
+    /// Read what the user has played and saved there; all that follows is written there.
+    Load(Places),
+    /// Find the stroke that is taught.
+    Advise(Box<Position>),
+    /// Play the next attempt of a session, and save it.
+    Play(Box<Stroke>),
+    /// Save a session, in which something was noted or taken back.
+    Save(Box<Session>),
+    /// Save a position, over one of the same name only where that is wanted.
+    SavePosition(Box<Exercise>, bool),
+    /// Remove the position of this name.
+    RemovePosition(String),
+    /// Estimate the player's skill from these sessions; the number tells the answer from those to earlier questions.
+    Estimate(u64, Arc<[Session]>),
+    /// Keep the player's skill.
+    KeepSkill(Skill),
+    /// Fit the stroke of a filmed shot and play it.
+    Film(Box<FilmedShot>),
+}
+
+/// Where a stroke is asked for.
+#[derive(Clone, Debug)]
+pub struct Position {
+    /// Tells this question's answer from those to earlier ones.
+    pub id: u64,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who plays.
+    pub skill: Skill,
+    /// Whether what comes next counts too, as in a game.
+    pub plan: bool,
+    /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
+    pub own: Option<CueInputs>,
+    /// Set when nobody waits for the answer any more.
+    pub cancel: Arc<AtomicBool>,
+}
+
+/// A stroke that is to be played.
+#[derive(Clone, Debug)]
+pub struct Stroke {
+    /// The session so far.
+    pub session: Session,
+    /// What the player means.
+    pub meant: CueInputs,
+    /// Whether the player has seen a shot that makes the point.
+    pub helped: bool,
+    /// The number of the position, see [`Position::id`].
+    pub position: u64,
+}
+
+/// A stroke that is taught, ready to be shown.
+#[derive(Clone, Debug)]
+pub struct Taught {
+    /// The stroke, and how often the player makes it.
+    pub advice: Advice,
+    /// Whether it is the exercise's own; otherwise it is the coach's.
+    pub is_own: bool,
+    /// What happens if it is played as meant.
+    pub shot: Arc<Shot>,
+}
+
+/// What came of a stroke.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The session with this attempt.
+    pub session: Session,
+    /// What came of it.
+    pub played: Played,
+    /// The shot as it was played; `None` where the tip slipped off.
+    pub shot: Option<Arc<Shot>>,
+    /// Where the balls lie for the next attempt; `None` when the session is over.
+    pub next: Option<(Table, Layout)>,
+}
+
+/// What the user has, read from the disk.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// Sessions, the oldest first.
+    pub sessions: Vec<Session>,
+    /// Own positions.
+    pub positions: Vec<Exercise>,
+    /// The skill that was kept.
+    pub skill: Option<Skill>,
+    /// What could not be read, a sentence each.
+    pub troubles: Vec<String>,
+}
+
+/// What has come of an errand.
+#[derive(Clone, Debug)]
+pub enum DrillReport {
+    /// Of [`DrillTask::Load`].
+    Loaded(Box<Loaded>),
+    /// Of [`DrillTask::Advise`]: with the question's number; `None` where no point was found.
+    AdviceState(u64, Result<Option<Taught>, String>),
+    /// Of [`DrillTask::Play`], and whether it could be saved.
+    Played(Result<Box<Outcome>, String>, Result<(), String>),
+    /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.
+    Judged(String, usize, f64),
+    /// Of [`DrillTask::Save`].
+    Saved(Box<Session>, Result<(), String>),
+    /// Of [`DrillTask::SavePosition`]: whether it is saved, or the name is taken.
+    PositionSaved(Box<Exercise>, Result<bool, String>),
+    /// Of [`DrillTask::RemovePosition`].
+    PositionRemoved(String, Result<(), String>),
+    /// Of [`DrillTask::Estimate`], with its number: the skill, where it is more than a bound, with a sentence on how sure that is,
+    /// or why nothing is known.
+    Estimated(u64, Result<(Option<Skill>, String), String>),
+    /// Of [`DrillTask::KeepSkill`].
+    SkillKept(Skill, Result<(), String>),
+    /// Of [`DrillTask::Film`]: with the shot's number in the match.
+    Filmed(u32, Result<Box<FilmScene>, String>),
+}

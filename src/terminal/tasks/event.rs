@@ -1,0 +1,27 @@
+//! Everything that happens to the program: input, signals, and what has come of its tasks.
+
+use crossterm::event::Event as TerminalEvent;
+
+use crate::terminal::{
+    config::SettingsReport,
+    tasks::{drills::DrillReport, recommender::Answer, training::Report},
+};
+
+/// Something that the screen has to deal with.
+#[derive(Debug)]
+pub enum Event {
+    /// A key, a resize or another report of the terminal.
+    Input(TerminalEvent),
+    /// The terminal gives no input any more.
+    InputEnded,
+    /// A signal.
+    Signal(i32),
+    /// The coach has answered.
+    Answer(Answer),
+    /// Something has come of what the training screen wanted.
+    Report(Report),
+    /// Something has come of an errand of the drill screens.
+    Drill(DrillReport),
+    /// Something has come of an errand of the settings.
+    Settings(SettingsReport),
+}

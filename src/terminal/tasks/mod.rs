@@ -1,0 +1,297 @@
+//! What the training screen and the drill screens want done outside: each on a thread of its own, so that the screen never waits.
+
+pub mod advice;
+pub mod drills;
+pub mod event;
+mod policies;
+mod polling;
+mod practice;
+pub mod recommender;
+mod recorder;
+pub mod reel;
+mod trainer;
+pub mod training;
+
+use std::{
+    io,
+    path::PathBuf,
+    sync::mpsc::{Sender, channel},
+    thread::{self, JoinHandle},
+    time::Duration,
+};
+
+use crate::{
+    learning::run::{
+        POLICY,
+        examples::Examples,
+        follow::Follower,
+        list::{Listing, RunsFolder},
+        request::Request,
+    },
+    table::Table,
+    terminal::{
+        config::{SettingsFile, SettingsTask},
+        tasks::{
+            drills::DrillTask,
+            event::Event,
+            polling::Poll,
+            recorder::Recorder,
+            reel::Reel,
+            training::{Keeping, Launch, Report, Slot, Subscriptions},
+        },
+    },
+};
+
+pub use practice::PracticeWorker;
+
+/// Time between two looks at a run that is followed.
+const FOLLOW_INTERVAL: Duration = Duration::from_millis(100);
+/// Time between two looks at the list of runs.
+const LIST_INTERVAL: Duration = Duration::from_secs(2);
+
+/// Does what is wanted and sends what comes of it to the screen.
+#[derive(Debug)]
+pub struct Tasks {
+    to_screen: Sender<Event>,
+    wanted: Subscriptions,
+    list: Option<Poll>,
+    followed: [Option<Poll>; 2],
+    /// The thread of the drill screens, which starts with the first errand, and the way to it.
+    practice: Option<(Sender<DrillTask>, JoinHandle<()>)>,
+    /// To the thread of the settings' file, likewise.
+    setter: Option<Sender<SettingsTask>>,
+}
+
+impl Tasks {
+    /// Nothing is wanted yet.
+    pub fn new(to_screen: Sender<Event>) -> Self {
+        Self {
+            to_screen,
+            wanted: Subscriptions::default(),
+            list: None,
+            followed: [None, None],
+            practice: None,
+            setter: None,
+        }
+    }
+
+    /// Starts to find out what is wanted now, and stops what is not wanted any more.
+    ///
+    /// # Errors
+    /// A thread that could not be started.
+    pub fn want(&mut self, wanted: Subscriptions) -> io::Result<()> {
+        if wanted == self.wanted {
+            return Ok(());
+        }
+        if wanted.runs != self.wanted.runs {
+            // What is dropped stops.
+            self.list = None;
+            if let Some(folder) = wanted.runs.clone() {
+                self.list = Some(Poll::start("runs", LIST_INTERVAL, self.to_screen.clone(), list(folder))?);
+            }
+        }
+        for (n, slot) in Slot::ALL.into_iter().enumerate() {
+            if wanted.followed[n] != self.wanted.followed[n] {
+                self.followed[n] = None;
+                if let Some(folder) = wanted.followed[n].clone() {
+                    let caps = follow(slot, folder, self.to_screen.clone())?;
+                    self.followed[n] = Some(Poll::start("follower", FOLLOW_INTERVAL, self.to_screen.clone(), caps)?);
+                }
+            }
+        }
+        self.wanted = wanted;
+        Ok(())
+    }
+
+    /// The screen has taken a report: whoever sent it may look again. Event never pile up before a screen that is slow.
+    pub fn taken(&self, report: &Report) {
+        let poll = match report {
+            Report::Runs(_) => &self.list,
+            Report::Followed(Slot::Main, ..) => &self.followed[0],
+            Report::Followed(Slot::Compared, ..) => &self.followed[1],
+            _ => &None,
+        };
+        if let Some(poll) = poll {
+            poll.taken();
+        }
+    }
+
+    /// Does errands of the drill screens, one after the other. What takes long and writes nothing keeps no others waiting.
+    ///
+    /// # Errors
+    /// As [`Tasks::train`].
+    pub fn practise(&mut self, tasks: Vec<DrillTask>) -> io::Result<()> {
+        for task in tasks {
+            if matches!(task, DrillTask::Estimate(..)) {
+                let to_screen = self.to_screen.clone();
+                thread::Builder::new()
+                    .name("estimate".into())
+                    .spawn(move || PracticeWorker::default().work(task, &to_screen))?;
+                continue;
+            }
+            let practice = match self.practice.take() {
+                Some(practice) => practice,
+                None => practice::start(self.to_screen.clone())?,
+            };
+            // A thread that is gone has told so by its last report.
+            let _ = practice.0.send(task);
+            self.practice = Some(practice);
+        }
+        Ok(())
+    }
+
+    /// Reads or changes the settings' file, one errand after the other.
+    ///
+    /// # Errors
+    /// As [`Tasks::train`].
+    pub fn set(&mut self, task: SettingsTask) -> io::Result<()> {
+        let setter = match self.setter.take() {
+            Some(setter) => setter,
+            None => start_setter(self.to_screen.clone())?,
+        };
+        // The thread ends with the program alone.
+        let _ = setter.send(task);
+        self.setter = Some(setter);
+        Ok(())
+    }
+
+    /// Waits until what the player has noted is on the disk: the screen may close before.
+    pub fn finish(self) {
+        if let Some((tasks, thread)) = self.practice {
+            drop(tasks);
+            // A panic there was told when it happened.
+            let _ = thread.join();
+        }
+    }
+
+    /// Starts a process that trains.
+    ///
+    /// # Errors
+    /// A thread that could not be started, here and below.
+    pub fn train(&self, launch: Launch) -> io::Result<()> {
+        self.spawn("trainer", move || {
+            let failure = trainer::run(&launch.arguments).err()?;
+            Some(Report::TrainerFailed(launch.folder, failure))
+        })
+    }
+
+    /// Asks a run for something.
+    ///
+    /// # Errors
+    /// As [`Tasks::train`].
+    pub fn send(&self, request: Request, folder: PathBuf) -> io::Result<()> {
+        self.spawn("request", move || {
+            Some(Report::Sent(request, request.send(&folder).map_err(|error| error.to_string())))
+        })
+    }
+
+    /// Keeps a policy under a name.
+    ///
+    /// # Errors
+    /// As [`Tasks::train`].
+    pub fn keep(&self, keeping: Keeping) -> io::Result<()> {
+        self.spawn("keep", move || {
+            let outcome = policies::keep(&keeping);
+            Some(Report::Kept(keeping, outcome))
+        })
+    }
+
+    /// Reads the policy of the run in `folder`.
+    ///
+    /// # Errors
+    /// As [`Tasks::train`].
+    pub fn load_policy(&self, folder: PathBuf) -> io::Result<()> {
+        self.spawn("policy", move || {
+            let policy = policies::load(&folder);
+            Some(Report::Policy(folder, policy))
+        })
+    }
+
+    fn spawn(&self, name: &str, work: impl FnOnce() -> Option<Report> + Send + 'static) -> io::Result<()> {
+        let to_screen = self.to_screen.clone();
+        thread::Builder::new().name(name.into()).spawn(move || {
+            if let Some(report) = work() {
+                // A screen that is gone needs no answer.
+                let _ = to_screen.send(Event::Report(report));
+            }
+        })?;
+        Ok(())
+    }
+}
+
+/// Starts the thread of the settings' file.
+///
+/// # Errors
+/// A thread that could not be started.
+fn start_setter(to_screen: Sender<Event>) -> io::Result<Sender<SettingsTask>> {
+    let (sender, tasks) = channel::<SettingsTask>();
+    thread::Builder::new().name("settings".into()).spawn(move || {
+        let mut file = SettingsFile::default();
+        for task in tasks {
+            if to_screen.send(Event::Settings(file.run(&task))).is_err() {
+                break;
+            }
+        }
+    })?;
+    Ok(sender)
+}
+
+/// Lists the runs, and reports where anything has changed.
+fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
+    let (mut runs, mut before) = (RunsFolder::new(&folder), None);
+    move || {
+        let found = match runs.look() {
+            // Nothing has ever been trained.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Listing::default()),
+            found => found.map_err(|error| format!("{}: {error}", folder.display())),
+        };
+        if before.as_ref() == Some(&found) {
+            return None;
+        }
+        before = Some(found.clone());
+        Some(Report::Runs(found))
+    }
+}
+
+/// Follows a run. The shots of the one that is watched are recorded apart, and whether it has a policy is told.
+///
+/// # Errors
+/// A thread that could not be started.
+fn follow(
+    slot: Slot,
+    folder: PathBuf,
+    to_screen: Sender<Event>,
+) -> io::Result<impl FnMut() -> Option<Report> + Send + 'static> {
+    let recorder = if slot == Slot::Main { Some(recorder(folder.clone(), to_screen.clone())?) } else { None };
+    let mut follower = Follower::new(&folder);
+    let (mut table, mut examples, mut had_policy) = (None, None, None);
+    Ok(move || {
+        let update = follower.look();
+        // Told first, so that a run that has just finished never seems to have left none.
+        if slot == Slot::Main {
+            let has_policy = folder.join(POLICY).exists();
+            if had_policy.replace(has_policy) != Some(has_policy) {
+                // A screen that is gone needs no news.
+                let _ = to_screen.send(Event::Report(Report::HasPolicy(folder.clone(), has_policy)));
+            }
+        }
+        let mut update = update?;
+        table = update.config.as_ref().map(|config| config.table.clone()).or(table.take());
+        examples = update.examples.take().or(examples.take());
+        if let Some(recorder) = &recorder
+            && let Some(table) = table.clone()
+            && let Some(examples) = examples.take()
+        {
+            recorder.take((examples, table));
+        }
+        Some(Report::Followed(slot, folder.clone(), Box::new(update)))
+    })
+}
+
+/// Records the shots of the run in `folder`.
+fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Recorder<(Examples, Table)>> {
+    Recorder::start(move |(examples, table): (Examples, Table)| {
+        // A screen that is gone needs no shots.
+        let _ = to_screen.send(Event::Report(Report::Recorded(folder.clone(), Reel::record(&examples, &table))));
+    })
+}

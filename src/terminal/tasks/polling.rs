@@ -1,0 +1,96 @@
+//! Looking for something again and again on a thread, as long as somebody wants to know.
+
+use std::{
+    io,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc::Sender,
+    },
+    thread,
+    time::Duration,
+};
+
+use crate::terminal::tasks::{event::Event, training::Report};
+
+/// Looks without news after which they come less often: a run that has ended seldom changes.
+const PATIENT_LOOKS: u32 = 30;
+/// Time between two looks then, at least.
+const PATIENT_INTERVAL: Duration = Duration::from_millis(500);
+
+/// A thread that looks for news; dropping it ends the thread.
+#[derive(Debug)]
+pub struct Poll {
+    stop: Arc<AtomicBool>,
+    /// Whether the last news wait for the screen still.
+    waiting: Arc<AtomicBool>,
+}
+
+impl Poll {
+    /// Calls `look` every `interval` and sends what it finds.
+    ///
+    /// # Errors
+    /// A thread that could not be started.
+    pub fn start(
+        name: &str,
+        interval: Duration,
+        to_screen: Sender<Event>,
+        mut caps: impl FnMut() -> Option<Report> + Send + 'static,
+    ) -> io::Result<Self> {
+        let poll = Self { stop: Arc::default(), waiting: Arc::default() };
+        let (stop, waiting) = (Arc::clone(&poll.stop), Arc::clone(&poll.waiting));
+        thread::Builder::new().name(name.into()).spawn(move || {
+            let mut without = 0;
+            while !stop.load(Ordering::Relaxed) {
+                if !waiting.load(Ordering::Acquire) {
+                    without += 1;
+                    if let Some(report) = caps() {
+                        without = 0;
+                        waiting.store(true, Ordering::Release);
+                        if to_screen.send(Event::Report(report)).is_err() {
+                            break;
+                        }
+                    }
+                }
+                thread::sleep(if without < PATIENT_LOOKS { interval } else { interval.max(PATIENT_INTERVAL) });
+            }
+        })?;
+        Ok(poll)
+    }
+
+    /// The last news have arrived.
+    pub fn taken(&self) {
+        self.waiting.store(false, Ordering::Release);
+    }
+}
+
+impl Drop for Poll {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn news_wait_until_the_last_have_been_taken_and_end_with_the_poll() {
+        let (sender, receiver) = channel();
+        let caps = || Some(Report::Runs(Err(String::new())));
+        let poll = Poll::start("test", Duration::from_millis(1), sender, caps).unwrap();
+        let patience = Duration::from_secs(20);
+        assert!(receiver.recv_timeout(patience).is_ok());
+        assert!(receiver.recv_timeout(Duration::from_millis(50)).is_err(), "not before they are taken");
+        poll.taken();
+        assert!(receiver.recv_timeout(patience).is_ok());
+        drop(poll);
+        // The thread ends, and the channel with it.
+        assert!(
+            receiver
+                .recv_timeout(patience)
+                .is_err_and(|error| error == std::sync::mpsc::RecvTimeoutError::Disconnected)
+        );
+    }
+}

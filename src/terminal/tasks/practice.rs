@@ -1,0 +1,231 @@
+//! Practice: strokes are played and judged, and files written, one thing after the other on a thread of its own.
+
+use std::{
+    io,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc,
+        atomic::Ordering,
+        mpsc::{Receiver, Sender, channel},
+    },
+    thread::{self, JoinHandle},
+    time::Duration,
+};
+
+use crate::{
+    coach::{Coach, Request, Skill},
+    drills::{
+        Advice, Session, advise, chance,
+        estimate::{Estimate, estimate},
+        store::{Store, StoreError},
+    },
+    table::Table,
+    terminal::{
+        shot::{Shot, film::FilmScene},
+        tasks::{
+            drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
+            event::Event,
+        },
+    },
+};
+
+/// How long the coach looks for a stroke where the exercise has none: a player sees a position for longer before striking.
+const BUDGET: Duration = Duration::from_millis(300);
+
+/// Does errands of the drill screens.
+#[derive(Debug, Default)]
+pub struct PracticeWorker {
+    store: Option<Store>,
+    coach: Option<Coach>,
+    /// The stroke that is taught, and in which position.
+    taught: Option<(u64, Advice)>,
+    /// The session that was played last: it knows of strokes that were judged meanwhile.
+    last: Option<Session>,
+}
+
+impl PracticeWorker {
+    /// Does `errand` on this thread, and hands what comes of it to `reply`. A panic in a simulation becomes a sentence.
+    pub fn run(&mut self, task: DrillTask, reply: &mut dyn FnMut(DrillReport)) {
+        let failed = "the program failed on this position; move a ball a little and try again";
+        match task {
+            DrillTask::Load(places) => {
+                let store = self.store.insert(Store::new(&places));
+                reply(DrillReport::Loaded(Box::new(load(store))));
+            }
+            DrillTask::Advise(position) => {
+                if !position.cancel.load(Ordering::Relaxed) {
+                    let taught = catch_unwind(AssertUnwindSafe(|| self.teach(&position)));
+                    reply(DrillReport::AdviceState(position.id, taught.unwrap_or_else(|_| Err(failed.to_owned()))));
+                }
+            }
+            DrillTask::Play(stroke) => {
+                if catch_unwind(AssertUnwindSafe(|| self.play(*stroke, reply))).is_err() {
+                    reply(DrillReport::Played(Err(failed.to_owned()), Ok(())));
+                }
+            }
+            DrillTask::Save(session) => {
+                let saved = self.save(&session);
+                reply(DrillReport::Saved(session, saved));
+            }
+            DrillTask::SavePosition(exercise, replaces) => {
+                let saved = match self.store.as_ref().map(|store| store.save_position(&exercise, replaces)) {
+                    Some(Err(StoreError::Taken(_))) => Ok(false),
+                    Some(Err(error)) => Err(error.to_string()),
+                    Some(Ok(())) => Ok(true),
+                    None => Err(UNKNOWN.to_owned()),
+                };
+                reply(DrillReport::PositionSaved(exercise, saved));
+            }
+            DrillTask::RemovePosition(name) => {
+                let removed = self.with_store(|store| store.remove_position(&name));
+                reply(DrillReport::PositionRemoved(name, removed));
+            }
+            DrillTask::KeepSkill(skill) => {
+                let kept = self.with_store(|store| store.keep_skill(skill));
+                reply(DrillReport::SkillKept(skill, kept));
+            }
+            DrillTask::Film(filmed) => {
+                let played = catch_unwind(AssertUnwindSafe(|| FilmScene::new(&filmed)));
+                let failed =
+                    || Err(format!("the program failed on shot {} of the film; choose another", filmed.number));
+                let played = played.unwrap_or_else(|_| failed()).map(Box::new);
+                reply(DrillReport::Filmed(filmed.number, played));
+            }
+            DrillTask::Estimate(number, sessions) => {
+                let found = catch_unwind(AssertUnwindSafe(|| estimated(&sessions)));
+                reply(DrillReport::Estimated(number, found.unwrap_or_else(|_| Err(failed.to_owned()))));
+            }
+        }
+    }
+
+    /// The same with the screen's channel for answers.
+    pub(super) fn work(&mut self, task: DrillTask, to_screen: &Sender<Event>) {
+        self.run(task, &mut |report| {
+            // A screen that is gone needs no answer; what is to be kept is on the disk.
+            let _ = to_screen.send(Event::Drill(report));
+        });
+    }
+
+    fn with_store(&self, work: impl FnOnce(&Store) -> Result<(), StoreError>) -> Result<(), String> {
+        let store = self.store.as_ref().ok_or(UNKNOWN)?;
+        work(store).map_err(|error| error.to_string())
+    }
+
+    fn save(&self, session: &Session) -> Result<(), String> {
+        self.with_store(|store| store.save(session))
+    }
+
+    fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
+        self.taught = None;
+        let Position { table, layout, rule, skill, .. } = position;
+        let advice = if let Some(cue) = position.own {
+            Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) })
+        } else {
+            let cancel = Arc::clone(&position.cancel);
+            let request = Request {
+                rule: *rule,
+                skill: *skill,
+                plan: position.plan,
+                budget: BUDGET,
+                cancel,
+                ..Request::default()
+            };
+            let coach = self.coach(table)?;
+            advise(coach, layout, &request).map_err(|error| error.to_string())?
+        };
+        self.taught = advice.map(|advice| (position.id, advice));
+        let taught = advice.map(|advice| {
+            let source = if position.own.is_some() { "exercise" } else { "coach" };
+            let shot = Shot::new(table, layout, advice.cue, true, source).map_err(|error| error.to_string())?;
+            Ok(Taught { advice, is_own: position.own.is_some(), shot: Arc::new(shot) })
+        });
+        taught.transpose()
+    }
+
+    /// The coach for this table, made when it is first needed.
+    fn coach(&mut self, table: &Table) -> Result<&Coach, String> {
+        let known = self.coach.take().filter(|coach| coach.table() == table);
+        let coach = match known {
+            Some(known) => known,
+            None => Coach::new(table.clone()).map_err(|error| error.to_string())?,
+        };
+        Ok(self.coach.insert(coach))
+    }
+
+    /// Plays a stroke. The attempt is safe on the disk before it is told; how good the stroke was comes after that.
+    fn play(&mut self, stroke: Stroke, reply: &mut dyn FnMut(DrillReport)) {
+        let Stroke { mut session, meant, helped, position } = stroke;
+        self.remember(&mut session);
+        let place = session.position().ok().flatten();
+        let rule = session.exercise().map(|exercise| exercise.rule);
+        let (played, (table, layout), rule) = match (session.play(meant, helped), place, rule) {
+            (Ok(played), Some(place), Some(rule)) => (played, place, rule),
+            (Err(error), ..) => return reply(DrillReport::Played(Err(error.to_string()), Ok(()))),
+            _ => return,
+        };
+        let number = session.attempts.len() - 1;
+        // With the cue raised where it had to be.
+        let meant = session.attempts[number].meant.unwrap_or(meant);
+        if let Some((_, advice)) = self.taught.as_ref().filter(|(id, _)| *id == position) {
+            session.attempts[number].advised = Some(advice.cue);
+            session.attempts[number].advised_chance = Some(advice.chance.rate);
+        }
+        let saved = self.save(&session);
+        let shot = (!played.miscue).then(|| Shot::new(&table, &layout, played.stroke, played.made, "player"));
+        let shot = shot.and_then(Result::ok).map(Arc::new);
+        let next = session.position().ok().flatten();
+        reply(DrillReport::Played(Ok(Box::new(Outcome { session: session.clone(), played, shot, next })), saved));
+        let share = chance(session.skill, rule, &table, &layout, &meant).rate;
+        session.attempts[number].chance = Some(share);
+        // Where the disk refuses, that has just been told.
+        let _ = self.save(&session);
+        reply(DrillReport::Judged(session.id.clone(), number, share));
+        self.last = Some(session);
+    }
+
+    /// Strokes that were judged after the screen had sent the session on.
+    fn remember(&self, session: &mut Session) {
+        let Some(last) = self.last.as_ref().filter(|last| last.id == session.id) else { return };
+        for (attempt, known) in session.attempts.iter_mut().zip(&last.attempts) {
+            attempt.chance = attempt.chance.or(known.chance);
+        }
+    }
+}
+
+/// Starts the thread that does errands; it ends with the sender that is returned, once it has done what was sent.
+///
+/// # Errors
+/// A thread that could not be started.
+pub fn start(to_screen: Sender<Event>) -> io::Result<(Sender<DrillTask>, JoinHandle<()>)> {
+    let (sender, tasks): (Sender<DrillTask>, Receiver<DrillTask>) = channel();
+    let thread = thread::Builder::new().name("practice".into()).spawn(move || {
+        let mut practice = PracticeWorker::default();
+        for task in tasks {
+            practice.work(task, &to_screen);
+        }
+    })?;
+    Ok((sender, thread))
+}
+
+/// What is said before the first look at the disk, which nobody sees: that look comes first.
+const UNKNOWN: &str = "it is not known where to write";
+
+/// The player's skill, and how sure that is.
+fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {
+    let found = estimate(sessions).map_err(|error| error.to_string())?;
+    let Estimate { skill, attempts, .. } = found;
+    let sentence =
+        format!("your errors are {}, from {attempts} attempts at a real table; club is 2, beginner 4", found.words(1));
+    Ok((skill, sentence))
+}
+
+fn load(store: &Store) -> Loaded {
+    let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());
+    let mut troubles = sessions.notes;
+    troubles.extend(positions.notes);
+    let skill = own.unwrap_or_else(|error| {
+        troubles.push(error.to_string());
+        None
+    });
+    Loaded { sessions: sessions.items, positions: positions.items, skill: skill.map(|own| own.skill), troubles }
+}

@@ -1,0 +1,236 @@
+//! Asking the coach on a thread of its own, so that the screen never waits.
+
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, Sender, channel},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use crate::{
+    coach::{Coach, Improvement, Input, Recommendation, Request, Skill, map, margins, scatter},
+    learning::Policy,
+    physics::CueInputs,
+    table::{Layout, Table},
+    terminal::{
+        shot::Shot,
+        tasks::advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
+    },
+};
+
+/// Least time between two better shots that are told: each moves all paths on the screen, which is 3 KB on a slow link, and
+/// nobody follows more of them.
+const TELLING: Duration = Duration::from_millis(250);
+
+/// Time that a search is given where simulations are to end it.
+const NO_HURRY: Duration = Duration::from_hours(1);
+
+/// Columns and rows of a map: three sub-pixels a row on the largest panels.
+const CELLS: usize = 61;
+
+/// How far the map of direction and speed reaches to either side, in the player's standard errors, of which hardly any
+/// stroke is off by more than three; for a perfect player an expert's count.
+const REACH: f64 = 5.0;
+
+/// How far the map of the tip reaches beyond where the tip slips off: its edge is to be seen.
+const RIM: f64 = 1.1;
+
+/// Attempts whose ends are shown: enough to see the cloud, few enough to see through it.
+const ATTEMPTS: usize = 100;
+
+/// A question to the coach.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// Tells this question's answers from those to earlier questions.
+    pub id: u64,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// SeriesId advice is asked.
+    pub query: CoachQuery,
+    /// Which shot is to be studied; without one the coach is to find one.
+    pub shot: Option<CueInputs>,
+    /// Time that the coach may think.
+    pub budget: Duration,
+    /// Seed of the coach's random numbers.
+    pub seed: u64,
+    /// Set when nobody waits for the answer any more.
+    pub cancel: Arc<AtomicBool>,
+}
+
+/// What the coach says to a question.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The question's number.
+    pub id: u64,
+    /// What it says.
+    pub news: CoachNews,
+}
+
+/// What the coach says, bit by bit.
+#[derive(Clone, Debug)]
+pub enum CoachNews {
+    /// A better shot than any before; the search goes on.
+    Better(Proposal),
+    /// The end of the search.
+    Advice(Advice),
+    /// Why there is no advice.
+    Refused(String),
+    /// What a closer look at a shot has shown.
+    Study(Arc<ShotAnalysis>),
+    /// The end of the study: the advice on where the shot leaves the balls, if there is any.
+    Next(Option<Advice>),
+}
+
+/// The coach, made when it is first asked: reading its networks must not delay the first picture.
+#[derive(Debug, Default)]
+pub struct CoachWorker {
+    coach: Option<(CoachQuery, Coach)>,
+    /// Simulations that end a search instead of time.
+    simulations: Option<u64>,
+}
+
+impl CoachWorker {
+    /// One whose answers do not depend on time: so many simulations end a search.
+    pub const fn unhurried(simulations: u64) -> Self {
+        Self { coach: None, simulations: Some(simulations) }
+    }
+
+    /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
+    pub fn answer(&mut self, job: &Job, mut tell: impl FnMut(Answer)) {
+        let mut tell = |news| tell(Answer { id: job.id, news });
+        if let Some(cue) = job.shot {
+            let study = || self.study(job, &cue, &mut tell);
+            // Nobody asked for it: where it fails, there is nothing to see.
+            let next = catch_unwind(AssertUnwindSafe(study)).unwrap_or(None);
+            return tell(CoachNews::Next(next));
+        }
+        let found = || self.advice(job, &job.layout, &mut |proposal| tell(CoachNews::Better(proposal)));
+        let found = catch_unwind(AssertUnwindSafe(found))
+            .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
+        tell(found.map_or_else(CoachNews::Refused, CoachNews::Advice));
+    }
+
+    fn advice(&mut self, job: &Job, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
+        let CoachQuery { rule, skill, plan, .. } = job.query;
+        let request = Request {
+            rule,
+            skill,
+            plan,
+            budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
+            simulations: self.simulations.unwrap_or(u64::MAX),
+            seed: job.seed,
+            cancel: Arc::clone(&job.cancel),
+            ..Request::default()
+        };
+        let (is_hurried, mut told) = (self.simulations.is_none(), None);
+        let tell = |better: &Improvement| {
+            if is_hurried && told.is_some_and(|told: Instant| told.elapsed() < TELLING) {
+                return;
+            }
+            told = Some(Instant::now());
+            // What cannot be shown is not told; the answer will say why.
+            let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
+            tell(Proposal {
+                shot: Arc::new(shot),
+                kind: Some(better.kind),
+                made: Some(better.make_probability),
+                next: None,
+                is_early: true,
+            });
+        };
+        let found = self.coach(job)?.recommend_and_tell(layout, &request, tell).map_err(|error| error.to_string())?;
+        proposals(job, layout, &found)
+    }
+
+    /// Looks at a shot closely, then at the layout after it.
+    fn study(&mut self, job: &Job, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
+        let study = Arc::new(study(job, cue)?);
+        tell(CoachNews::Study(Arc::clone(&study)));
+        // After a miss it is the other's turn.
+        study.margins?;
+        let shot = Shot::new(&job.table, &job.layout, *cue, true, "").ok()?;
+        self.advice(job, &shot.recording.final_layout(), &mut |_| {}).ok()
+    }
+
+    /// The coach for the question's table, with its policy.
+    fn coach(&mut self, job: &Job) -> Result<&Coach, String> {
+        let fits =
+            |(query, coach): &(CoachQuery, Coach)| *coach.table() == job.table && query.has_policy_of(&job.query);
+        let known = self.coach.take().filter(fits);
+        let known = match (known, &job.query.policy) {
+            (Some(known), _) => known,
+            (None, policy) => {
+                let bundled = Coach::new(job.table.clone()).map_err(|error| error.to_string())?;
+                let coach = match policy {
+                    Some((_, policy)) => bundled.with_policy(Policy::clone(policy)),
+                    None => bundled,
+                };
+                (job.query.clone(), coach)
+            }
+        };
+        Ok(&self.coach.insert(known).1)
+    }
+}
+
+/// What the coach has found, ready to be shown.
+fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advice, String> {
+    let record = |cue, solved, source: String| {
+        Shot::new(&job.table, layout, cue, solved, source).map(Arc::new).map_err(|error| error.to_string())
+    };
+    let best = Proposal {
+        shot: record(found.cue, found.solved, found.source.to_string())?,
+        kind: found.kind,
+        made: found.make_probability,
+        next: found.next_probability,
+        is_early: false,
+    };
+    let others = found.alternatives.iter().map(|other| {
+        Ok(Proposal {
+            shot: record(other.cue, true, other.source.to_string())?,
+            kind: Some(other.kind),
+            made: other.make_probability,
+            next: other.next_probability,
+            is_early: false,
+        })
+    });
+    let proposals = std::iter::once(Ok(best)).chain(others).collect::<Result<_, String>>()?;
+    Ok(Advice { proposals, effort: Some(Effort { simulations: found.simulations, elapsed: found.elapsed }) })
+}
+
+/// Looks at a shot closely; breaks off between two parts where nobody waits any more.
+fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
+    let Job { table, layout, query: CoachQuery { rule, skill, .. }, .. } = job;
+    let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
+    let margins = margins(*rule, table, layout, cue);
+    go_on()?;
+    let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
+    let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
+    let tip = map(*rule, table, layout, &centre, (Input::Side, face), (Input::Height, face), CELLS);
+    go_on()?;
+    let usual = if skill.is_perfect() { Skill::EXPERT } else { *skill };
+    let span = (Input::Direction, REACH * usual.phi.to_degrees());
+    let aim = map(*rule, table, layout, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
+    go_on()?;
+    let scatter = scatter(*skill, *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
+    go_on().map(|()| ShotAnalysis { margins, tip, aim, scatter })
+}
+
+/// Starts the thread that answers questions through `reply`; it ends with the sender that is returned.
+pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Box<Job>>> {
+    let (sender, questions): (Sender<Box<Job>>, Receiver<Box<Job>>) = channel();
+    thread::Builder::new().name("coach".into()).spawn(move || {
+        let mut worker = CoachWorker::default();
+        for job in questions {
+            if !job.cancel.load(Ordering::Relaxed) {
+                worker.answer(&job, &reply);
+            }
+        }
+    })?;
+    Ok(sender)
+}

@@ -1,0 +1,107 @@
+//! What the training screen wants done outside, and what comes of it.
+
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use crate::{
+    learning::{
+        Policy,
+        run::{follow::Update, list::Listing, request::Request},
+    },
+    terminal::tasks::reel::Reel,
+};
+
+/// Which of the two runs that can be followed at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// The one that is watched.
+    Main,
+    /// The one that it is compared with.
+    Compared,
+}
+
+impl Slot {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Main, Self::Compared];
+}
+
+/// What is to be found out again and again, as long as it is wanted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Subscriptions {
+    /// The folder whose runs are listed.
+    pub runs: Option<PathBuf>,
+    /// The runs that are followed, in the order of [`Slot::ALL`].
+    pub followed: [Option<PathBuf>; 2],
+}
+
+/// A process that trains, to be started.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Launch {
+    /// What follows the program's name on its command line.
+    pub arguments: Vec<OsString>,
+    /// The run's folder.
+    pub folder: PathBuf,
+}
+
+impl Launch {
+    /// Going on with the run in `folder`.
+    pub fn resume(folder: &Path) -> Self {
+        let arguments = vec!["train".into(), "--resume".into(), folder.into()];
+        Self { arguments, folder: folder.to_owned() }
+    }
+}
+
+/// How a process that trains has failed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// The process, where it could be started.
+    pub process: Option<u32>,
+    /// Why it has failed, in a sentence.
+    pub sentence: String,
+}
+
+/// A policy to be kept under a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keeping {
+    /// The policy's file.
+    pub from: PathBuf,
+    /// Where policies are kept.
+    pub folder: PathBuf,
+    /// The name.
+    pub name: String,
+    /// Whether a policy that has the name already may be replaced.
+    pub replace: bool,
+}
+
+/// What has come of keeping a policy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// It is kept.
+    Done,
+    /// The name is taken.
+    Taken,
+}
+
+/// Something has come of what the training screen wanted. Where it failed, a sentence says why.
+#[derive(Debug)]
+pub enum Report {
+    /// The runs there are.
+    Runs(Result<Listing, String>),
+    /// Event of the run in a folder that is followed.
+    Followed(Slot, PathBuf, Box<Update>),
+    /// The latest shots of the run in a folder, recorded.
+    Recorded(PathBuf, Reel),
+    /// The process that was to train in a folder has failed.
+    TrainerFailed(PathBuf, Failure),
+    /// Whether the run in a folder that is followed has a policy by now.
+    HasPolicy(PathBuf, bool),
+    /// A run was asked for something.
+    Sent(Request, Result<(), String>),
+    /// A policy was to be kept.
+    Kept(Keeping, Result<Kept, String>),
+    /// The policy of the run in a folder.
+    Policy(PathBuf, Result<Arc<Policy>, String>),
+}

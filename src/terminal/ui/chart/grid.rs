@@ -1,0 +1,250 @@
+//! Dots in layers over a rectangle of cells, and how they become characters. Charts have a grid of their own beside the
+//! table's [`Canvas`](crate::terminal::ui::canvas::Canvas), because a cell of braille holds eight dots of one colour: of the
+//! layers that meet in it only the uppermost is shown, or one curve would be taken for the other.
+
+use ratatui::{
+    buffer::Cell,
+    layout::Rect,
+    style::{Color, Modifier, Style},
+    text::Span,
+};
+
+use crate::terminal::{
+    capabilities::{Capabilities, Glyphs},
+    ui::{Ui, theme::Theme},
+};
+
+/// What dots are part of, from the lowest to the uppermost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    /// Lines at the ticks.
+    Lines,
+    /// All values of the compared run, behind their mean.
+    OtherBand,
+    /// All values of the run itself, behind their mean.
+    OwnBand,
+    /// The compared run.
+    Other,
+    /// The run itself.
+    Own,
+}
+
+impl Layer {
+    const ALL: [Self; 5] = [Self::Lines, Self::OtherBand, Self::OwnBand, Self::Other, Self::Own];
+
+    fn color(self, theme: &Theme) -> Color {
+        match self {
+            Self::Lines => theme.grid,
+            Self::OtherBand => theme.bands[1],
+            Self::OwnBand => theme.bands[0],
+            Self::Other => theme.curves[1],
+            Self::Own => theme.curves[0],
+        }
+    }
+
+    /// Style in characters that show one layer a cell.
+    fn style(self, theme: &Theme) -> Style {
+        let style = theme.text().fg(self.color(theme));
+        if theme.is_mono() && self != Self::Own { style.add_modifier(Modifier::DIM) } else { style }
+    }
+
+    /// The mark where a cell is one dot; nothing for what would be taken for a curve.
+    const fn mark(self, unicode: bool) -> Option<char> {
+        match (self, unicode) {
+            (Self::Own, true) => Some('•'),
+            (Self::Other, true) => Some('·'),
+            (Self::Own, false) => Some('*'),
+            (Self::Other, false) => Some('.'),
+            (Self::OwnBand, _) => Some(':'),
+            (Self::OtherBand | Self::Lines, _) => None,
+        }
+    }
+}
+
+/// Which characters show the dots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Dots {
+    /// Two by four a cell.
+    Braille,
+    /// One by two a cell, each in its own colour.
+    Halves,
+    /// One a cell.
+    Marks,
+}
+
+impl Dots {
+    fn of(caps: Capabilities, theme: &Theme) -> Self {
+        match caps.glyphs {
+            Glyphs::Octant | Glyphs::Sextant if caps.unicode => Self::Braille,
+            // Half blocks tell two curves apart by colours alone.
+            Glyphs::Half if caps.unicode && !theme.is_mono() => Self::Halves,
+            _ => Self::Marks,
+        }
+    }
+
+    const fn size(self) -> (u16, u16) {
+        match self {
+            Self::Braille => (2, 4),
+            Self::Halves => (1, 2),
+            Self::Marks => (1, 1),
+        }
+    }
+}
+
+/// Dots over a rectangle of cells.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    area: Rect,
+    dots: Dots,
+    unicode: bool,
+    /// Whether lines at the ticks can be told from curves.
+    lined: bool,
+    /// For each layer and cell the dots that are set, the bits row by row.
+    cells: [Vec<u8>; Layer::ALL.len()],
+}
+
+impl Grid {
+    /// An empty grid over `area`.
+    pub fn new(area: Rect, caps: Capabilities, theme: &Theme) -> Self {
+        let count = usize::from(area.width) * usize::from(area.height);
+        let cells = std::array::from_fn(|_| vec![0; count]);
+        Self { area, dots: Dots::of(caps, theme), unicode: caps.unicode, lined: !theme.is_mono(), cells }
+    }
+
+    /// Columns and rows of dots.
+    pub fn size(&self) -> (i32, i32) {
+        let (across, down) = self.dots.size();
+        (i32::from(self.area.width) * i32::from(across), i32::from(self.area.height) * i32::from(down))
+    }
+
+    /// The row of cells in which a row of dots lies, from the top of the grid.
+    pub fn row_of(&self, y: i32) -> u16 {
+        (y / i32::from(self.dots.size().1)) as u16
+    }
+
+    /// The column of cells in which a column of dots lies, from the left of the grid.
+    pub fn column_of(&self, x: i32) -> u16 {
+        (x / i32::from(self.dots.size().0)) as u16
+    }
+
+    /// Sets the dots of column `x` from row `top` to row `bottom`, as far as they are on the grid.
+    pub fn set_run(&mut self, layer: Layer, x: i32, top: i32, bottom: i32) {
+        let (width, height) = self.size();
+        if !(0..width).contains(&x) {
+            return;
+        }
+        let (across, down) = self.dots.size();
+        let (across, down) = (i32::from(across), i32::from(down));
+        let (top, bottom) = (top.max(0), bottom.min(height - 1));
+        if top > bottom {
+            return;
+        }
+        // Cell by cell: thousands of runs make up a curve.
+        for row in top / down..=bottom / down {
+            let lines = (top - row * down).max(0)..=(bottom - row * down).min(down - 1);
+            let bits = lines.fold(0, |bits, line| bits | 1 << (line * across + x % across));
+            let cell = row as usize * usize::from(self.area.width) + (x / across) as usize;
+            self.cells[layer as usize][cell] |= bits;
+        }
+    }
+
+    /// Sets a thin line of dots at row `y`, so far apart that it stays behind everything else.
+    pub fn set_line(&mut self, y: i32) {
+        if !self.lined {
+            return;
+        }
+        for x in (0..self.size().0).step_by(4) {
+            self.set_run(Layer::Lines, x, y, y);
+        }
+    }
+
+    /// Writes the cells that have dots into `buffer`.
+    pub fn paint(&self, ui: &mut Ui) {
+        for row in 0..self.area.height {
+            for column in 0..self.area.width {
+                let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
+                if let Some(cell) = ui.buffer.cell_mut((self.area.x + column, self.area.y + row)) {
+                    self.paint_cell(index, ui.theme, cell);
+                }
+            }
+        }
+    }
+
+    fn uppermost(&self, index: usize, mask: u8) -> Option<Layer> {
+        Layer::ALL.into_iter().rev().find(|layer| self.cells[*layer as usize][index] & mask != 0)
+    }
+
+    fn paint_cell(&self, index: usize, theme: &Theme, cell: &mut Cell) {
+        let Some(layer) = self.uppermost(index, u8::MAX) else { return };
+        match self.dots {
+            Dots::Braille => {
+                cell.set_char(braille(self.cells[layer as usize][index])).set_style(layer.style(theme));
+            }
+            Dots::Halves if layer == Layer::Lines => {
+                cell.set_char('·').set_style(layer.style(theme));
+            }
+            Dots::Halves => {
+                let half = |mask| self.uppermost(index, mask).filter(|layer| *layer != Layer::Lines);
+                let color = |layer: Layer| layer.color(theme);
+                match (half(1).map(color), half(2).map(color)) {
+                    (Some(upper), Some(lower)) if upper == lower => cell.set_char('█').set_fg(upper),
+                    (Some(upper), Some(lower)) => cell.set_char('▀').set_fg(upper).set_bg(lower),
+                    (Some(upper), None) => cell.set_char('▀').set_fg(upper),
+                    (None, Some(lower)) => cell.set_char('▄').set_fg(lower),
+                    (None, None) => cell,
+                };
+            }
+            Dots::Marks => {
+                if let Some(mark) = layer.mark(self.unicode) {
+                    cell.set_char(mark).set_style(layer.style(theme));
+                }
+            }
+        }
+    }
+}
+
+/// Two cells of a layer, as they look beside text.
+pub fn sample(layer: Layer, caps: Capabilities, theme: &Theme) -> Span<'static> {
+    let mark = match Dots::of(caps, theme) {
+        Dots::Marks => layer.mark(caps.unicode).unwrap_or(' '),
+        Dots::Braille | Dots::Halves => '━',
+    };
+    Span::styled(mark.to_string().repeat(2), layer.style(theme))
+}
+
+/// The braille character with these dots, whose bits go row by row.
+fn braille(bits: u8) -> char {
+    /// Unicode numbers the dots down the columns, with the fourth row added later.
+    const PLACES: [u32; 8] = [0, 3, 1, 4, 2, 5, 6, 7];
+    let dots =
+        PLACES.iter().enumerate().filter(|(n, _)| bits >> n & 1 == 1).fold(0, |dots, (_, place)| dots | 1 << place);
+    char::from_u32(0x2800 + dots).unwrap_or(' ')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::{capabilities::Depth, keymap::remap::Keys};
+    use ratatui::buffer::Buffer;
+
+    #[test]
+    fn dots_become_the_braille_character_with_the_same_shape() {
+        assert_eq!((braille(0b11), braille(0b1100_0000), braille(0b0101_0101)), ('⠉', '⣀', '⡇'));
+        assert_eq!(braille(0b10), '⠈');
+    }
+
+    #[test]
+    fn of_two_curves_in_a_cell_the_upper_one_is_shown_alone() {
+        let caps = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+        let (theme, area) = (Theme::new(Depth::True), Rect::new(0, 0, 2, 1));
+        let mut grid = Grid::new(area, caps, &theme);
+        grid.set_run(Layer::Own, 0, 0, 0);
+        grid.set_run(Layer::Other, 1, -5, 100);
+        grid.set_run(Layer::Other, 3, 3, 3);
+        grid.set_run(Layer::Own, 4, 0, 0);
+        let mut buffer = Buffer::empty(area);
+        grid.paint(&mut Ui { theme: &theme, caps, keys: &Keys::default(), buffer: &mut buffer });
+        assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⠁", theme.curves[0]));
+        assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].fg), ("⢀", theme.curves[1]));
+    }
+}

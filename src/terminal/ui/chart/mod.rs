@@ -1,0 +1,246 @@
+//! A quantity of a training run over the shots played, as a curve that shows every peak.
+
+mod grid;
+mod label;
+mod scale;
+mod smooth;
+mod step;
+mod title;
+mod trace;
+
+use ratatui::{layout::Rect, text::Span};
+
+use crate::{
+    learning::run::history::{Odd, Point},
+    terminal::{
+        capabilities::Capabilities,
+        ui::{
+            Ui,
+            chart::{
+                grid::{Grid, Layer},
+                scale::{LABEL_WIDTH, Scale, shot_ticks},
+                step::Step,
+                trace::Frame,
+            },
+            text::write_right,
+            theme::Theme,
+        },
+    },
+};
+
+/// Columns left of the plot: the labels and the axis. Always as many, so that the plot stays where it is.
+const LEFT: u16 = LABEL_WIDTH as u16 + 1;
+/// Columns of a plot that are worth labels beside it.
+const LEAST_PLOT: u16 = 6;
+
+/// SeriesId values a curve shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeriesId {
+    /// The run itself.
+    Own,
+    /// The one it is compared with.
+    Other,
+}
+
+/// One run's values.
+#[derive(Clone, Copy, Debug)]
+pub struct Curve<'a> {
+    /// The values in the order of their shots.
+    pub points: &'a [Point],
+    /// All values of the quantity that were not finite, which the title names.
+    pub odd: Odd,
+    /// SeriesId they are.
+    pub whose: SeriesId,
+}
+
+/// What a chart shows, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Chart<'a> {
+    /// The quantity.
+    pub title: &'a str,
+    /// One run's values, or two runs'.
+    pub curves: &'a [Curve<'a>],
+    /// Shots at the left and the right edge, see [`whole`].
+    pub shots: (f64, f64),
+    /// The ends of the scale of values; without them, those of what is to be seen.
+    pub values: Option<(f64, f64)>,
+    /// Whether the scale is logarithmic.
+    pub log: bool,
+    /// The length of the exponential mean as a share of the range of shots; 0 shows the values alone.
+    pub smoothing: f64,
+    /// Whether keys act on this chart.
+    pub selected: bool,
+    /// Whether the last row has the labels of shots.
+    pub with_shots: bool,
+    /// What a shot is called there.
+    pub unit: &'a str,
+    /// A remark: in place of the curve where there is nothing to show yet, else in the title if there is room.
+    pub note: Option<&'a str>,
+}
+
+impl Chart<'_> {
+    /// The curves from the lowest to the uppermost.
+    fn ordered(&self) -> impl DoubleEndedIterator<Item = &Curve<'_>> {
+        let of = |whose| self.curves.iter().filter(move |curve| curve.whose == whose);
+        of(SeriesId::Other).chain(of(SeriesId::Own))
+    }
+
+    /// Over how many shots the curves are smoothed, if they are.
+    fn length(&self) -> Option<f64> {
+        let length = self.smoothing * (self.shots.1 - self.shots.0);
+        (length > 0.0 && length.is_finite()).then_some(length)
+    }
+
+    fn has_points(&self) -> bool {
+        self.curves.iter().any(|curve| !curve.points.is_empty())
+    }
+
+    /// Whether a point reaches into the range of shots.
+    fn shows(&self, point: &Point) -> bool {
+        point.shots.1 as f64 >= self.shots.0 && point.shots.0 as f64 <= self.shots.1
+    }
+
+    /// The scale for what is to be seen; where nothing is, for what lies around.
+    fn scale(&self) -> Option<Scale> {
+        let points = || self.curves.iter().flat_map(|curve| curve.points);
+        let ends = |(low, high): (f64, f64), (min, max): (f64, f64)| (low.min(min), high.max(max));
+        let spans = |all: bool| {
+            let visible = points().filter(move |point| all || self.shows(point));
+            visible.filter_map(|point| values(point, self.log)).reduce(ends)
+        };
+        let (min, max) = spans(false).or_else(|| spans(true)).map(|found| self.values.unwrap_or(found))?;
+        Some(if self.log { Scale::logarithmic(min, max) } else { Scale::linear(min, max) })
+    }
+}
+
+/// The smallest and the largest value of a point that its scale can show.
+fn values(point: &Point, log: bool) -> Option<(f64, f64)> {
+    let span = point.finite?;
+    if !log {
+        return Some((span.min, span.max));
+    }
+    let min = [span.min, span.mean, span.max].into_iter().find(|value| *value > 0.0)?;
+    Some((min, span.max))
+}
+
+/// The range of shots that shows all of a run that has played `shots` of `planned`: from 0 to the next of 1, 2 and 5 times
+/// a power of ten, or to the plan where that comes first. It grows seldom, because each time all is drawn anew.
+pub fn whole(shots: u64, planned: Option<u64>) -> (f64, f64) {
+    /// Shots that the smallest range shows.
+    const FIRST: u64 = 1000;
+    let next = Step::at_least(shots.max(FIRST) as f64).value();
+    let planned = planned.filter(|planned| *planned >= shots.max(1)).map(|planned| planned as f64);
+    (0.0, planned.map_or(next, |planned| planned.min(next)))
+}
+
+/// A piece of a curve, for a legend.
+pub fn curve_mark(whose: SeriesId, theme: &Theme, caps: Capabilities) -> Span<'static> {
+    let layer = match whose {
+        SeriesId::Own => Layer::Own,
+        SeriesId::Other => Layer::Other,
+    };
+    grid::sample(layer, caps, theme)
+}
+
+/// Draws `chart` into `area`: its title in the first row, the labels of values to the left of the plot, and those of shots
+/// in the last row if they are asked for.
+pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
+    let area = area.intersection(ui.buffer.area);
+    if area.is_empty() {
+        return;
+    }
+    ui.buffer.set_style(area, ui.theme.text());
+    let chart = &Chart { shots: sound(chart.shots), ..*chart };
+    title::draw_title(chart, area, ui);
+    let below = Rect { y: area.y + 1, height: area.height - 1, ..area };
+    let labelled = below.width >= LEFT + LEAST_PLOT;
+    let left = if labelled { LEFT } else { 0 };
+    let with_shots = chart.with_shots && labelled && below.height > 1;
+    let plot =
+        Rect { x: below.x + left, width: below.width - left, height: below.height - u16::from(with_shots), ..below };
+    if plot.is_empty() {
+        return;
+    }
+    let mut grid = Grid::new(plot, ui.caps, ui.theme);
+    if with_shots {
+        draw_shots(chart, area, plot, &grid, ui);
+    }
+    let scale = chart.scale();
+    if labelled {
+        draw_values(scale.as_ref(), plot, &mut grid, ui);
+    }
+    if let Some(scale) = scale {
+        draw_curves(chart, scale, &mut grid);
+        grid.paint(ui);
+    } else {
+        let words = match (chart.has_points(), chart.log) {
+            (false, _) => chart.note.unwrap_or("no data yet"),
+            (true, true) => "no values above 0",
+            (true, false) => "no finite values",
+        };
+        let row = plot.y + (plot.height - 1) / 2;
+        let x = plot.x + plot.width.saturating_sub(words.chars().count() as u16) / 2;
+        ui.buffer.set_stringn(x, row, words, usize::from(plot.right() - x), ui.theme.faint());
+    }
+}
+
+/// A range that one can divide by.
+fn sound(shots: (f64, f64)) -> (f64, f64) {
+    let start = if shots.0.is_finite() { shots.0.clamp(-1e18, 1e18) } else { 0.0 };
+    let end = if shots.1.is_finite() { shots.1.clamp(-1e18, 1e18) } else { 0.0 };
+    // Beyond 2^53 one more shot would change nothing.
+    if end - start >= 1.0 { (start, end) } else { (start, start + 1.0_f64.max(start.abs() * 1e-9)) }
+}
+
+fn draw_curves(chart: &Chart, scale: Scale, grid: &mut Grid) {
+    let frame = Frame { shots: chart.shots, scale };
+    for curve in chart.ordered() {
+        let (line, band) = match curve.whose {
+            SeriesId::Own => (Layer::Own, Layer::OwnBand),
+            SeriesId::Other => (Layer::Other, Layer::OtherBand),
+        };
+        let length = chart.length();
+        frame.draw_values(curve.points, if length.is_some() { band } else { line }, grid);
+        if let Some(length) = length {
+            frame.draw_smoothed(curve.points, length, line, grid);
+        }
+    }
+}
+
+/// The axis of values with its labels, left of the plot, and the lines behind the curves.
+fn draw_values(scale: Option<&Scale>, plot: Rect, grid: &mut Grid, ui: &mut Ui) {
+    let axis = plot.x - 1;
+    for row in plot.y..plot.bottom() {
+        ui.buffer.set_string(axis, row, ui.caps.pick("│", "|"), ui.theme.rule());
+    }
+    for tick in scale.map_or(Vec::new(), |scale| scale.ticks(plot.height)) {
+        let y = Frame::row_at(tick.at, grid).round() as i32;
+        let row = plot.y + grid.row_of(y).min(plot.height - 1);
+        grid.set_line(y);
+        ui.buffer.set_string(axis, row, ui.caps.pick("┤", "+"), ui.theme.rule());
+        write_right(ui.buffer, plot.x - LEFT, axis, row, &tick.label, ui.theme.faint());
+    }
+}
+
+/// The labels of shots below the plot.
+fn draw_shots(chart: &Chart, area: Rect, plot: Rect, grid: &Grid, ui: &mut Ui) {
+    let (mut free, mut first) = (area.x, None);
+    for tick in shot_ticks(chart.shots, plot.width) {
+        let column = plot.x + grid.column_of((tick.at * f64::from(grid.size().0 - 1)).round() as i32);
+        let width = tick.label.len() as u16;
+        let end = (column + 1 + width / 2).min(area.right());
+        let start = end.saturating_sub(width);
+        if start >= free {
+            ui.buffer.set_stringn(start, plot.bottom(), &tick.label, usize::from(width), ui.theme.faint());
+            free = end + 1;
+            first = first.or(Some(start));
+        }
+    }
+    let unit = area.x + 1;
+    if first.is_some_and(|first| first > unit + chart.unit.len() as u16) {
+        ui.buffer.set_string(unit, plot.bottom(), chart.unit, ui.theme.faint());
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,145 @@
+//! A chart's first row: what it shows and how, what is wrong with the data, and the last value.
+
+use ratatui::{
+    layout::Rect,
+    style::{Modifier, Style},
+    text::Span,
+};
+
+use crate::{
+    learning::run::history::{Odd, Point},
+    terminal::{
+        capabilities::Capabilities,
+        ui::{
+            Ui,
+            chart::{Chart, Curve, SeriesId, label::compact},
+            theme::Theme,
+        },
+    },
+};
+
+/// What is left out first where the row is too short.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Need {
+    Note,
+    Smoothing,
+    Log,
+    NotPositive,
+    Value,
+    Odd,
+    Title,
+}
+
+/// Between two parts on the right.
+const GAP: &str = "  ";
+
+/// A part of the row.
+struct Part {
+    need: Need,
+    text: String,
+    style: Style,
+}
+
+/// Draws the row over a rule.
+pub fn draw_title(chart: &Chart, area: Rect, ui: &mut Ui) {
+    let width = usize::from(area.width);
+    let rule = ui.caps.pick("─", "-");
+    ui.buffer.set_stringn(area.x, area.y, rule.repeat(width), width, ui.theme.rule());
+    let (mut left, mut right) = (left(chart, ui.theme, ui.caps), right(chart, ui.theme, ui.caps));
+    let taken = |parts: &[Part], gap: usize| {
+        let texts: usize = parts.iter().map(|part| Span::raw(&part.text).width()).sum();
+        texts + gap * parts.len().saturating_sub(1)
+    };
+    // The beginning of the rule, and a blank on either side of both texts.
+    while taken(&left, 0) + 3 + taken(&right, GAP.len()) + usize::from(!right.is_empty()) * 2 > width {
+        let least = left.iter().chain(&right).map(|part| part.need).min();
+        let Some(need) = least.filter(|need| *need < Need::Title) else { break };
+        left.retain(|part| part.need != need);
+        right.retain(|part| part.need != need);
+    }
+    let mut x = ui.buffer.set_stringn(area.x + u16::from(width > 1), area.y, " ", width.min(1), ui.theme.text()).0;
+    let mut write = |x: u16, text: &str, style: Style| {
+        let room = usize::from(area.right().saturating_sub(x));
+        ui.buffer.set_stringn(x, area.y, text, room, style).0
+    };
+    for part in &left {
+        x = write(x, &part.text, part.style);
+    }
+    write(x, " ", ui.theme.text());
+    if !right.is_empty() {
+        let mut x = area.right().saturating_sub(taken(&right, GAP.len()) as u16 + 2).max(x);
+        for (n, part) in right.iter().enumerate() {
+            x = write(x, if n == 0 { " " } else { GAP }, ui.theme.text());
+            x = write(x, &part.text, part.style);
+        }
+        write(x, " ", ui.theme.text());
+    }
+}
+
+fn left(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
+    let dot = caps.pick(" · ", " - ");
+    let style = match (chart.selected, theme.is_mono()) {
+        (true, true) => theme.accent().add_modifier(Modifier::REVERSED),
+        (true, false) => theme.accent(),
+        (false, _) => theme.text(),
+    };
+    let mut parts = vec![Part { need: Need::Title, text: chart.title.to_owned(), style }];
+    let mut add = |need, text: &str| parts.push(Part { need, text: format!("{dot}{text}"), style: theme.faint() });
+    if chart.log {
+        add(Need::Log, "log");
+    }
+    if chart.length().is_some() {
+        add(Need::Smoothing, &format!("smooth {} %", (1000.0 * chart.smoothing).round() / 10.0));
+    }
+    if let Some(note) = chart.note.filter(|_| chart.has_points()) {
+        add(Need::Note, note);
+    }
+    parts
+}
+
+fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for curve in chart.ordered().rev() {
+        let style = match (curve.whose, theme.is_mono()) {
+            (SeriesId::Own, _) => theme.warning(),
+            (SeriesId::Other, false) => theme.text().fg(theme.curves[1]),
+            (SeriesId::Other, true) => theme.text().add_modifier(Modifier::DIM),
+        };
+        let mut add = |need, text: String| parts.extend((!text.is_empty()).then_some(Part { need, text, style }));
+        add(Need::NotPositive, not_positive_words(curve, chart, caps));
+        add(Need::Odd, odd_words(curve.odd, caps));
+    }
+    let own = chart.curves.iter().find(|curve| curve.whose == SeriesId::Own);
+    let last = own.and_then(|own| own.points.iter().rfind(|point| point.shots.0 as f64 <= chart.shots.1));
+    if let Some((text, style)) = last.map(|last| value(last, theme, caps)) {
+        parts.push(Part { need: Need::Value, text, style });
+    }
+    parts
+}
+
+/// The last value, or what stands in its place.
+fn value(point: &Point, theme: &Theme, caps: Capabilities) -> (String, Style) {
+    let infinity = caps.pick("∞", "inf");
+    match (point.finite, point.odd) {
+        (Some(span), _) => (compact(span.mean), theme.text().fg(theme.curves[0])),
+        (None, Odd { above: 1.., .. }) => (infinity.to_owned(), theme.warning()),
+        (None, Odd { below: 1.., .. }) => (format!("-{infinity}"), theme.warning()),
+        (None, _) => ("NaN".to_owned(), theme.warning()),
+    }
+}
+
+/// The values that are not finite, if there are any.
+fn odd_words(odd: Odd, caps: Capabilities) -> String {
+    let (infinity, times) = (caps.pick("∞", "inf"), caps.pick("×", "x"));
+    let counts = [("NaN", "", odd.nan), ("", infinity, odd.above), ("-", infinity, odd.below)];
+    let named = counts.into_iter().filter(|(_, _, count)| *count > 0);
+    named.map(|(sign, name, count)| format!("{sign}{name} {times}{count}")).collect::<Vec<_>>().join(" ")
+}
+
+/// The values in the range of shots that a logarithmic scale leaves out, if there are any.
+fn not_positive_words(curve: &Curve, chart: &Chart, caps: Capabilities) -> String {
+    let visible = curve.points.iter().filter(|point| chart.log && chart.shows(point));
+    let count: u64 = visible.filter_map(|point| point.finite).map(|span| span.not_positive).sum();
+    let (name, times) = (caps.pick("≤0", "<=0"), caps.pick("×", "x"));
+    if count > 0 { format!("{name} {times}{count}") } else { String::new() }
+}

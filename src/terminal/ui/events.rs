@@ -1,0 +1,67 @@
+//! The panel of the shot's events: what has happened, what comes next and when.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    simulation::Event,
+    terminal::{
+        shot::{Shot, playback::passed},
+        ui::{Ui, panel::draw_title, text::write_right},
+        words::{event_words, fixed},
+    },
+};
+
+/// Where an event's time ends, where its words begin, and the decimals of its time: in a wide panel and in a narrow one.
+const COLUMNS: (u16, u16, usize) = (7, 9, 3);
+const NARROW_COLUMNS: (u16, u16, usize) = (6, 7, 2);
+/// Columns from which on there is room for the longest words.
+const WIDE: u16 = 29;
+/// Columns of an event's words and of how soon it comes.
+const WAIT: u16 = 34;
+
+/// Draws the panel: the stroke, then every event, with the one at `time` marked and in view. No time: the shot is not
+/// being watched.
+pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut Ui) {
+    let events: &[Event] = shot.map_or(&[], |shot| shot.recording.events());
+    // Row 0 is the stroke.
+    let present = time.map_or(0, |time| passed(events, time));
+    let mut title = vec![Span::styled("Events", ui.theme.text())];
+    if shot.is_some() {
+        title.push(Span::styled(format!(" {present}/{}", events.len()), ui.theme.faint()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    if shot.is_none() || inner.is_empty() {
+        return;
+    }
+    let is_narrow = inner.width < WIDE;
+    let (end, start, decimals) = if is_narrow { NARROW_COLUMNS } else { COLUMNS };
+    let rows = usize::from(inner.height);
+    let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
+    for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
+        let event = n.checked_sub(1).map(|n| events[n]);
+        let (at, words) =
+            event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind, ui.theme.cue_ball)));
+        let words = if is_narrow { words.trim_end_matches(" rail").replace("comes free", "is free") } else { words };
+        let style = match n {
+            _ if n == present => ui.theme.accent(),
+            _ if n < present => ui.theme.faint(),
+            _ => ui.theme.text(),
+        };
+        let pointer = if n == present { ui.caps.pick("▸", ">") } else { " " };
+        ui.buffer.set_string(inner.x, row, pointer, ui.theme.accent());
+        write_right(ui.buffer, inner.x, inner.x + end, row, &fixed(at, decimals), style);
+        ui.buffer.set_stringn(inner.x + start, row, &words, usize::from(inner.width.saturating_sub(start)), style);
+        if n == present + 1
+            && let Some(time) = time
+        {
+            let wait = format!("in {} s", fixed(at - time, 1));
+            if usize::from(inner.width) > usize::from(start) + words.len() + wait.len() + 2 {
+                let end = inner.right().saturating_sub(1).min(inner.x + start + WAIT);
+                write_right(ui.buffer, inner.x, end, row, &wait, ui.theme.faint());
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! What pages draw with: the drawing context, and the parts that several of them have.
+
+pub mod canvas;
+pub mod chart;
+pub mod events;
+pub mod field;
+pub mod geometry;
+pub mod message;
+pub mod panel;
+pub mod sight;
+pub mod spin;
+mod sprites;
+pub mod status_line;
+pub mod table;
+pub mod text;
+pub mod theme;
+pub mod tip;
+pub mod toasts;
+
+use ratatui::buffer::Buffer;
+
+use self::theme::Theme;
+use super::{capabilities::Capabilities, keymap::remap::Keys};
+
+/// The drawing context: where to draw, with which colours and characters, and the user's own keys to name.
+#[derive(Debug)]
+pub struct Ui<'a> {
+    /// The colours.
+    pub theme: &'a Theme,
+    /// What the terminal can show.
+    pub caps: Capabilities,
+    /// Keys of the user's own.
+    pub keys: &'a Keys,
+    /// The cells of the screen.
+    pub buffer: &'a mut Buffer,
+}

@@ -1,0 +1,152 @@
+//! The shooter's view of the first object ball: how much of it the cue ball covers where they meet.
+
+use ratatui::{
+    layout::Rect,
+    style::Modifier,
+    text::{Line, Span},
+};
+
+use crate::{
+    coach::Hit,
+    terminal::{
+        shot::Meeting,
+        ui::{
+            Ui,
+            canvas::Ink,
+            field::{Mark, draw_field},
+            panel::draw_title,
+            theme::Theme,
+        },
+        words::rail_name,
+    },
+};
+
+/// Rows of the words, and rows of a panel up to which only the title tells how full the ball is hit.
+const WORDS: u16 = 3;
+const LOW: u16 = 5;
+/// Fullness from which on a hit is called 100 % full, and has no side.
+const FULL: f64 = 0.995;
+/// Sign of the part of the object ball behind the cue ball.
+const BEHIND: char = '#';
+
+/// Draws the panel: how the object ball is met, or what is met before it.
+pub fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+    let mut title = vec![Span::styled("Sight", ui.theme.text())];
+    let is_low = area.height <= LOW + 1;
+    if let Some(Meeting::Ball(hit)) = meeting.filter(|_| is_low) {
+        title.push(Span::styled(format!(" {} %", percent(&hit)), ui.theme.accent()));
+    }
+    let inner = draw_title(&Line::from(title), area, ui);
+    let Some(Meeting::Ball(hit)) = meeting else {
+        return draw_words(&words_without_ball(meeting, ui.theme), inner, ui);
+    };
+    let words = if is_low { 0 } else { WORDS };
+    let picture = Rect { height: inner.height.saturating_sub(words), ..inner };
+    let drawn = draw_hit(&hit, picture, ui);
+    let side = match hit {
+        _ if hit.fullness > FULL => "",
+        Hit { left: true, .. } => "left side",
+        Hit { left: false, .. } => "right side",
+    };
+    let lines = [ui.theme.names()[hit.ball].to_owned(), format!("{} % full", percent(&hit)), side.to_owned()];
+    if !is_low {
+        draw_words(&lines, Rect { y: drawn.bottom(), height: words, ..inner }, ui);
+    }
+}
+
+fn percent(hit: &Hit) -> String {
+    format!("{:.0}", 100.0 * hit.fullness)
+}
+
+fn words_without_ball(meeting: Option<Meeting>, theme: &Theme) -> Vec<String> {
+    match meeting {
+        None | Some(Meeting::Ball(_)) => Vec::new(),
+        Some(Meeting::Nothing) => vec!["meets".to_owned(), "nothing".to_owned()],
+        Some(Meeting::Rail(rail, hit)) => {
+            let mut words = vec![rail_name(rail).to_owned(), "first".to_owned()];
+            if let Some(hit) = hit {
+                words[1].push_str(", then");
+                words.push(format!("{} {} %", theme.names()[hit.ball], percent(&hit)));
+            }
+            words
+        }
+    }
+}
+
+/// Writes each line in the middle.
+fn draw_words(lines: &[String], area: Rect, ui: &mut Ui) {
+    for (text, row) in lines.iter().zip(area.y..area.bottom()) {
+        let indent = area.width.saturating_sub(text.len() as u16) / 2;
+        ui.buffer.set_stringn(area.x + indent, row, text, usize::from(area.width - indent), ui.theme.text());
+    }
+}
+
+/// Draws both balls on a piece of cloth in the upper middle of `area`, as large as fits even if one only grazes the other;
+/// gives the cloth.
+fn draw_hit(hit: &Hit, area: Rect, ui: &mut Ui) -> Rect {
+    // A diameter in columns; a row is as high as two of them.
+    let diameter = (area.width / 2).min(2 * area.height);
+    let rows = diameter.div_ceil(2);
+    let cloth = Rect { x: area.x + (area.width - 2 * diameter) / 2, width: 2 * diameter, height: rows, ..area };
+    if cloth.is_empty() {
+        return cloth;
+    }
+    // In radii; the middle of the two is the middle of the picture.
+    let apart = 2.0 * (1.0 - hit.fullness).clamp(0.0, 1.0);
+    let cue = if hit.left { -0.5 * apart } else { 0.5 * apart };
+    let per_half = f64::from(2 * rows) / f64::from(diameter);
+    let (ink, letters) = (|color, weight| Ink { color, weight }, ui.theme.letters());
+    draw_field(cloth, ui.theme.cloth, ui, |x, y, _| {
+        let (x, y) = (2.0 * x, per_half * y);
+        let covers = |middle: f64| (x - middle).hypot(y) <= 1.0;
+        let ball = hit.ball;
+        let (ink, letter, style) = match (covers(cue), covers(-cue)) {
+            (true, true) => (ink(ui.theme.paths[ball], 3), BEHIND, ui.theme.ball(ball)),
+            (true, false) => (ink(ui.theme.balls[0], 3), letters[0], ui.theme.ball(0)),
+            (false, true) => (ink(ui.theme.balls[ball], 3), letters[ball], ui.theme.ball(ball)),
+            (false, false) => return None,
+        };
+        Some(Mark { ink, letter, style: style.add_modifier(Modifier::BOLD) })
+    });
+    cloth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::{
+        capabilities::{Capabilities, Depth, Glyphs},
+        keymap::remap::Keys,
+        ui::theme::Theme,
+    };
+    use glam::DVec2;
+    use ratatui::buffer::Buffer;
+
+    /// The picture in letters, a line a row, and how many of them are `letter`.
+    fn drawn(fullness: f64, left: bool, letter: char) -> (String, usize) {
+        let area = Rect::new(0, 0, 40, 10);
+        let caps = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+        let mut buffer = Buffer::empty(area);
+        let hit = Hit { ball: 2, place: DVec2::ZERO, fullness, left };
+        let (theme, keys) = (&Theme::new(Depth::Mono), &Keys::default());
+        let cloth = draw_hit(&hit, area, &mut Ui { theme, caps, keys, buffer: &mut buffer });
+        assert_eq!((cloth.width, cloth.height), (40, 10));
+        let text: String = buffer.content().iter().map(ratatui::buffer::Cell::symbol).collect();
+        (text[5 * 40..6 * 40].to_owned(), text.matches(letter).count())
+    }
+
+    #[test]
+    fn as_much_of_the_object_ball_is_covered_as_the_hit_is_full() {
+        let (row, covered) = drawn(0.0, true, BEHIND);
+        assert_eq!((row, covered), (format!("{}{}", "W".repeat(20), "R".repeat(20)), 0));
+        assert_eq!(drawn(1.0, true, 'R').1, 0);
+        let (row, _) = drawn(0.5, true, BEHIND);
+        assert_eq!(row.trim(), format!("{}{}{}", "W".repeat(10), "#".repeat(10), "R".repeat(10)));
+        let (row, _) = drawn(0.5, false, BEHIND);
+        assert_eq!(
+            row.trim(),
+            format!("{}{}{}", "R".repeat(10), "#".repeat(10), "W".repeat(10)),
+            "its right side is hit"
+        );
+    }
+}

@@ -1,0 +1,53 @@
+//! The panel of the cue ball's spin while a shot plays: a face, and words.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    shot::spin::Spin,
+    ui::{Ui, field::face_in, panel::draw_title, text::write_right, tip::draw_face},
+    words::fixed,
+};
+
+/// Rows and columns of the words, and rows up to which they stand beside the face.
+const WORDS: u16 = 3;
+const WORDS_WIDTH: u16 = 9;
+const LOW: u16 = 5;
+
+/// Draws the panel. The spot is where a level cue would have had to meet the ball to give it this spin at this speed.
+pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
+    let inner = draw_title(&Line::from(Span::styled("Spin", ui.theme.text())), area, ui);
+    let is_low = inner.height <= LOW;
+    let face = face_in(if is_low {
+        Rect { width: inner.width.saturating_sub(WORDS_WIDTH), ..inner }
+    } else {
+        Rect { height: inner.height - WORDS, ..inner }
+    });
+    let has_spin = !spin.word.is_empty();
+    draw_face(has_spin.then_some(spin.mark), None, face, ui);
+    // Whole numbers, for which few pictures change.
+    let side = fixed(spin.side.abs(), 0);
+    let words = match side.as_str() {
+        _ if !has_spin => ["at rest".to_owned(), String::new(), String::new()],
+        "0" => [spin.word.to_owned(), "no side".to_owned(), String::new()],
+        _ => {
+            let to = if spin.side > 0.0 { "left" } else { "right" };
+            [spin.word.to_owned(), format!("{to} side"), format!("{side} rad/s")]
+        }
+    };
+    let top = if is_low { inner.y } else { face.bottom() };
+    let styles = [ui.theme.text(), ui.theme.text(), ui.theme.faint()];
+    for ((text, style), row) in words.iter().zip(styles).zip(top..inner.bottom()) {
+        let text = text.as_str();
+        if is_low {
+            let is_wide = usize::from(inner.right() - face.right()) > text.len();
+            let text = if is_wide { text } else { text.trim_end_matches(" side") };
+            write_right(ui.buffer, face.right(), inner.right(), row, text, style);
+        } else {
+            let indent = inner.width.saturating_sub(text.len() as u16) / 2;
+            ui.buffer.set_stringn(inner.x + indent, row, text, usize::from(inner.width - indent), style);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The balls as small pictures in sub-pixels: always the same shape, wherever the ball lies.
+
+use glam::DVec2;
+
+use crate::terminal::{
+    capabilities::Glyphs,
+    ui::{
+        canvas::{Canvas, Ink, sub_pixels},
+        geometry::Mapping,
+    },
+};
+
+/// A ball is drawn a little larger than it is, since its corners are cut.
+const ROUNDED: f64 = 1.1;
+/// The smallest shape in sextants that looks round: anything smaller is a cross or a block. On a table of 60 columns it is
+/// almost twice the ball; the physics keeps the true size.
+const LEAST_SEXTANTS: (i32, i32) = (5, 4);
+/// The same in octants, whose sub-pixels are square.
+const LEAST_OCTANTS: (i32, i32) = (5, 5);
+/// The smallest shape in half blocks that can be seen.
+const LEAST_HALVES: (i32, i32) = (2, 2);
+
+/// A ball's picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sprite {
+    width: i32,
+    height: i32,
+}
+
+impl Sprite {
+    /// The picture of a ball at the scale of `mapping`.
+    pub fn new(mapping: &Mapping, glyphs: Glyphs) -> Self {
+        let drawn = mapping.ball_columns() * ROUNDED;
+        let (across, down) = sub_pixels(glyphs);
+        let least = match glyphs {
+            Glyphs::Octant => LEAST_OCTANTS,
+            Glyphs::Sextant => LEAST_SEXTANTS,
+            Glyphs::Half | Glyphs::Letters => LEAST_HALVES,
+        };
+        // A row is as high as two columns are wide. The width follows from the height, or rounding both would make some
+        // balls ovals.
+        let height = (drawn * f64::from(down) / 2.0).round();
+        let width = (height * 2.0 * f64::from(across) / f64::from(down)).round();
+        Self { width: (width as i32).max(least.0), height: (height as i32).max(least.1) }
+    }
+
+    /// Half of the picture's width in metres, at most.
+    pub fn reach(self, mapping: &Mapping, glyphs: Glyphs) -> f64 {
+        let (across, down) = sub_pixels(glyphs);
+        let scale = mapping.scale();
+        let half = |size: i32, sub_pixels: u16, cells: f64| 0.5 * f64::from(size) / (f64::from(sub_pixels) * cells);
+        half(self.width, across, scale.x).max(half(self.height, down, scale.y))
+    }
+
+    /// Whether the sub-pixel belongs to the ball, counted from the picture's upper left corner.
+    fn covers(self, x: i32, y: i32) -> bool {
+        let offset = |at: i32, size: i32| f64::from(2 * at + 1 - size) / f64::from(size);
+        (0..self.width).contains(&x)
+            && (0..self.height).contains(&y)
+            && offset(x, self.width).powi(2) + offset(y, self.height).powi(2) <= 1.0
+    }
+
+    /// The upper left corner of a ball at `place`: its centre snaps to the sub-pixels, so that the shape never changes.
+    fn corner(self, canvas: &Canvas, mapping: &Mapping, place: DVec2) -> (i32, i32) {
+        let (width, height) = canvas.size();
+        let bed = DVec2::new(f64::from(mapping.bed.width), f64::from(mapping.bed.height));
+        let at = mapping.to_cells(place) * DVec2::new(f64::from(width), f64::from(height)) / bed;
+        let x = (at.x - 0.5 * f64::from(self.width)).round() as i32;
+        let y = (at.y - 0.5 * f64::from(self.height)).round() as i32;
+        // A ball at a cushion is drawn on the cloth even where it is enlarged.
+        (x.clamp(0, (width - self.width).max(0)), y.clamp(0, (height - self.height).max(0)))
+    }
+
+    /// Draws the ball.
+    pub fn stamp(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
+        self.each(canvas, mapping, place, ink, |_, _| true);
+    }
+
+    /// Whether the outline differs from the ball.
+    pub fn has_hole(self) -> bool {
+        self.width.min(self.height) >= 3
+    }
+
+    /// Draws the ball's outline: a ball that is not there yet. A picture that is too small for a hole is left out.
+    pub fn stamp_ring(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
+        if !self.has_hole() {
+            return;
+        }
+        let inside = |x, y| [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| self.covers(x + dx, y + dy));
+        self.each(canvas, mapping, place, ink, |x, y| !inside(x, y));
+    }
+
+    fn each(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink, keep: impl Fn(i32, i32) -> bool) {
+        let (left, top) = self.corner(canvas, mapping, place);
+        for y in 0..self.height {
+            for x in 0..self.width {
+                if self.covers(x, y) && keep(x, y) {
+                    canvas.set(left + x, top + y, ink);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::Table;
+    use ratatui::layout::Rect;
+
+    fn shape(sprite: Sprite) -> Vec<String> {
+        (0..sprite.height)
+            .map(|y| (0..sprite.width).map(|x| if sprite.covers(x, y) { '#' } else { '.' }).collect())
+            .collect()
+    }
+
+    #[test]
+    fn balls_are_round_at_both_sizes() {
+        let sprite = |columns| {
+            let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, columns, 60));
+            shape(Sprite::new(&mapping, Glyphs::Sextant))
+        };
+        assert_eq!(sprite(64), [".###.", "#####", "#####", ".###."]);
+        assert_eq!(sprite(112), [".###.", "#####", "#####", ".###."]);
+        assert_eq!(
+            sprite(192),
+            ["..#####..", ".#######.", "#########", "#########", "#########", ".#######.", "..#####.."]
+        );
+    }
+}

@@ -1,0 +1,141 @@
+//! The cloth as it is painted: in sub-pixels, or in letters where there are none.
+
+use glam::DVec2;
+use ratatui::style::{Color, Modifier, Style};
+
+use crate::{
+    table::BALLS,
+    terminal::{
+        capabilities::Glyphs,
+        ui::{
+            Ui,
+            canvas::{Canvas, Ink},
+            table::scene::{Age, Scene},
+            theme::Theme,
+        },
+    },
+};
+
+/// Columns across a ball from which on its letter has room for brackets.
+const BRACKET_COLUMNS: f64 = 2.0;
+/// The signs of the balls' paths, white, yellow and red, and of their trails.
+const DOTS: [char; BALLS] = ['·', '+', '×'];
+const PLAIN_DOTS: [char; BALLS] = ['.', '+', 'x'];
+const TRAIL: [char; 2] = ['•', '*'];
+
+/// Weights of what shares a cell (see [`Ink`]).
+const DOT_WEIGHT: u8 = 3;
+const RING_WEIGHT: u8 = 4;
+/// More than that of all other sub-pixels of a cell together: a ball is to be whole, whatever passes by.
+const BALL_WEIGHT: u8 = 32;
+
+/// Draws the cloth with all that is on it.
+pub fn paint(scene: &Scene, ui: &mut Ui) {
+    match scene.view.caps.glyphs {
+        Glyphs::Letters => in_letters(scene, ui),
+        _ => in_blocks(scene, ui),
+    }
+}
+
+/// A path's colour: a trail has its ball's, and what is past sinks into the cloth.
+fn path_color(theme: &Theme, ball: usize, age: Age) -> Color {
+    match age {
+        Age::Ahead => theme.paths[ball],
+        Age::Trail => theme.balls[ball],
+        Age::Past => theme.past(ball),
+    }
+}
+
+fn in_blocks(scene: &Scene, ui: &mut Ui) {
+    let (theme, glyphs, mapping) = (scene.view.theme, scene.view.caps.glyphs, &scene.mapping);
+    let mut canvas = Canvas::new(mapping.bed, glyphs, theme.cloth);
+    let (width, height) = canvas.size();
+    let grid = DVec2::new(f64::from(width), f64::from(height))
+        / DVec2::new(f64::from(mapping.bed.width), f64::from(mapping.bed.height));
+    let dot = |canvas: &mut Canvas, place: DVec2, color: Color| {
+        let at = (mapping.to_cells(place) * grid).floor();
+        canvas.set(at.x as i32, at.y as i32, Ink { color, weight: DOT_WEIGHT });
+    };
+    let ring = |canvas: &mut Canvas, place: DVec2, color: Color| {
+        scene.sprite.stamp_ring(canvas, mapping, place, Ink { color, weight: RING_WEIGHT });
+    };
+    for spot in scene.spots() {
+        if spot.is_ball { ring(&mut canvas, spot.place, spot.color) } else { dot(&mut canvas, spot.place, spot.color) }
+    }
+    scene.each_dot(|ball, place, age| dot(&mut canvas, place, path_color(theme, ball, age)));
+    scene.each_cue_dot(|place| dot(&mut canvas, place, theme.cue));
+    for ghost in scene.ghosts() {
+        ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
+    }
+    for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
+        // A picture that is too small for a hole is paler instead.
+        if scene.sprite.has_hole() {
+            ring(&mut canvas, place, theme.balls[ball]);
+        } else {
+            let ink = Ink { color: theme.paths[ball], weight: RING_WEIGHT };
+            scene.sprite.stamp(&mut canvas, mapping, place, ink);
+        }
+    }
+    for ball in scene.order() {
+        let ink = Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
+        scene.sprite.stamp(&mut canvas, mapping, scene.balls[ball], ink);
+    }
+    canvas.paint(ui.buffer);
+}
+
+fn in_letters(scene: &Scene, ui: &mut Ui) {
+    let (theme, caps, mapping) = (scene.view.theme, scene.view.caps, &scene.mapping);
+    ui.buffer.set_style(mapping.bed, Style::new().bg(theme.cloth));
+    let mut put = |place: DVec2, symbol: char, color: Color| {
+        let cell = &mut ui.buffer[mapping.to_cell(place)];
+        cell.set_char(symbol).set_fg(color);
+    };
+    for spot in scene.spots() {
+        put(spot.place, spot.letter, spot.color);
+    }
+    let dots = theme.cue_ball.ordered(caps.pick(DOTS, PLAIN_DOTS));
+    let (letters, trail) = (theme.letters(), caps.pick(TRAIL[0], TRAIL[1]));
+    scene.each_dot(|ball, place, age| {
+        let sign = if age == Age::Trail { trail } else { dots[ball] };
+        put(place, sign, path_color(theme, ball, age));
+    });
+    for ghost in scene.ghosts() {
+        put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
+    }
+    for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
+        put(place, letters[ball].to_ascii_lowercase(), theme.paths[ball]);
+    }
+    for ball in scene.order() {
+        let (x, y) = mapping.to_cell(scene.balls[ball]);
+        let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
+        let text = if wide { format!("({})", letters[ball]) } else { letters[ball].to_string() };
+        let mut style = theme.ball_letter(ball).add_modifier(Modifier::BOLD);
+        if !scene.view.is_moving && ball == scene.view.front {
+            style = style.add_modifier(Modifier::REVERSED);
+        }
+        ui.buffer.set_stringn(x - u16::from(wide), y, &text, 3, style);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terminal::{capabilities::Depth, ui::theme::Palette};
+
+    #[test]
+    fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_palette() {
+        for palette in Palette::ALL.into_iter().filter(|palette| *palette != Palette::Mono) {
+            for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
+                let theme = Theme::of(palette, depth);
+                for ball in 0..BALLS {
+                    let [ahead, trail, past] =
+                        [Age::Ahead, Age::Trail, Age::Past].map(|age| path_color(&theme, ball, age));
+                    let all = [ahead, trail, past, theme.cloth];
+                    for (n, one) in all.iter().enumerate() {
+                        assert!(!all[n + 1..].contains(one), "{palette} {depth:?} ball {ball}: {all:?}");
+                    }
+                }
+            }
+        }
+    }
+}

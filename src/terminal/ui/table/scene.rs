@@ -1,0 +1,218 @@
+//! What there is to draw on the cloth and where: the paths, the balls that are not there, and the cue.
+
+use glam::DVec2;
+
+use crate::{
+    table::BALLS,
+    terminal::{
+        capabilities::Glyphs,
+        shot::DOT_SPACING,
+        ui::{
+            geometry::Mapping,
+            sprites::Sprite,
+            table::{Spot, TableView},
+        },
+    },
+};
+
+/// Columns from one dot of a path to the next, and where a dot is as wide as a column.
+const DOT_COLUMNS: f64 = 1.8;
+const HALF_DOT_COLUMNS: f64 = 2.6;
+/// Length of the cue that is drawn before the stroke, m, and the distance of its dots: it is to be a line.
+const CUE_LENGTH: f64 = 0.4;
+const CUE_DOTS: f64 = 0.008;
+/// How near dots come to a ball that is not there, against one that is: there is no fourth colour.
+const GHOST_CLEAR: f64 = 0.95;
+/// How long a ball's way counts as its trail, s.
+const TRAIL: f64 = 0.4;
+
+/// Where a part of a path stands against the present.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Age {
+    /// The ball has not come there yet.
+    Ahead,
+    /// It has just been there.
+    Trail,
+    /// It is past.
+    Past,
+}
+
+impl Age {
+    /// What happens at `event` as seen at `time`, both s since the stroke.
+    fn at(event: f64, time: f64) -> Self {
+        match time - event {
+            since if since < 0.0 => Self::Ahead,
+            since if since < TRAIL => Self::Trail,
+            _ => Self::Past,
+        }
+    }
+}
+
+/// A ball that is not there: the cue ball at a contact, or a ball where it comes to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ghost {
+    pub ball: usize,
+    pub place: DVec2,
+    pub age: Age,
+}
+
+/// What is drawn of a table, with where the balls are.
+pub struct Scene<'a> {
+    pub view: &'a TableView<'a>,
+    pub mapping: Mapping,
+    /// Seconds since the stroke, none while balls are placed.
+    pub time: f64,
+    /// Where the balls are drawn.
+    pub balls: [DVec2; BALLS],
+    pub sprite: Sprite,
+    /// Distance from a ball from which on something else can be drawn, m.
+    pub clear: f64,
+}
+
+impl Scene<'_> {
+    fn is_clear(&self, place: DVec2) -> bool {
+        self.balls.iter().all(|ball| ball.distance(place) > self.clear)
+    }
+
+    /// Half of a ball's picture, m.
+    fn reach(&self) -> f64 {
+        self.sprite.reach(&self.mapping, self.view.caps.glyphs)
+    }
+
+    /// What else is drawn: a ball that is not there may touch one that is.
+    pub fn spots(&self) -> impl Iterator<Item = &Spot> {
+        self.view.spots.iter().filter(|spot| spot.is_ball || self.is_clear(spot.place))
+    }
+
+    /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
+    pub fn each_dot(&self, mut draw: impl FnMut(usize, DVec2, Age)) {
+        let Some(shot) = self.view.shot else { return };
+        let columns = if self.view.caps.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
+        let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
+        let ghosts = self.ghosts();
+        let absent: Vec<DVec2> =
+            ghosts.iter().map(|ghost| ghost.place).chain(self.view.film.into_iter().flatten()).collect();
+        let is_free = |place: DVec2| absent.iter().all(|other| other.distance(place) > GHOST_CLEAR * self.clear);
+        let balls = if self.view.is_lean { 1 } else { BALLS };
+        for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
+            for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place) && is_free(dot.place)) {
+                draw(ball, dot.place, Age::at(dot.time, self.time));
+            }
+        }
+    }
+
+    /// Where balls will be: the cue ball at its first contact with each object ball, and all balls that move where they come
+    /// to rest.
+    pub fn ghosts(&self) -> Vec<Ghost> {
+        let Some(shot) = self.view.shot.filter(|_| self.view.film.is_none()) else { return Vec::new() };
+        // A ring that a picture would cut is no ring.
+        let clear = self.clear.max(2.0 * self.reach());
+        let is_clear = |place: DVec2, ball: usize| self.balls[ball].distance(place) > clear;
+        let contacts = shot.contacts.iter().filter_map(|contact| {
+            // Pictures that are larger than the balls are to touch where the balls do.
+            let way = contact.place - contact.other;
+            let place = contact.other + way.normalize_or(DVec2::X) * way.length().max(2.0 * self.reach());
+            let is_clear = (0..BALLS).all(|ball| ball == contact.ball || is_clear(place, ball));
+            is_clear.then(|| Ghost { ball: 0, place, age: Age::at(contact.time, self.time) })
+        });
+        let ends = shot.recording.final_layout().balls.into_iter().enumerate();
+        let ends = ends.filter(|&(_, place)| (0..BALLS).all(|ball| is_clear(place, ball)));
+        contacts.chain(ends.map(|(ball, place)| Ghost { ball, place, age: Age::Ahead })).collect()
+    }
+
+    /// Calls `draw` along the cue, as long as it has not struck.
+    pub fn each_cue_dot(&self, mut draw: impl FnMut(DVec2)) {
+        let Some(shot) = self.view.shot.filter(|_| self.view.time == 0.0) else { return };
+        let back = -DVec2::from_angle(shot.cue.phi);
+        let tip = 1.2 * self.reach();
+        let dots = (CUE_LENGTH / CUE_DOTS) as u32;
+        for dot in 0..=dots {
+            draw(self.balls[0] + back * (tip + f64::from(dot) * CUE_DOTS));
+        }
+    }
+
+    /// The balls, the selected one last, so that it lies on top.
+    pub fn order(&self) -> [usize; BALLS] {
+        let selected = self.view.front;
+        [(selected + 1) % BALLS, (selected + 2) % BALLS, selected]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        physics::CueInputs,
+        table::{Layout, Table},
+        terminal::{
+            capabilities::{Capabilities, Depth},
+            shot::Shot,
+            ui::{
+                table::{CLEAR_PICTURES, CLEAR_RADII, apart},
+                theme::Theme,
+            },
+        },
+    };
+    use ratatui::layout::Rect;
+
+    /// Calls `check` with the scene at `time` of a shot that meets both balls.
+    fn at(columns: u16, time: f64, check: impl Fn(&Scene, &Shot)) {
+        let table = Table::preset("textbook").unwrap();
+        let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
+        let shot = Shot::new(&table, &layout, CueInputs::parse("0,0.3,0,0,4").unwrap(), true, "test").unwrap();
+        assert_eq!(shot.contacts.len(), 2, "{:?}", shot.contacts);
+        let theme = Theme::new(Depth::True);
+        let view = TableView {
+            table: &table,
+            layout: &layout,
+            shot: Some(&shot),
+            time,
+            is_moving: true,
+            front: 0,
+            is_lean: false,
+            spots: &[],
+            film: None,
+            theme: &theme,
+            caps: Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true },
+        };
+        let mapping = Mapping::fit(&table, Rect::new(0, 0, columns, 60));
+        let sprite = Sprite::new(&mapping, Glyphs::Sextant);
+        let reach = sprite.reach(&mapping, Glyphs::Sextant);
+        let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
+        let balls = apart(shot.recording.positions(time), 2.0 * reach);
+        check(&Scene { view: &view, mapping, time, balls, sprite, clear }, &shot);
+    }
+
+    #[test]
+    fn the_cue_ball_has_a_ring_at_each_first_contact_and_no_ring_is_cut() {
+        for columns in [64, 112, 176] {
+            at(columns, 0.0, |scene, shot| {
+                let ghosts = scene.ghosts();
+                for contact in &shot.contacts {
+                    let is_there = |ghost: &Ghost| ghost.ball == 0 && ghost.place.distance(contact.place) < 0.07;
+                    assert!(ghosts.iter().any(is_there), "{columns}: {ghosts:?}");
+                }
+                let reach = scene.reach();
+                for ghost in &ghosts {
+                    let nearest = scene.balls.map(|ball| ball.distance(ghost.place)).into_iter().fold(1.0, f64::min);
+                    assert!(nearest > 2.0 * reach - 1e-9, "{columns}: {ghost:?} is {nearest} from a ball");
+                    scene.each_dot(|_, dot, _| assert!(dot.distance(ghost.place) > reach, "{columns}: {ghost:?}"));
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn a_path_ages_as_its_ball_runs_along_it() {
+        let count = |time: f64| {
+            let ages = std::cell::RefCell::new([0; 3]);
+            at(112, time, |scene, _| scene.each_dot(|_, _, age| ages.borrow_mut()[age as usize] += 1));
+            ages.into_inner()
+        };
+        let [ahead, trail, past] = count(0.0);
+        assert!(ahead > 20 && trail + past == 0, "before the stroke all of it lies ahead");
+        let [later, trail, past] = count(0.6);
+        assert!(later < ahead && trail > 3 && past > 3, "{later} {trail} {past}");
+        assert_eq!(count(60.0)[..2], [0, 0]);
+    }
+}

@@ -1,0 +1,176 @@
+//! The palettes to choose from: what each changes of the dark one.
+
+use std::{fmt, str::FromStr};
+
+use ratatui::style::{Color, Modifier};
+
+use crate::terminal::{
+    capabilities::Depth,
+    ui::theme::{Theme, resolve},
+};
+
+/// A choice of colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Palette {
+    /// Light on dark.
+    #[default]
+    Dark,
+    /// Dark on light.
+    Light,
+    /// White and pure colours on black.
+    HighContrast,
+    /// Colours that people tell apart who see no red, green or blue (Okabe and Ito 2008).
+    ColourBlind,
+    /// None: letters and modifiers alone.
+    Mono,
+}
+
+/// A name that no palette has.
+#[derive(Debug, thiserror::Error, PartialEq)]
+#[error("there is no theme \"{0}\"; use dark, light, high-contrast, colour-blind or mono")]
+pub struct UnknownPalette(String);
+
+impl Palette {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Dark, Self::Light, Self::HighContrast, Self::ColourBlind, Self::Mono];
+
+    /// Name in the configuration and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dark => "dark",
+            Self::Light => "light",
+            Self::HighContrast => "high-contrast",
+            Self::ColourBlind => "colour-blind",
+            Self::Mono => "mono",
+        }
+    }
+
+    /// The next one, and the first after the last.
+    #[must_use]
+    pub fn next(self) -> Self {
+        let place = Self::ALL.iter().position(|palette| *palette == self).unwrap_or(0);
+        Self::ALL[(place + 1) % Self::ALL.len()]
+    }
+}
+
+impl fmt::Display for Palette {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl FromStr for Palette {
+    type Err = UnknownPalette;
+
+    fn from_str(text: &str) -> Result<Self, UnknownPalette> {
+        Self::ALL.into_iter().find(|palette| palette.name() == text).ok_or_else(|| UnknownPalette(text.to_owned()))
+    }
+}
+
+impl Theme {
+    /// The colours of a palette for `depth`. The table itself looks the same in light and dark.
+    pub fn of(palette: Palette, depth: Depth) -> Self {
+        match palette {
+            Palette::Dark => Self::new(depth),
+            Palette::Light => light(depth),
+            Palette::HighContrast => high_contrast(depth),
+            Palette::ColourBlind => colour_blind(depth),
+            Palette::Mono => Self::new(Depth::Mono),
+        }
+    }
+}
+
+fn light(depth: Depth) -> Theme {
+    let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
+    let dark = Theme::new(depth);
+    Theme {
+        background: ink(0x00f6_f5f0, 255, Color::White),
+        text: ink(0x0022_282e, 235, Color::Black),
+        faint: ink(0x0062_6b74, 241, Color::DarkGray),
+        rule: ink(0x00b4_b7b8, 249, Color::DarkGray),
+        accent: ink(0x0094_4f00, 94, Color::Magenta),
+        good: ink(0x0016_6b30, 22, Color::Blue),
+        warning: ink(0x00b4_2a1e, 124, Color::Red),
+        // A white ball and a yellow one are seen on the cloth alone.
+        behind_ball: dark.cloth,
+        face: ink(0x00ff_fdf6, 231, Color::White),
+        miscue: ink(0x00a9_aaa4, 248, Color::DarkGray),
+        curves: [ink(0x0000_6685, 24, Color::Blue), ink(0x00a2_5200, 130, Color::Magenta)],
+        bands: [ink(0x00b2_d8e4, 152, Color::Cyan), ink(0x00ea_cfac, 223, Color::Gray)],
+        outcomes: [
+            ink(0x00e2_e2de, 253, Color::White),
+            ink(0x00b0_b5b8, 249, Color::Gray),
+            dark.outcomes[2],
+            dark.outcomes[3],
+            dark.outcomes[4],
+        ],
+        outline: ink(0x0022_282e, 235, Color::Black),
+        grid: ink(0x00cf_d2d4, 252, Color::Gray),
+        // Many terminals show bold words in the brighter one of the 16 colours, which is too pale here.
+        strong: if depth == Depth::Ansi { Modifier::empty() } else { Modifier::BOLD },
+        ..dark
+    }
+}
+
+fn high_contrast(depth: Depth) -> Theme {
+    let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
+    Theme {
+        background: ink(0x0000_0000, 16, Color::Black),
+        text: ink(0x00ff_ffff, 231, Color::White),
+        faint: ink(0x00cf_cfcf, 252, Color::Gray),
+        rule: ink(0x00a0_a0a0, 248, Color::Gray),
+        accent: ink(0x00ff_ff00, 226, Color::LightYellow),
+        mark: ink(0x00ff_ff00, 226, Color::LightYellow),
+        good: ink(0x0000_ff5f, 47, Color::LightGreen),
+        warning: ink(0x00ff_9a8a, 216, Color::LightRed),
+        cloth: ink(0x0000_3a5c, 17, Color::Blue),
+        cushion: ink(0x0000_5f87, 24, Color::Cyan),
+        wood: ink(0x0080_5020, 94, Color::DarkGray),
+        sight: ink(0x00ff_ffff, 231, Color::White),
+        cue: ink(0x00ff_d7a0, 223, Color::Gray),
+        balls: [
+            ink(0x00ff_ffff, 231, Color::White),
+            ink(0x00ff_d700, 220, Color::LightYellow),
+            ink(0x00ff_4d40, 203, Color::LightRed),
+        ],
+        behind_ball: ink(0x0000_0000, 16, Color::Black),
+        paths: [
+            ink(0x00d7_ffff, 195, Color::Gray),
+            ink(0x00ff_ea80, 228, Color::Yellow),
+            ink(0x00ff_a8a0, 217, Color::LightMagenta),
+        ],
+        way: ink(0x005f_ff87, 84, Color::LightGreen),
+        face: ink(0x00ff_ffff, 231, Color::White),
+        miscue: ink(0x009a_9a9a, 247, Color::DarkGray),
+        tip: ink(0x0000_40ff, 27, Color::Blue),
+        curves: [ink(0x0000_d7ff, 45, Color::LightCyan), ink(0x00ff_af00, 214, Color::LightYellow)],
+        bands: [ink(0x0000_5070, 23, Color::Blue), ink(0x0070_4800, 58, Color::DarkGray)],
+        outline: ink(0x00ff_ffff, 231, Color::White),
+        grid: ink(0x0060_6060, 241, Color::DarkGray),
+        ..Theme::new(depth)
+    }
+}
+
+fn colour_blind(depth: Depth) -> Theme {
+    let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
+    Theme {
+        accent: ink(0x00f0_e442, 227, Color::LightYellow),
+        mark: ink(0x00f0_e442, 227, Color::LightYellow),
+        good: ink(0x0056_b4e9, 74, Color::LightCyan),
+        warning: ink(0x00e6_9f00, 172, Color::LightRed),
+        cloth: ink(0x000b_4f7a, 24, Color::Blue),
+        cushion: ink(0x0007_3550, 23, Color::Cyan),
+        balls: [
+            ink(0x00ff_ffff, 231, Color::White),
+            ink(0x00f0_d942, 221, Color::LightYellow),
+            ink(0x00d5_5e00, 166, Color::Red),
+        ],
+        paths: [
+            ink(0x00b9_d3e8, 152, Color::Gray),
+            ink(0x00d8_ca6a, 185, Color::Yellow),
+            ink(0x00ee_8a45, 209, Color::LightRed),
+        ],
+        curves: [ink(0x0056_b4e9, 74, Color::LightCyan), ink(0x00e6_9f00, 172, Color::Yellow)],
+        ..Theme::new(depth)
+    }
+}

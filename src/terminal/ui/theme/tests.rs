@@ -1,0 +1,210 @@
+//! Whether the colours can be read and told apart, at every depth, and by people who see fewer of them.
+
+use ratatui::style::{Color, Modifier};
+
+use crate::terminal::{
+    capabilities::Depth,
+    ui::theme::{Palette, Theme},
+};
+
+/// The 16 colours as terminals have them, in the order of their codes: the Linux console (and VGA), xterm, Visual Studio Code.
+const SIXTEEN: [[u32; 16]; 3] = [
+    [
+        0x00_0000, 0xaa_0000, 0x00_aa00, 0xaa_5500, 0x00_00aa, 0xaa_00aa, 0x00_aaaa, 0xaa_aaaa, 0x55_5555, 0xff_5555,
+        0x55_ff55, 0xff_ff55, 0x55_55ff, 0xff_55ff, 0x55_ffff, 0xff_ffff,
+    ],
+    [
+        0x00_0000, 0xcd_0000, 0x00_cd00, 0xcd_cd00, 0x00_00ee, 0xcd_00cd, 0x00_cdcd, 0xe5_e5e5, 0x7f_7f7f, 0xff_0000,
+        0x00_ff00, 0xff_ff00, 0x5c_5cff, 0xff_00ff, 0x00_ffff, 0xff_ffff,
+    ],
+    [
+        0x00_0000, 0xcd_3131, 0x0d_bc79, 0xe5_e510, 0x24_72c8, 0xbc_3fbc, 0x11_a8cd, 0xe5_e5e5, 0x66_6666, 0xf1_4c4c,
+        0x23_d18b, 0xf5_f543, 0x3b_8eea, 0xd6_70d6, 0x29_b8db, 0xff_ffff,
+    ],
+];
+
+/// The 16 colours in the order of their codes.
+const CODES: [Color; 16] = [
+    Color::Black,
+    Color::Red,
+    Color::Green,
+    Color::Yellow,
+    Color::Blue,
+    Color::Magenta,
+    Color::Cyan,
+    Color::Gray,
+    Color::DarkGray,
+    Color::LightRed,
+    Color::LightGreen,
+    Color::LightYellow,
+    Color::LightBlue,
+    Color::LightMagenta,
+    Color::LightCyan,
+    Color::White,
+];
+
+/// What is left of linear colours for those who lack no cones, the long, the middle or the short ones (Machado, Oliveira and
+/// Fernandes 2009, severity 1).
+const EYES: [[[f64; 3]; 3]; 4] = [
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    [[0.152_286, 1.052_583, -0.204_868], [0.114_503, 0.786_281, 0.099_216], [-0.003_882, -0.048_116, 1.051_998]],
+    [[0.367_322, 0.860_646, -0.227_968], [0.280_085, 0.672_501, 0.047_413], [-0.011_820, 0.042_940, 0.968_881]],
+    [[1.255_528, -0.076_749, -0.178_779], [-0.078_411, 0.930_809, 0.147_602], [0.004_733, 0.691_367, 0.303_900]],
+];
+
+/// The palettes that have colours, at every depth that has some.
+fn themes() -> impl Iterator<Item = (Palette, Theme)> {
+    let palettes = Palette::ALL.into_iter().filter(|palette| *palette != Palette::Mono);
+    palettes.flat_map(|palette| {
+        [Depth::True, Depth::Indexed, Depth::Ansi].map(|depth| (palette, Theme::of(palette, depth)))
+    })
+}
+
+/// The number among the 16 colours, if it is one of them.
+fn code(color: Color) -> Option<usize> {
+    CODES.iter().position(|code| *code == color)
+}
+
+/// Linear red, green and blue of a colour on a terminal that has these 16.
+fn linear(color: Color, sixteen: &[u32; 16]) -> [f64; 3] {
+    let bytes = match color {
+        Color::Rgb(r, g, b) => [r, g, b],
+        Color::Indexed(index @ 232..) => [8 + 10 * (index - 232); 3],
+        Color::Indexed(index @ 16..) => {
+            [36, 6, 1].map(|place| [0, 95, 135, 175, 215, 255][usize::from((index - 16) / place % 6)])
+        }
+        _ => {
+            let code = code(color).unwrap_or_else(|| panic!("{color} is whatever the user has"));
+            let [_, r, g, b] = sixteen[code].to_be_bytes();
+            [r, g, b]
+        }
+    };
+    bytes.map(|part| {
+        let part = f64::from(part) / 255.0;
+        if part <= 0.040_45 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+    })
+}
+
+/// Contrast of two colours as the Web Content Accessibility Guidelines 2.1 define it, 1 to 21.
+fn contrast(one: Color, other: Color, sixteen: &[u32; 16]) -> f64 {
+    let luminance = |color| {
+        let [r, g, b] = linear(color, sixteen);
+        0.2126 * r + 0.7152 * g + 0.0722 * b
+    };
+    let (one, other) = (luminance(one), luminance(other));
+    (one.max(other) + 0.05) / (one.min(other) + 0.05)
+}
+
+/// Distance of two colours in CIELAB as these eyes see them; 2 can just be told apart side by side.
+fn distance(one: Color, other: Color, sixteen: &[u32; 16], eyes: &[[f64; 3]; 3]) -> f64 {
+    let lab = |color| {
+        let rgb = linear(color, sixteen);
+        let rgb = eyes.map(|row| row.iter().zip(rgb).map(|(weight, part)| weight * part).sum::<f64>().clamp(0.0, 1.0));
+        let f = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+        let x = f((0.4124 * rgb[0] + 0.3576 * rgb[1] + 0.1805 * rgb[2]) / 0.9505);
+        let y = f(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
+        let z = f((0.0193 * rgb[0] + 0.1192 * rgb[1] + 0.9505 * rgb[2]) / 1.089);
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    };
+    lab(one).iter().zip(lab(other)).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The pairs of `group` that are not so far apart on one of the terminals.
+fn too_near(what: &str, theme: &Theme, group: &[Color], least: f64, eyes: &[[f64; 3]; 3]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (n, one) in group.iter().enumerate() {
+        for other in &group[n + 1..] {
+            let distance = SIXTEEN.iter().map(|sixteen| distance(*one, *other, sixteen, eyes)).fold(f64::MAX, f64::min);
+            if distance < least {
+                found.push(format!("{what} {:?}: {one} and {other} are {distance:.1} apart", theme.depth));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn monochrome_never_names_a_colour() {
+    let theme = Theme::new(Depth::Mono);
+    assert_eq!(theme.ball(2).fg, Some(Color::Reset));
+    assert_eq!([theme.cloth, theme.outcomes[4], theme.outline], [Color::Reset; 3]);
+    assert_eq!(Theme::of(Palette::Light, Depth::Mono).balls, [Color::Reset; 3]);
+}
+
+#[test]
+fn text_can_be_read_in_every_palette_at_every_depth() {
+    for (palette, theme) in themes() {
+        let least = match (palette, theme.depth) {
+            (Palette::HighContrast, Depth::Ansi) => 5.0,
+            (Palette::HighContrast, _) => 7.0,
+            // The user's own grey decides.
+            (_, Depth::Ansi) => 3.9,
+            _ => 4.5,
+        };
+        for style in [theme.text(), theme.faint(), theme.accent(), theme.good(), theme.warning()] {
+            let color = style.fg.unwrap();
+            // Many terminals show bold words in the brighter one of the 16.
+            let bold = style.add_modifier.contains(Modifier::BOLD);
+            let brighter = code(color).filter(|code| bold && *code < 8).map(|code| CODES[code + 8]);
+            for color in [color].into_iter().chain(brighter) {
+                for sixteen in &SIXTEEN {
+                    let contrast = contrast(color, theme.background, sixteen);
+                    assert!(contrast >= least, "{palette} {:?}: {color} has {contrast:.1}", theme.depth);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn things_that_mean_something_are_told_apart_in_every_palette_at_every_depth() {
+    let mut found = Vec::new();
+    for (palette, theme) in themes() {
+        let mut check = |what: &str, group: &[Color], least: f64| {
+            found.extend(too_near(&format!("{palette} {what}"), &theme, group, least, &EYES[0]));
+        };
+        let [white, yellow, red] = theme.balls;
+        check("balls", &[white, yellow, red, theme.cloth], 30.0);
+        check("balls among words", &[white, yellow, red, theme.behind_ball], 30.0);
+        check("table", &[theme.cloth, theme.cushion, theme.wood], 12.0);
+        check("marks on the rails", &[theme.mark, theme.cushion, theme.wood], 30.0);
+        let [white, yellow, red] = theme.paths;
+        check("next way", &[&theme.balls[..], &[theme.way, theme.cloth]].concat(), 30.0);
+        check("both ways", &[theme.way, theme.paths[0]], 30.0);
+        check("paths", &[white, yellow, red, theme.cloth], 30.0);
+        let ([own, other], [own_band, other_band]) = (theme.curves, theme.bands);
+        check("curves", &[own, other, theme.background], 30.0);
+        check("own band", &[own, own_band, theme.background], 9.0);
+        check("other band", &[other, other_band, theme.background], 9.0);
+        check("news", &[theme.good, theme.warning, theme.text, theme.background], 20.0);
+        check("face", &[theme.face, theme.miscue, theme.tip], 12.0);
+        check("outcomes", &[&theme.outcomes[..], &[theme.tip]].concat(), 9.0);
+        check("outline", &[&theme.outcomes[1..], &[theme.outline]].concat(), 9.0);
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn people_who_see_fewer_colours_tell_the_balls_the_cloth_and_the_news_apart() {
+    let theme = Theme::of(Palette::ColourBlind, Depth::True);
+    for eyes in &EYES {
+        let check = |what: &str, group: &[Color]| {
+            assert_eq!(too_near(what, &theme, group, 20.0, eyes), Vec::<String>::new());
+        };
+        check("balls", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth]);
+        check("next way", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.way, theme.cloth]);
+        check("news", &[theme.good, theme.warning]);
+        check("curves", &theme.curves);
+    }
+}
+
+#[test]
+fn names_are_read_back_and_go_round() {
+    let mut palette = Palette::default();
+    for _ in Palette::ALL {
+        assert_eq!(palette.name().parse(), Ok(palette));
+        palette = palette.next();
+    }
+    assert_eq!(palette, Palette::default());
+    assert!("neon".parse::<Palette>().unwrap_err().to_string().contains("high-contrast"));
+}

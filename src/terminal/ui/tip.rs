@@ -1,0 +1,62 @@
+//! The cue ball's face: where the tip meets it and the circle beyond which it slips off, or how the ball spins.
+
+use glam::DVec2;
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    physics::CueInputs,
+    table::Table,
+    terminal::ui::{
+        Ui,
+        canvas::Ink,
+        field::{Dot, Mark, draw_field, face_in, spot_mark},
+        panel::draw_title,
+    },
+};
+
+/// Radius of the tip's contact as it is drawn, in ball radii; a real one is smaller than a sub-pixel.
+const TIP_RADIUS: f64 = 0.17;
+
+/// Weight of the tip in a cell that it shares with both parts of the face: more than the other sub-pixels of theirs, or the
+/// spot would lose a piece and fall apart.
+const TIP_WEIGHT: u8 = 24;
+const FACE_WEIGHT: u8 = 3;
+
+/// Draws the panel: where the tip meets the ball in the stroke `cue`, if there is one.
+pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, ui: &mut Ui) {
+    let title = Line::from(Span::styled("Tip", ui.theme.text()));
+    let inner = draw_title(&title, area, ui);
+    // In radii, right and up as the shooter sees it: positive `a` is on the left.
+    let tip = cue.map(|cue| DVec2::new(-cue.a, cue.b));
+    draw_face(tip, Some(table.miscue_limit.sqrt()), face_in(inner), ui);
+}
+
+/// Draws a ball's face with a spot, in radii to the right and up; grey beyond `limit`.
+pub fn draw_face(spot: Option<DVec2>, limit: Option<f64>, face: Rect, ui: &mut Ui) {
+    let spot = spot.map(|spot| Dot::new(spot, TIP_RADIUS, face, ui.caps));
+    let ink = |color| Ink { color, weight: FACE_WEIGHT };
+    draw_field(face, ui.theme.background, ui, |x, y, cell| {
+        let radius = x.hypot(y);
+        if spot.is_some_and(|spot| spot.covers(x, y)) {
+            return Some(spot_mark(ui.theme, TIP_WEIGHT));
+        }
+        let is_beyond = limit.is_some_and(|limit| radius > limit);
+        let face = ink(if is_beyond { ui.theme.miscue } else { ui.theme.face });
+        if cell == 0.0 {
+            // Three colours do not fit a cell: at the rim a bulge is better than a bite.
+            let is_face = radius <= 1.0 || spot.is_some_and(|spot| spot.shares_cell(x, y));
+            return is_face.then_some(Mark { ink: face, letter: ' ', style: ui.theme.text() });
+        }
+        // Lines instead of areas: the rim, the circle, and the centre.
+        let (letter, style) = match limit {
+            _ if (radius - (1.0 - cell / 2.0)).abs() <= 0.6 * cell => ('o', ui.theme.text()),
+            Some(limit) if (radius - limit).abs() <= 0.5 * cell => ('.', ui.theme.faint()),
+            _ if radius < 0.5 * cell => ('+', ui.theme.faint()),
+            _ => return None,
+        };
+        Some(Mark { ink: face, letter, style })
+    });
+}
