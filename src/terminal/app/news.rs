@@ -42,7 +42,7 @@ impl App {
         self.gather(false);
     }
 
-    /// Something has come of an errand of the drill screens; gives what is to be done next.
+    /// Something has come of a task of the drill screens; gives what is to be done next.
     pub fn receive_drill(&mut self, report: DrillReport) -> Vec<DrillTask> {
         let tasks = self.drills.receive(report);
         self.coach.own = self.drills.player.own.or(self.coach.own);

@@ -102,7 +102,7 @@ impl CommandPalette {
         commands
     }
 
-    /// KeyContext of the mark among `count` that are found; the screen below may have changed since it was set.
+    /// Place of the mark among `count` that are found; the screen below may have changed since it was set.
     pub fn mark(&self, count: usize) -> usize {
         self.mark.min(count.saturating_sub(1))
     }

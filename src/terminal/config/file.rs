@@ -1,4 +1,4 @@
-//! The user's file as it is read and written while the program runs, one errand after the other.
+//! The user's file as it is read and written while the program runs, one task after the other.
 
 use std::{
     io,
@@ -17,7 +17,7 @@ use crate::{
 /// Something that is to be done with the file.
 #[derive(Clone, Debug)]
 pub struct SettingsTask {
-    /// Tells this errand's report from those of others.
+    /// Tells this task's report from those of others.
     pub number: u64,
     /// The file.
     pub path: PathBuf,
@@ -25,10 +25,10 @@ pub struct SettingsTask {
     pub change: Option<Change>,
 }
 
-/// What has come of an errand.
+/// What has come of a task.
 #[derive(Clone, Debug)]
 pub struct SettingsReport {
-    /// The errand's number.
+    /// The task's number.
     pub number: u64,
     /// What the file says now; `None` where it cannot be read or is no TOML.
     pub settings: Option<Settings>,
@@ -49,7 +49,7 @@ pub struct SettingsFile {
 }
 
 impl SettingsFile {
-    /// Does an errand. What somebody else has changed since the last one is read, and not written over.
+    /// Does a task. What somebody else has changed since the last one is read, and not written over.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
         let SettingsTask { number, path, change } = task;
         let report = |settings, is_writable, troubles| SettingsReport {

@@ -2,7 +2,7 @@
 
 use std::{
     io,
-    sync::mpsc::{Receiver, RecvTimeoutError, Sender},
+    sync::mpsc::{Receiver, RecvTimeoutError},
     time::{Duration, Instant},
 };
 
@@ -22,7 +22,7 @@ use crate::{
         tasks::{
             Tasks,
             event::Event,
-            recommender::{self, Answer, CoachNews, Job},
+            recommender::{Answer, CoachNews},
             training::Report,
         },
     },
@@ -52,15 +52,11 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     info!(version = env!("CARGO_PKG_VERSION"), caps = ?app.caps(), "the screen opens");
     let (to_screen, news) = events::open()?;
     let session = TerminalGuard::start(app.wants_mouse())?;
-    let tasks = Tasks::new(to_screen.clone());
-    let jobs = recommender::spawn(move |answer| {
-        // A screen that is gone needs no answer.
-        let _ = to_screen.send(Event::Answer(answer));
-    })?;
+    let tasks = Tasks::new(to_screen);
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
     let mut runner =
-        Runner { app, session, jobs, tasks, places, ticked, remembered, forgotten: false, written: String::new() };
+        Runner { app, session, tasks, places, ticked, remembered, forgotten: false, written: String::new() };
     let end = runner.until_the_end(&news);
     runner.remember(true);
     info!(?end, "the screen closes");
@@ -86,7 +82,6 @@ const fn can_come_later(news: &Event) -> bool {
 struct Runner {
     app: App,
     session: TerminalGuard,
-    jobs: Sender<Box<Job>>,
     tasks: Tasks,
     places: Places,
     /// When the app was last told how much time had passed, or the program came back from being stopped.
@@ -224,7 +219,11 @@ impl Runner {
         match effect {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
-            Some(Effect::Recommend(job) | Effect::Study(job)) => self.ask(job),
+            Some(Effect::Recommend(job) | Effect::Study(job)) => {
+                if !self.tasks.ask(job)? {
+                    self.app.coach_lost();
+                }
+            }
             Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
             Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
@@ -235,12 +234,6 @@ impl Runner {
             None => {}
         }
         Ok(Next::GoOn)
-    }
-
-    fn ask(&mut self, job: Box<Job>) {
-        if self.jobs.send(job).is_err() {
-            self.app.coach_lost();
-        }
     }
 
     /// Gives the terminal back and stops until the shell continues the program.

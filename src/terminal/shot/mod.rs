@@ -35,7 +35,7 @@ pub struct Dot {
 pub struct Contact {
     /// The object ball, 1 or 2.
     pub ball: usize,
-    /// Condition, s.
+    /// When, s.
     pub time: f64,
     /// Where the cue ball is then, m.
     pub place: DVec2,

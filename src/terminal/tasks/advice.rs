@@ -9,7 +9,7 @@ use crate::{
     terminal::shot::Shot,
 };
 
-/// SeriesId advice is asked, and for what. Two are equal if they ask the same.
+/// Whose advice is asked, and for what. Two are equal if they ask the same.
 #[derive(Clone, Debug)]
 pub struct CoachQuery {
     /// A policy that somebody has trained, with its name; without one those that are bundled are asked.

@@ -107,7 +107,7 @@ pub struct Loaded {
     pub troubles: Vec<String>,
 }
 
-/// What has come of an errand.
+/// What has come of a task.
 #[derive(Clone, Debug)]
 pub enum DrillReport {
     /// Of [`DrillTask::Load`].

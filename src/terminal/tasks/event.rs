@@ -20,8 +20,8 @@ pub enum Event {
     Answer(Answer),
     /// Something has come of what the training screen wanted.
     Report(Report),
-    /// Something has come of an errand of the drill screens.
+    /// Something has come of a task of the drill screens.
     Drill(DrillReport),
-    /// Something has come of an errand of the settings.
+    /// Something has come of a task of the settings.
     Settings(SettingsReport),
 }

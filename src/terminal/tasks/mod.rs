@@ -7,16 +7,16 @@ mod policies;
 mod polling;
 mod practice;
 pub mod recommender;
-mod recorder;
 pub mod reel;
 mod trainer;
 pub mod training;
+mod worker;
 
 use std::{
     io,
     path::PathBuf,
-    sync::mpsc::{Sender, channel},
-    thread::{self, JoinHandle},
+    sync::{atomic::Ordering, mpsc::Sender},
+    thread,
     time::Duration,
 };
 
@@ -35,9 +35,10 @@ use crate::{
             drills::DrillTask,
             event::Event,
             polling::Poll,
-            recorder::Recorder,
+            recommender::{CoachWorker, Job},
             reel::Reel,
             training::{Keeping, Launch, Report, Slot, Subscriptions},
+            worker::Worker,
         },
     },
 };
@@ -56,10 +57,12 @@ pub struct Tasks {
     wanted: Subscriptions,
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
-    /// The thread of the drill screens, which starts with the first errand, and the way to it.
-    practice: Option<(Sender<DrillTask>, JoinHandle<()>)>,
-    /// To the thread of the settings' file, likewise.
-    setter: Option<Sender<SettingsTask>>,
+    /// The coach's thread; like those below it starts with its first task.
+    coach: Option<Worker<Box<Job>>>,
+    /// The thread that plays strokes and writes files for the drills.
+    practice: Option<Worker<DrillTask>>,
+    /// The thread of the settings' file.
+    settings: Option<Worker<SettingsTask>>,
 }
 
 impl Tasks {
@@ -70,9 +73,26 @@ impl Tasks {
             wanted: Subscriptions::default(),
             list: None,
             followed: [None, None],
+            coach: None,
             practice: None,
-            setter: None,
+            settings: None,
         }
+    }
+
+    /// Asks the coach; `false` if its thread is gone.
+    ///
+    /// # Errors
+    /// A thread that could not be started.
+    pub fn ask(&mut self, job: Box<Job>) -> io::Result<bool> {
+        let to_screen = self.to_screen.clone();
+        let mut coach = CoachWorker::default();
+        let work = move |job: Box<Job>| {
+            if !job.cancel.load(Ordering::Relaxed) {
+                // A screen that is gone needs no answer.
+                coach.answer(&job, |answer| drop(to_screen.send(Event::Answer(answer))));
+            }
+        };
+        Ok(started(&mut self.coach, "coach", work)?.give(job))
     }
 
     /// Starts to find out what is wanted now, and stops what is not wanted any more.
@@ -103,7 +123,7 @@ impl Tasks {
         Ok(())
     }
 
-    /// The screen has taken a report: whoever sent it may look again. Event never pile up before a screen that is slow.
+    /// The screen has taken a report: whoever sent it may look again. Events never pile up before a screen that is slow.
     pub fn taken(&self, report: &Report) {
         let poll = match report {
             Report::Runs(_) => &self.list,
@@ -116,7 +136,7 @@ impl Tasks {
         }
     }
 
-    /// Does errands of the drill screens, one after the other. What takes long and writes nothing keeps no others waiting.
+    /// Does tasks of the drill screens, one after the other. What takes long and writes nothing keeps no others waiting.
     ///
     /// # Errors
     /// As [`Tasks::train`].
@@ -129,38 +149,30 @@ impl Tasks {
                     .spawn(move || PracticeWorker::default().work(task, &to_screen))?;
                 continue;
             }
-            let practice = match self.practice.take() {
-                Some(practice) => practice,
-                None => practice::start(self.to_screen.clone())?,
-            };
+            let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
+            let work = move |task| practice.work(task, &to_screen);
             // A thread that is gone has told so by its last report.
-            let _ = practice.0.send(task);
-            self.practice = Some(practice);
+            started(&mut self.practice, "practice", work)?.give(task);
         }
         Ok(())
     }
 
-    /// Reads or changes the settings' file, one errand after the other.
+    /// Reads or changes the settings' file, one task after the other.
     ///
     /// # Errors
     /// As [`Tasks::train`].
     pub fn set(&mut self, task: SettingsTask) -> io::Result<()> {
-        let setter = match self.setter.take() {
-            Some(setter) => setter,
-            None => start_setter(self.to_screen.clone())?,
-        };
-        // The thread ends with the program alone.
-        let _ = setter.send(task);
-        self.setter = Some(setter);
+        let (to_screen, mut file) = (self.to_screen.clone(), SettingsFile::default());
+        // A screen that is gone needs no answer.
+        let work = move |task| drop(to_screen.send(Event::Settings(file.run(&task))));
+        started(&mut self.settings, "settings", work)?.give(task);
         Ok(())
     }
 
     /// Waits until what the player has noted is on the disk: the screen may close before.
     pub fn finish(self) {
-        if let Some((tasks, thread)) = self.practice {
-            drop(tasks);
-            // A panic there was told when it happened.
-            let _ = thread.join();
+        if let Some(practice) = self.practice {
+            practice.finish();
         }
     }
 
@@ -219,21 +231,20 @@ impl Tasks {
     }
 }
 
-/// Starts the thread of the settings' file.
+/// The worker, which is started where there is none.
 ///
 /// # Errors
 /// A thread that could not be started.
-fn start_setter(to_screen: Sender<Event>) -> io::Result<Sender<SettingsTask>> {
-    let (sender, tasks) = channel::<SettingsTask>();
-    thread::Builder::new().name("settings".into()).spawn(move || {
-        let mut file = SettingsFile::default();
-        for task in tasks {
-            if to_screen.send(Event::Settings(file.run(&task))).is_err() {
-                break;
-            }
-        }
-    })?;
-    Ok(sender)
+fn started<'a, T: Send + 'static>(
+    worker: &'a mut Option<Worker<T>>,
+    name: &str,
+    work: impl FnMut(T) + Send + 'static,
+) -> io::Result<&'a Worker<T>> {
+    let known = match worker.take() {
+        Some(known) => known,
+        None => Worker::start(name, work)?,
+    };
+    Ok(worker.insert(known))
 }
 
 /// Lists the runs, and reports where anything has changed.
@@ -282,15 +293,15 @@ fn follow(
             && let Some(table) = table.clone()
             && let Some(examples) = examples.take()
         {
-            recorder.take((examples, table));
+            recorder.give((examples, table));
         }
         Some(Report::Followed(slot, folder.clone(), Box::new(update)))
     })
 }
 
 /// Records the shots of the run in `folder`.
-fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Recorder<(Examples, Table)>> {
-    Recorder::start(move |(examples, table): (Examples, Table)| {
+fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Examples, Table)>> {
+    Worker::of_the_newest("recorder", move |(examples, table): (Examples, Table)| {
         // A screen that is gone needs no shots.
         let _ = to_screen.send(Event::Report(Report::Recorded(folder.clone(), Reel::record(&examples, &table))));
     })

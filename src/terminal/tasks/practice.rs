@@ -1,14 +1,8 @@
 //! Practice: strokes are played and judged, and files written, one thing after the other on a thread of its own.
 
 use std::{
-    io,
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{
-        Arc,
-        atomic::Ordering,
-        mpsc::{Receiver, Sender, channel},
-    },
-    thread::{self, JoinHandle},
+    sync::{Arc, atomic::Ordering, mpsc::Sender},
     time::Duration,
 };
 
@@ -32,7 +26,7 @@ use crate::{
 /// How long the coach looks for a stroke where the exercise has none: a player sees a position for longer before striking.
 const BUDGET: Duration = Duration::from_millis(300);
 
-/// Does errands of the drill screens.
+/// Does tasks of the drill screens.
 #[derive(Debug, Default)]
 pub struct PracticeWorker {
     store: Option<Store>,
@@ -44,7 +38,7 @@ pub struct PracticeWorker {
 }
 
 impl PracticeWorker {
-    /// Does `errand` on this thread, and hands what comes of it to `reply`. A panic in a simulation becomes a sentence.
+    /// Does `task` on this thread, and hands what comes of it to `reply`. A panic in a simulation becomes a sentence.
     pub fn run(&mut self, task: DrillTask, reply: &mut dyn FnMut(DrillReport)) {
         let failed = "the program failed on this position; move a ball a little and try again";
         match task {
@@ -190,21 +184,6 @@ impl PracticeWorker {
             attempt.chance = attempt.chance.or(known.chance);
         }
     }
-}
-
-/// Starts the thread that does errands; it ends with the sender that is returned, once it has done what was sent.
-///
-/// # Errors
-/// A thread that could not be started.
-pub fn start(to_screen: Sender<Event>) -> io::Result<(Sender<DrillTask>, JoinHandle<()>)> {
-    let (sender, tasks): (Sender<DrillTask>, Receiver<DrillTask>) = channel();
-    let thread = thread::Builder::new().name("practice".into()).spawn(move || {
-        let mut practice = PracticeWorker::default();
-        for task in tasks {
-            practice.work(task, &to_screen);
-        }
-    })?;
-    Ok((sender, thread))
 }
 
 /// What is said before the first look at the disk, which nobody sees: that look comes first.

@@ -5,9 +5,7 @@ use std::{
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
-        mpsc::{Receiver, Sender, channel},
     },
-    thread,
     time::{Duration, Instant},
 };
 
@@ -51,7 +49,7 @@ pub struct Job {
     pub table: Table,
     /// Where the balls lie.
     pub layout: Layout,
-    /// SeriesId advice is asked.
+    /// Whose advice is asked.
     pub query: CoachQuery,
     /// Which shot is to be studied; without one the coach is to find one.
     pub shot: Option<CueInputs>,
@@ -219,18 +217,4 @@ fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
     go_on()?;
     let scatter = scatter(*skill, *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
     go_on().map(|()| ShotAnalysis { margins, tip, aim, scatter })
-}
-
-/// Starts the thread that answers questions through `reply`; it ends with the sender that is returned.
-pub fn spawn(reply: impl Fn(Answer) + Send + 'static) -> std::io::Result<Sender<Box<Job>>> {
-    let (sender, questions): (Sender<Box<Job>>, Receiver<Box<Job>>) = channel();
-    thread::Builder::new().name("coach".into()).spawn(move || {
-        let mut worker = CoachWorker::default();
-        for job in questions {
-            if !job.cancel.load(Ordering::Relaxed) {
-                worker.answer(&job, &reply);
-            }
-        }
-    })?;
-    Ok(sender)
 }

@@ -90,7 +90,7 @@ pub enum Kept {
 pub enum Report {
     /// The runs there are.
     Runs(Result<Listing, String>),
-    /// Event of the run in a folder that is followed.
+    /// News of the run in a folder that is followed.
     Followed(Slot, PathBuf, Box<Update>),
     /// The latest shots of the run in a folder, recorded.
     Recorded(PathBuf, Reel),

@@ -164,7 +164,7 @@ impl CoachPage {
             let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
             let proposal = &advised.choice().proposal;
             self.message = Some(match chance(proposal, &advised.query) {
-                // SeriesId chance it is stands above the list, and one row is all there is.
+                // Whose chance it is stands above the list, and one row is all there is.
                 Some(chance) => Message::good(format!("{words}: {chance}{}", contact(proposal, cue_ball))),
                 None => news(proposal, None, &advised.query, cue_ball).after(&words),
             });

@@ -96,7 +96,7 @@ pub struct CoachPage {
     pub playback: Playback,
     /// What the status line says.
     pub message: Option<Message>,
-    /// SeriesId advice is asked, and for what.
+    /// Whose advice is asked, and for what.
     pub query: CoachQuery,
     /// The user's own skill, where one is kept.
     pub own: Option<Skill>,

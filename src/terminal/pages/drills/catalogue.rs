@@ -34,7 +34,7 @@ impl Catalogue {
         self.library.find(&self.filter).collect()
     }
 
-    /// KeyContext of the marked exercise among those that are shown.
+    /// Place of the marked exercise among those that are shown.
     pub const fn mark(&self) -> usize {
         self.mark
     }

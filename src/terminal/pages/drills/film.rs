@@ -21,7 +21,7 @@ pub struct FilmsScreen {
 }
 
 impl FilmsScreen {
-    /// KeyContext of the marked shot in the list.
+    /// Place of the marked shot in the list.
     pub const fn mark(&self) -> usize {
         self.mark
     }

@@ -234,7 +234,7 @@ impl DrillsPage {
         self.pages.last().copied().unwrap_or(Screen::Library)
     }
 
-    /// SeriesId keys are in force: the page's, or those of what is asked there.
+    /// Whose keys are in force: the page's, or those of what is asked there.
     pub fn place(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search(_)) => DrillContext::Search,

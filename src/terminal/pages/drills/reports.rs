@@ -1,4 +1,4 @@
-//! What is done with what has come of errands.
+//! What is done with what has come of tasks.
 
 use crate::{
     coach::Skill,
@@ -11,7 +11,7 @@ use crate::{
 };
 
 impl DrillsPage {
-    /// Takes what has come of an errand, and gives what it asks for in turn.
+    /// Takes what has come of a task, and gives what it asks for in turn.
     pub fn receive(&mut self, report: DrillReport) -> Vec<DrillTask> {
         match report {
             DrillReport::Loaded(loaded) => self.loaded(*loaded),

@@ -168,7 +168,7 @@ impl Turn {
         (self.strokes.can_undo(), self.strokes.can_redo())
     }
 
-    /// SeriesId strokes are played.
+    /// Whose strokes are played.
     pub const fn skill(&self) -> Skill {
         self.session.skill
     }

@@ -68,7 +68,7 @@ pub struct SettingsPage {
     mark: usize,
     /// What was in force before the last change.
     before: Settings,
-    /// The number of the last errand, and of the last that came back.
+    /// The number of the last task, and of the last that came back.
     sent: u64,
     received: u64,
     is_left: bool,
@@ -106,7 +106,7 @@ impl SettingsPage {
         self.is_left
     }
 
-    /// KeyContext of the marked setting among all.
+    /// Place of the marked setting among all.
     pub const fn mark(&self) -> usize {
         self.mark
     }
@@ -128,7 +128,7 @@ impl SettingsPage {
         Some((entry.get)(file)).filter(|value| *value != (entry.get)(&self.settings))
     }
 
-    /// SeriesId keys are in force.
+    /// Whose keys are in force.
     pub const fn place(&self) -> SettingsContext {
         match (&self.input, self.page) {
             (Some(Input::Value(_)), _) => SettingsContext::Typing,
@@ -284,7 +284,7 @@ impl SettingsPage {
         Effect::Settings(Box::new(SettingsTask { number: self.sent, path: self.path.clone(), change }))
     }
 
-    /// Takes what has come of an errand, and gives what is wrong. A change that was refused is taken back, as long as
+    /// Takes what has come of a task, and gives what is wrong. A change that was refused is taken back, as long as
     /// nothing has been changed since; then what somebody else has changed in the file comes into force.
     pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
         let SettingsReport { number, settings: file, is_writable, is_refused, troubles } = report;

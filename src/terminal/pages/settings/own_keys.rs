@@ -40,7 +40,7 @@ impl OwnKeys {
         self.page().entries.get(self.mark)
     }
 
-    /// KeyContext of the mark among the commands.
+    /// Place of the mark among the commands.
     pub const fn mark(&self) -> usize {
         self.mark
     }

@@ -63,7 +63,7 @@ pub enum Screen {
 }
 
 impl Screen {
-    /// SeriesId keys it has.
+    /// Whose keys it has.
     pub const fn place(self) -> TrainingContext {
         match self {
             Self::Runs => TrainingContext::Runs,
@@ -223,7 +223,7 @@ impl TrainingPage {
         None
     }
 
-    /// Event of the run in `folder`.
+    /// News of the run in `folder`.
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();

@@ -49,7 +49,7 @@ impl RunList {
         &self.unreadable
     }
 
-    /// KeyContext of the marked run in the list; the first where none was marked or it is gone.
+    /// Place of the marked run in the list; the first where none was marked or it is gone.
     pub fn mark(&self) -> usize {
         let is_marked = |run: &Summary| Some(&run.name) == self.marked.as_ref();
         self.runs().iter().position(is_marked).unwrap_or(0)

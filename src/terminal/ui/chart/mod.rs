@@ -33,7 +33,7 @@ const LEFT: u16 = LABEL_WIDTH as u16 + 1;
 /// Columns of a plot that are worth labels beside it.
 const LEAST_PLOT: u16 = 6;
 
-/// SeriesId values a curve shows.
+/// Whose values a curve shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeriesId {
     /// The run itself.
@@ -49,7 +49,7 @@ pub struct Curve<'a> {
     pub points: &'a [Point],
     /// All values of the quantity that were not finite, which the title names.
     pub odd: Odd,
-    /// SeriesId they are.
+    /// Whose they are.
     pub whose: SeriesId,
 }
 

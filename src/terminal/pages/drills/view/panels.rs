@@ -128,7 +128,7 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
     }
 }
 
-/// SeriesId shot it is that is taught.
+/// Whose shot it is that is taught.
 const fn teacher(taught: &Taught) -> &'static str {
     if taught.is_own { "taught" } else { "coach" }
 }

@@ -61,7 +61,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// SeriesId curve is which, and how far the run is that this one is compared with; gives the rest of the panel.
+/// Whose curve is which, and how far the run is that this one is compared with; gives the rest of the panel.
 fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let Some(other) = &watch.other else { return area };
     let named = |whose, named: &Named| {

@@ -1,0 +1,88 @@
+//! A thread that works on what it is given, one thing after the other.
+
+use std::{
+    io,
+    sync::mpsc::{Sender, channel},
+    thread::{self, JoinHandle},
+};
+
+/// The way to such a thread. Dropping it ends the thread after its work.
+#[derive(Debug)]
+pub struct Worker<T> {
+    queue: Sender<T>,
+    thread: JoinHandle<()>,
+}
+
+impl<T: Send + 'static> Worker<T> {
+    /// Starts a thread that does `work` with all that it is given.
+    ///
+    /// # Errors
+    /// A thread that could not be started.
+    pub fn start(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
+        let (queue, tasks) = channel();
+        let thread = thread::Builder::new().name(name.into()).spawn(move || tasks.into_iter().for_each(&mut work))?;
+        Ok(Self { queue, thread })
+    }
+
+    /// Starts a thread that does `work` with the newest of what has come meanwhile, and drops the rest.
+    ///
+    /// # Errors
+    /// A thread that could not be started.
+    pub fn of_the_newest(name: &str, mut work: impl FnMut(T) + Send + 'static) -> io::Result<Self> {
+        let (queue, tasks) = channel();
+        let thread = thread::Builder::new().name(name.into()).spawn(move || {
+            while let Ok(task) = tasks.recv() {
+                work(tasks.try_iter().last().unwrap_or(task));
+            }
+        })?;
+        Ok(Self { queue, thread })
+    }
+
+    /// Gives it something to do; `false` if the thread is gone.
+    pub fn give(&self, task: T) -> bool {
+        self.queue.send(task).is_ok()
+    }
+
+    /// Waits until everything is done.
+    pub fn finish(self) {
+        drop(self.queue);
+        // A panic there was told when it happened.
+        let _ = self.thread.join();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn of_all_that_comes_during_its_work_only_the_newest_is_worked_on() {
+        let ((begun, begins), (go_on, may_go_on)) = (channel(), channel());
+        let worker = Worker::of_the_newest("newest", move |task: u32| {
+            begun.send(task).unwrap();
+            may_go_on.recv().unwrap();
+        })
+        .unwrap();
+        let next = || begins.recv_timeout(Duration::from_secs(20)).unwrap();
+        worker.give(1);
+        assert_eq!(next(), 1);
+        for task in 2..=50 {
+            worker.give(task);
+        }
+        go_on.send(()).unwrap();
+        assert_eq!(next(), 50);
+        drop(worker);
+        go_on.send(()).unwrap();
+        assert!(begins.recv_timeout(Duration::from_secs(20)).is_err(), "the thread has ended");
+    }
+
+    #[test]
+    fn everything_is_done_before_it_is_finished() {
+        let (done, results) = channel();
+        let worker = Worker::start("all", move |task: u32| done.send(task).unwrap()).unwrap();
+        assert!((0..50).all(|task| worker.give(task)));
+        worker.finish();
+        assert!(results.into_iter().eq(0..50));
+    }
+}
