@@ -1,4 +1,4 @@
-//! A program in a pseudo-terminal: typing, looking at what it shows, and the ways in which a line ends.
+//! The program in a pseudo-terminal: typing, looking at what it shows, and the ways in which a line ends.
 
 use std::{
     io::{Read, Write},
@@ -17,6 +17,8 @@ use tempfile::TempDir;
 pub const PATIENCE: Duration = Duration::from_secs(20);
 /// What the coach shows at the start.
 pub const OPENING: &str = "white at x -710.0 mm";
+/// Silence after which no picture is on its way any more.
+pub const REST: Duration = Duration::from_millis(150);
 
 pub fn carom() -> CommandBuilder {
     CommandBuilder::new(env!("CARGO_BIN_EXE_carom"))
@@ -59,7 +61,6 @@ impl Session {
     }
 
     /// The user's home, where the session has one of its own.
-    #[allow(dead_code, reason = "not every suite looks there")]
     pub fn home(&self) -> Option<&Path> {
         self.home.as_ref().map(TempDir::path)
     }
@@ -112,6 +113,17 @@ impl Session {
         writer.flush().unwrap();
     }
 
+    /// Types these keys and waits until the program has answered them with a picture.
+    pub fn press(&mut self, keys: &str) {
+        let before = self.bytes;
+        self.send(keys);
+        let start = Instant::now();
+        while self.bytes == before {
+            assert!(start.elapsed() < PATIENCE, "no answer to {keys:?}\n{}", self.screen().contents());
+            self.take(Duration::from_millis(50));
+        }
+    }
+
     pub fn resize(&mut self, width: u16, height: u16) {
         let size = PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 };
         self.line.as_ref().unwrap().master.resize(size).unwrap();
@@ -121,6 +133,12 @@ impl Session {
     pub fn signal(&self, name: &str) {
         let id = self.child.process_id().unwrap().to_string();
         assert!(Command::new("kill").args([&format!("-{name}"), &id]).status().unwrap().success());
+    }
+
+    /// Bytes that the program has written so far, to whatever; where the system does not tell, nothing.
+    pub fn written(&self) -> Option<u64> {
+        let text = std::fs::read_to_string(format!("/proc/{}/io", self.child.process_id()?)).ok()?;
+        text.lines().find_map(|line| line.strip_prefix("wchar: ")?.parse().ok())
     }
 
     /// The terminal goes away. (Its last words are an empty line and Ctrl-D: the library that makes it has it so.)
@@ -173,6 +191,14 @@ impl Session {
             let text = screen.contents();
             text.contains("Events 0/") && !text.contains("cancel")
         });
+    }
+
+    /// Waits until nothing has come for so long.
+    pub fn settle(&mut self, silence: Duration) {
+        let start = Instant::now();
+        while self.take(silence).is_some_and(|bytes| !bytes.is_empty()) {
+            assert!(start.elapsed() < PATIENCE, "it never rests\n{}", self.screen().contents());
+        }
     }
 
     /// Bytes that come within `time`.

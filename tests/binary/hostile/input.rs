@@ -51,12 +51,12 @@ fn ctrl_c_is_heard_after_every_cut_sequence() {
 
 #[test]
 fn other_keys_are_heard_too() {
-    for sequence in ["\x1b[<", "\x1b[<0;", "\x1b[?", "\x1b[200~half a paste"] {
+    // How long each may stand still on its way: a tenth of a second, and a paste ten times as long.
+    for (sequence, pause) in [("\x1b[<", 300), ("\x1b[<0;", 300), ("\x1b[?", 300), ("\x1b[200~half a paste", 1500)] {
         let mut session = Session::start(80, 24);
         session.wait_for(OPENING);
         session.send(sequence);
-        // A paste may stand still on its way for a second.
-        thread::sleep(Duration::from_millis(1500));
+        thread::sleep(Duration::from_millis(pause));
         session.send("?");
         session.wait_for("Placing the balls");
         session.send("\x03");
@@ -78,8 +78,7 @@ fn ctrl_c_quits_from_help_messages_and_palette() {
     for keys in ["?", ":", "d", "t"] {
         let mut session = Session::start(80, 24);
         session.wait_for(OPENING);
-        session.send(keys);
-        session.count(Duration::from_millis(300));
+        session.press(keys);
         session.send("\x03");
         assert!(session.assert_left_without_trace().success(), "{keys}");
     }

@@ -57,14 +57,7 @@ fn suspending_gives_the_terminal_back_and_continuing_repaints() {
         let has_mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
         !screen.alternate_screen() && !screen.hide_cursor() && !has_mouse
     });
-    // A signal that comes before the process has stopped continues nothing: as often as needed.
-    let start = Instant::now();
-    while !session.screen().contents().contains(OPENING) {
-        assert!(start.elapsed() < PATIENCE, "the table does not come back");
-        session.signal("CONT");
-        session.count(Duration::from_millis(50));
-    }
-    assert!(session.screen().alternate_screen());
+    session.come_back_to(OPENING);
     session.send("\x1b[C");
     session.wait_for("white at x -700.0 mm");
     session.send("\x03");
@@ -98,8 +91,7 @@ fn it_is_told_to_end_wherever_it_is() {
         let mut session = Session::start(120, 40);
         session.wait_for(OPENING);
         for key in keys {
-            session.send(key);
-            session.count(Duration::from_millis(100));
+            session.press(key);
         }
         session.wait_for(text);
         session.signal("TERM");
@@ -120,8 +112,7 @@ fn every_screen_comes_back_after_it_was_stopped() {
         let mut session = Session::start(80, 24);
         session.wait_for(OPENING);
         for key in keys {
-            session.send(key);
-            session.count(Duration::from_millis(100));
+            session.press(key);
         }
         session.wait_for(text);
         let before = session.screen().contents();
@@ -141,18 +132,20 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     session.wait_for(OPENING);
     session.send("\r");
     session.wait_for_advice();
-    // A quarter of the speed: the shot is to last.
-    session.send("-- ");
+    session.send(" ");
     session.wait_until("it plays", |screen| clock(screen).is_some_and(|time| time > 0.0));
-    let before = clock(session.screen()).unwrap();
+    let (start, before) = (Instant::now(), clock(session.screen()).unwrap());
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
-    let stopped = Instant::now();
-    std::thread::sleep(Duration::from_secs(4));
+    let (played, stopped) = (start.elapsed(), Instant::now());
+    // The time in which the shot would run on.
+    std::thread::sleep(Duration::from_secs(1));
+    let stood = stopped.elapsed();
     session.come_back_to("Events");
     session.wait_until("the clock", |screen| clock(screen).is_some());
     let passed = clock(session.screen()).unwrap() - before;
-    assert!(passed < 0.25 * (stopped.elapsed().as_secs_f64() - 2.0), "the shot ran on by {passed} s");
+    let running = played.as_secs_f64() + (stopped.elapsed() - stood).as_secs_f64();
+    assert!(passed < running + 0.5 * stood.as_secs_f64(), "the shot ran on: {passed} s in {running} s");
 }
 
 /// Seconds since the stroke, as the first row tells them: "1.25 / 6.50 s", or "1.25/6.50" where there is less room.

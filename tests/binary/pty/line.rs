@@ -2,7 +2,7 @@
 
 use std::{fs, time::Duration};
 
-use crate::terminal::{OPENING, PATIENCE, Session, carom};
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
 
 /// Time in which a program without a terminal has to be gone; a loaded machine may take long.
 const SOON: Duration = Duration::from_secs(5);
@@ -18,8 +18,7 @@ fn begun(keys: &[&str]) -> Session {
         if *key == " " {
             session.wait_for_advice();
         }
-        session.send(key);
-        session.count(Duration::from_millis(200));
+        session.press(key);
     }
     session
 }
@@ -66,10 +65,17 @@ fn on_a_slow_line_pictures_are_left_out_and_a_key_is_answered_as_soon_as_the_lin
 #[test]
 fn on_a_line_that_stands_still_the_program_can_be_ended_and_gives_the_terminal_back() {
     let mut session = begun(&["\r", " "]);
-    // Nobody reads: the line is full after a few seconds. Each view is a picture of its own.
+    // Nobody reads: the line is full when the program writes no more. Each view is a picture of its own.
+    let (mut written, mut silent) = (session.written(), 0);
     for _ in 0..60 {
         session.send("v");
         std::thread::sleep(Duration::from_millis(50));
+        let now = session.written();
+        silent = if now.is_some() && now == written { silent + 1 } else { 0 };
+        written = now;
+        if silent == 10 {
+            break;
+        }
     }
     session.signal("TERM");
     let status = session.ends_within(SOON);
@@ -96,7 +102,7 @@ fn a_line_that_is_cut_while_a_run_is_watched_ends_the_watching() {
     command.arg(&run);
     let mut session = Session::start_command(command, 120, 40);
     session.wait_for("finished");
-    session.count(Duration::from_millis(300));
+    session.settle(REST);
     session.cut();
     assert!(!session.ends_within(PATIENCE).success());
 }

@@ -8,8 +8,8 @@ use std::{
 
 use carom::learning::run::list::{Stage, runs_in};
 
-use crate::terminal::{OPENING, PATIENCE, Session, carom};
 use crate::program::{Kept, home};
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
 
 #[test]
 fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
@@ -76,7 +76,7 @@ fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_ha
     assert!(training.wait().unwrap().success());
     stays.wait_for("finished");
     stays.send(".");
-    stays.count(Duration::from_millis(500));
+    stays.settle(REST);
     assert_eq!(stays.count(Duration::from_secs(2)), 0, "the run has ended, and no shot plays");
     // Each second ten pictures of some hundreds of bytes at most; 2,300 bytes a second were measured.
     assert!((100..40_000).contains(&watched), "{watched} bytes in two seconds");

@@ -8,8 +8,8 @@ use std::{
 
 use portable_pty::CommandBuilder;
 
-use crate::terminal::{OPENING, PATIENCE, Session, carom};
 use crate::program::home;
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
 
 /// What every frame begins with.
 const FRAME: &[u8] = b"\x1b[?2026h";
@@ -40,7 +40,7 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
 fn it_costs_nothing_while_nothing_moves() {
     let mut session = Session::start(120, 40);
     session.wait_for(OPENING);
-    session.count(Duration::from_millis(200));
+    session.settle(REST);
     assert_eq!(session.count(Duration::from_millis(500)), 0);
 }
 
@@ -51,7 +51,7 @@ fn playback_stays_small_enough_for_a_slow_link() {
     session.send("\r");
     session.wait_for_advice();
     // The coach has looked at the shot more closely, too.
-    while session.count(Duration::from_millis(1500)) > 0 {}
+    session.settle(Duration::from_millis(1500));
     session.send(" ");
     let (mut shot, mut silent) = (Vec::new(), 0);
     while silent < 10 {
@@ -85,13 +85,13 @@ fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
     let screen = session.screen();
     assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::ButtonMotion, "not every motion");
     assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
-    session.count(Duration::from_millis(200));
+    session.settle(REST);
     // What comes at once is below the 1,024 bytes that the input library reads at a time.
     let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 13 + n % 2)).collect();
     let before = session.bytes;
     session.send(&format!("\x1b[<0;34;13M{}\x1b[<32;44;13M\x1b[<0;44;13m", reports.concat()));
     session.wait_for("white at x -447.0 mm, y 182.5 mm");
-    session.count(Duration::from_millis(200));
+    session.settle(REST);
     let drag = session.bytes - before;
     // A picture is about 300 bytes.
     assert!(drag < 5_000, "{drag} bytes");
@@ -136,7 +136,7 @@ fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
     session.wait_for("there is nothing to take back");
     session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to take back"));
     assert!(session.screen().contents().contains(OPENING));
-    session.count(Duration::from_millis(200));
+    session.settle(REST);
     assert_eq!(session.count(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
     session.send("q");
     assert!(session.assert_left_without_trace().success());
@@ -208,7 +208,7 @@ fn a_storm_of_resizes_ends_with_the_right_picture_and_then_silence() {
     session.resize(120, 40);
     session.wait_for("Shift x10");
     session.wait_for(OPENING);
-    session.count(Duration::from_millis(300));
+    session.settle(REST);
     assert_eq!(session.count(Duration::from_millis(500)), 0);
     session.send("q");
     assert!(session.assert_left_without_trace().success());

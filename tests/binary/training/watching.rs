@@ -2,6 +2,7 @@
 
 use std::{
     fs,
+    io::{BufRead, BufReader, Read},
     path::Path,
     process::Child,
     thread,
@@ -73,13 +74,16 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
     wait_until(&mut training, "lines after the terminal was hung up", || {
         fs::metadata(run.join("metrics.jsonl")).unwrap().len() > before
     });
-    let watcher = watch(here, "watch run");
-    thread::sleep(Duration::from_millis(500));
+    let mut watcher = watch(here, "watch run");
+    let mut said = BufReader::new(watcher.stderr.take().unwrap());
+    let mut told = String::new();
+    // Its first sentence is that it looks on.
+    said.read_line(&mut told).unwrap();
     training.kill().unwrap();
     training.wait().unwrap();
-    let killed = outcome(watcher);
-    assert_eq!(killed.code, Some(1));
-    assert!(killed.err.contains("the run died") && killed.err.contains("carom train --resume"), "{}", killed.err);
+    said.read_to_string(&mut told).unwrap();
+    assert_eq!(outcome(watcher).code, Some(1));
+    assert!(told.contains("the run died") && told.contains("carom train --resume"), "{told}");
 }
 
 #[test]

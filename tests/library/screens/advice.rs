@@ -2,29 +2,14 @@
 
 use std::sync::atomic::Ordering;
 
-use super::{
-    coach_player::{NEXT, OTHERS, Player, SHOT, TRUE_COLOUR, advice, proposal},
-    drill_player,
-    keys::key,
-};
+use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, check_at, proposal};
 use carom::{
     coach::{Skill, Way},
     game::Rule,
     physics::CueInputs,
-    terminal::{Answer, CoachNews, CoachWorker, Effect, View},
+    terminal::{Answer, CoachNews, CoachWorker, View},
 };
 use ratatui::{buffer::Buffer, style::Color};
-
-/// Compares the picture at both sizes.
-fn check(name: &str, player: &Player) {
-    check_at(&[(80, 24), (120, 40)], name, player);
-}
-
-fn check_at(sizes: &[(u16, u16)], name: &str, player: &Player) {
-    for &(width, height) in sizes {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
-    }
-}
 
 #[test]
 fn every_better_shot_is_shown_while_the_coach_thinks_until_its_answer_replaces_it() {
@@ -60,21 +45,26 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
 
 #[test]
 fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhile() {
-    let mut player = drill_player::Player::at_coach(TRUE_COLOUR, tempfile::tempdir().unwrap());
-    let Some(Effect::Recommend(job)) = player.event(&key("Enter")) else { panic!("the coach is asked") };
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.take().expect("the coach is asked");
     let so_far = proposal(&job.table, &job.layout, OTHERS[0], Way::OffCushion, 893);
     player.app.receive(Answer { id: job.id, news: CoachNews::Better(so_far) });
     assert!(player.app.shot().is_some());
-    let mut player = player.press("d p Esc");
+    let player = player.press("d p Esc");
     assert_eq!(job.tutor.skill, Skill::EXPERT);
     assert_ne!(player.app.coach().tutor.skill, Skill::EXPERT);
     assert!(player.app.shot().is_none(), "the best shot so far is an expert's");
-    let effect = player.app.receive(Answer { id: job.id, news: CoachNews::Advice(advice(&job)) });
-    assert!(effect.is_none() && player.app.shot().is_none());
+    let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
+    assert!(player.study.is_none() && player.app.shot().is_none());
     player.says("the coach has answered for expert; Enter asks it for");
     // It is kept for the player whose shot it is.
-    let study = (0..Skill::NAMED.len()).find_map(|_| player.event(&key("S")));
-    assert!(matches!(study, Some(Effect::Study(_))));
+    let mut player = player.press("S");
+    for _ in 1..Skill::NAMED.len() {
+        if player.study.is_none() {
+            player = player.press("S");
+        }
+    }
+    assert!(player.study.is_some());
     assert_eq!(player.app.coach().tutor.skill, Skill::EXPERT);
     player.says("the player: expert; the shot for it is known");
 }
@@ -119,7 +109,9 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     let second = player.study.clone().unwrap();
     assert_eq!(second.shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
     // What comes late about the first shot is not taken for the second.
-    let mut late = Player { study: Some(first), ..player }.studied().press("v");
+    let mut player = player;
+    player.study = Some(first);
+    let mut late = player.studied().press("v");
     assert!(late.text(80, 24).contains("being worked out"));
     late.study = Some(second);
     let player = late.studied();

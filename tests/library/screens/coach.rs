@@ -6,8 +6,8 @@ use std::{
 };
 
 use super::{
-    coach_player::{ASCII, NO_COLOUR, Player, SHOT, advice},
     keys::key,
+    player::{ASCII, NO_COLOUR, Player, SHOT, advice, check, check_at},
 };
 use carom::{
     physics::CueInputs,
@@ -15,13 +15,6 @@ use carom::{
 };
 use proptest::prelude::*;
 use ratatui::style::Color;
-
-/// Compares the picture at both sizes.
-fn check(name: &str, player: &Player) {
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
-    }
-}
 
 #[test]
 fn the_start() {
@@ -191,7 +184,7 @@ fn half_blocks_draw_the_same_scene() {
 #[test]
 fn too_small_a_terminal_names_both_sizes() {
     let player = Player::new();
-    insta::assert_snapshot!("too_small_79x24", player.text(79, 24));
+    check_at(&[(79, 24)], "too_small", &player);
     for (width, height) in [(80, 23), (20, 5), (1, 1), (0, 0)] {
         player.picture(width, height);
     }
@@ -207,22 +200,10 @@ fn keys_do_nothing_that_nobody_can_see() {
     let mut player = player.press("Right Enter d F5 :");
     assert_eq!((*player.app.layout(), player.app.screen()), (before, Screen::Coach));
     assert!(player.asked.is_none());
-    assert!(matches!(player.app.handle(&key("q")), Some(Effect::Quit)), "but one can leave");
+    player.event(&key("q"));
+    assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
     player.picture(80, 24);
     assert_ne!(*player.press("Right").app.layout(), before);
-}
-
-#[test]
-fn every_size_can_be_drawn() {
-    let mut player = Player::new().press("Enter").answer().studied().press(".");
-    for _ in 0..4 {
-        for width in (1..=240).step_by(7) {
-            for height in (1..=90).step_by(5) {
-                player.picture(width, height);
-            }
-        }
-        player = player.press("v");
-    }
 }
 
 proptest! {

@@ -1,8 +1,9 @@
 //! The drill screens as one sees them: keys go through the real app, files into a folder, and the pictures are compared.
 
 use super::{
-    drill_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, exercise, session},
     keys::key,
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at, places},
+    practice::{exercise, session},
 };
 use carom::{
     coach::Skill,
@@ -14,11 +15,10 @@ use carom::{
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
 
+/// Compares the pictures of what rests.
 fn check(name: &str, player: &Player) {
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
-    }
     assert_eq!(player.app.frame_interval(), None, "nothing moves by itself");
+    super::player::check(name, player);
 }
 
 /// More positions than fit on a screen.
@@ -35,21 +35,21 @@ fn history() -> Vec<carom::drills::Session> {
 }
 
 fn played() -> Player {
-    Player::with(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history())
+    Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history())
 }
 
 #[test]
 fn the_library_of_own_positions() {
-    check("library_none", &Player::with(TRUE_COLOUR, &[], &[]).press("Left"));
+    check("library_none", &Player::at_library(TRUE_COLOUR, &[], &[]).press("Left"));
     check("library_played", &played().press("Left"));
-    let long = Player::with(TRUE_COLOUR, &many(), &[]).press("Left End");
+    let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
     check("library_long", &long);
-    check("library_ascii", &Player::with(ASCII, &many(), &[]).press("Left End Up"));
+    check("library_ascii", &Player::at_library(ASCII, &many(), &[]).press("Left End Up"));
 }
 
 #[test]
 fn every_bundled_exercise_is_listed_and_can_be_opened() {
-    let player = Player::with(TRUE_COLOUR, &[], &[]);
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]);
     let library = player.app.drills().catalogue.library().clone();
     let mut player = player;
     for exercise in library.exercises() {
@@ -69,7 +69,7 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
 
 #[test]
 fn words_are_looked_for_while_they_are_typed() {
-    let player = Player::with(TRUE_COLOUR, &many(), &[]).press("Left /").type_in("number 17");
+    let player = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left /").type_in("number 17");
     check("search", &player);
     let found = player.press("Enter");
     assert_eq!(found.app.place(), Place::Drill(DrillPlace::Library));
@@ -93,7 +93,7 @@ fn a_stroke_is_set_with_keys() {
     full.says("-90.00°").says("side   middle");
     check("aiming_no_colour", &Player::practising(NO_COLOUR).press("S-Left"));
     check("aiming_ascii", &Player::practising(ASCII).press("S-Right S-Right"));
-    insta::assert_snapshot!("aiming_200x60", Player::practising(TRUE_COLOUR).text(200, 60));
+    check_at(&[(200, 60)], "aiming", &Player::practising(TRUE_COLOUR));
     let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");
     far.says("further out the tip would slip off the ball");
 }
@@ -200,7 +200,7 @@ fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
 
 #[test]
 fn an_exam_has_twenty_exercises_and_a_grade() {
-    let mut player = Player::with(TRUE_COLOUR, &[], &[]).press("e");
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e");
     for n in 1..=20 {
         player.says(&format!("exercise {n} of 20"));
         let hint = player.app.refusal(When::Drill(DrillWhen::Advised));
@@ -220,13 +220,13 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 
 #[test]
 fn the_records() {
-    check("record_none", &Player::with(TRUE_COLOUR, &[], &[]).press("r"));
+    check("record_none", &Player::at_library(TRUE_COLOUR, &[], &[]).press("r"));
     let one = played().press("Left Enter r");
     check("record", &one);
     one.says("37").says("high run").says("7");
     check("record_all", &played().press("r"));
-    check("record_ascii", &Player::with(ASCII, &[exercise("opening", "x")], &history()).press("r"));
-    insta::assert_snapshot!("record_200x60", played().press("r").text(200, 60));
+    check("record_ascii", &Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r"));
+    check_at(&[(200, 60)], "record", &played().press("r"));
     // 37 attempts at one shot tell something of the player.
     one.says("times an expert's");
     let kept = one.press("w");
@@ -240,8 +240,8 @@ fn the_records() {
 #[test]
 fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
     let folder = tempfile::tempdir().unwrap();
-    Store::new(&super::drill_player::places(&folder)).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
-    let player = Player::at_coach(TRUE_COLOUR, folder).press("d");
+    Store::new(&places(folder.path())).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     let own = player.store().own_skill().unwrap().unwrap().skill;
     player.says("player: own skill");
     let back = player.press("Esc");
@@ -258,11 +258,10 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
 
 #[test]
 fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
-    let folder = tempfile::tempdir().unwrap();
-    let player = Player::at_coach(TRUE_COLOUR, folder).press("Right s");
+    let player = Player::new().press("Right s");
     check("save", &player);
     assert_eq!(player.press("Esc").app.place(), Place::Coach);
-    let player = Player::at_coach(TRUE_COLOUR, tempfile::tempdir().unwrap()).press("Right s");
+    let player = Player::new().press("Right s");
     let refused = player.type_in("??").press("Enter");
     refused.says("makes no name");
     let saved = refused.press("Backspace Backspace").type_in("My corner #draw #hard").press("Enter");
@@ -293,7 +292,7 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
 
 #[test]
 fn a_code_that_was_cut_is_refused_and_can_be_mended() {
-    let mut player = Player::with(TRUE_COLOUR, &[], &[]).press("Left a");
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     let code = carom::drills::encode(&exercise("opening", "From the opening")).unwrap();
     player.app.paste(&code[..code.len() - 3]);
     let refused = player.press("Enter");
@@ -336,7 +335,7 @@ fn files_that_cannot_be_read_are_named_and_left_alone() {
     };
     write("sessions/20260101-000000-00000001.json", r#"{"format":"carom-session","version":9}"#);
     write("positions/broken.json", "{\"half");
-    let player = Player::at_coach(TRUE_COLOUR, folder).press("d");
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     let text = player.text(200, 40);
     assert!(text.contains("version 9") && text.contains("broken.json"), "{text}");
     assert_eq!(std::fs::read(player.path("positions/broken.json")).unwrap(), b"{\"half");
@@ -350,7 +349,7 @@ fn an_exercise_goes_to_the_coachs_table() {
     assert_eq!((coach.app.place(), *coach.app.layout()), (Place::Coach, layout));
     // The exercise is still there.
     assert_eq!(coach.press("d").app.place(), Place::Drill(DrillPlace::Exercise));
-    let from_list = Player::with(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
+    let from_list = Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
     assert_eq!(*from_list.app.layout(), exercise("opening", "x").layout);
     assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills().player.skill, Skill::PERFECT);
 }
@@ -358,8 +357,8 @@ fn an_exercise_goes_to_the_coachs_table() {
 #[test]
 fn the_help_tells_every_key() {
     for (name, keys) in [("help_library", ""), ("help_exercise", "Left Enter"), ("help_record", "r")] {
-        let player = Player::with(TRUE_COLOUR, &[exercise("opening", "From the opening")], &[]).press(keys);
-        insta::assert_snapshot!(name, player.press("?").text(100, 60));
+        let player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &[]).press(keys);
+        check_at(&[(100, 60)], name, &player.press("?"));
     }
 }
 
@@ -367,7 +366,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
     fn no_keys_whatever_break_the_screens(keys in prop::collection::vec(0..54_usize, 1..60)) {
-        let mut player = Player::with(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history()).press("Left");
+        let mut player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history()).press("Left");
         for key in keys {
             let code = match key {
                 0..=25 => KeyCode::Char(char::from(b'a' + key as u8)),

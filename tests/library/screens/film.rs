@@ -1,18 +1,15 @@
 //! Filmed shots as one sees them: keys go through the real app, strokes are fitted, and the pictures are compared.
 
-use super::drill_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check},
+};
 use carom::terminal::{Depth, DrillPlace, Effect, Errand, Glyphs, Look, Place};
 
 const HALF_BLOCKS: Look = Look { depth: Depth::Ansi, glyphs: Glyphs::Half, unicode: true };
 
-fn check(name: &str, player: &Player) {
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
-    }
-}
-
 fn list(look: Look) -> Player {
-    Player::with(look, &[], &[]).press("f")
+    Player::at_library(look, &[], &[]).press("f")
 }
 
 /// The second shot of the film, a point.
@@ -37,8 +34,8 @@ fn white(player: &Player) -> f64 {
 fn the_list_of_filmed_shots() {
     let player = list(TRUE_COLOUR);
     assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films));
-    check("list", &player);
-    check("list_ascii", &list(ASCII).press("End"));
+    check("film_list", &player);
+    check("film_list_ascii", &list(ASCII).press("End"));
     player.says("91 shots of a match, 21 points");
     player.press("?").says("fitted to the cue ball");
 }
@@ -55,17 +52,17 @@ fn a_filmed_shot_and_its_simulation_move_together() {
     late.says("predicted from the first 2 s");
     let paused = late.press("Space");
     assert_eq!(paused.app.frame_interval(), None);
-    check("watching", &paused);
+    check("film_watching", &paused);
     let end = paused.press("Space").wait(60.0);
     end.says("at rest, white ").says("simulated no point, filmed a point");
     assert_eq!(end.app.frame_interval(), None, "it rests at its end");
-    check("end", &end);
+    check("film_end", &end);
 }
 
 #[test]
 fn the_film_shows_in_letters_and_in_half_blocks_too() {
     for (name, look) in [("no_colour", NO_COLOUR), ("ascii", ASCII), ("half_blocks", HALF_BLOCKS)] {
-        check(&format!("watching_{name}"), &watching(look).wait(5.5).press("Space"));
+        check(&format!("film_watching_{name}"), &watching(look).wait(5.5).press("Space"));
     }
     // The other player's ball, where nothing has met it yet, hides its outline.
     let picture = watching(NO_COLOUR).wait(5.5).text(80, 24);
@@ -81,7 +78,7 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     let mut player = player.press("Esc");
     assert_eq!(player.app.place(), Place::Drill(DrillPlace::Films));
     // Two are asked for before the first is there.
-    let ask = |player: &mut Player, word: &str| match player.app.handle(&super::keys::key(word)) {
+    let ask = |player: &mut Player, word: &str| match player.app.handle(&key(word)) {
         Some(Effect::Drill(errands)) => errands,
         other => panic!("{other:?}"),
     };

@@ -1,15 +1,8 @@
 //! The command palette through the real app: what it lists, how it is narrowed, and what it does.
 
-use super::coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check};
 use carom::terminal::Look;
 use ratatui::style::Modifier;
-
-/// Compares the picture at two sizes.
-fn check(name: &str, player: &Player) {
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), player.text(width, height));
-    }
-}
 
 fn opened(look: Look) -> Player {
     Player::with(look).press("Left :")
@@ -50,18 +43,14 @@ fn what_may_not_be_used_now_says_why_and_stays() {
 
 #[test]
 fn letters_of_the_users_own_are_typed_and_their_keys_are_shown() {
-    let settings = toml_settings("[keys]\n\"x\" = \"u\"\n");
-    let mut player = Player::new();
-    player.app = player.app.with_settings(&settings);
+    let player = Player::with_settings(TRUE_COLOUR, "[keys]\n\"x\" = \"u\"\n");
     let text = player.press("Left : x").text(120, 40);
     assert!(text.contains("x u ") && text.contains("take the last change back"), "{text}");
 }
 
 #[test]
 fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
-    let settings = toml_settings("[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
-    let mut player = Player::new();
-    player.app = player.app.with_settings(&settings);
+    let player = Player::with_settings(TRUE_COLOUR, "[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
     let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().trim_matches('"').to_owned();
     assert!(hints(&player).starts_with(" z recommend"), "{}", hints(&player));
     let player = player.press(":");
@@ -81,15 +70,6 @@ fn the_help_goes_to_its_end_and_back_to_its_beginning() {
     assert_eq!(player.text(80, 24), beginning);
 }
 
-fn toml_settings(text: &str) -> carom::terminal::Settings {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("config.toml");
-    std::fs::write(&file, text).unwrap();
-    let (settings, complaints) = carom::terminal::Settings::load(&file);
-    assert!(complaints.is_empty());
-    settings
-}
-
 #[test]
 fn the_mark_can_be_seen_without_colours_wherever_it_is() {
     for (width, height) in [(80, 24), (200, 60)] {
@@ -106,15 +86,5 @@ fn the_mark_can_be_seen_without_colours_wherever_it_is() {
         let last = player.app.commands().pop().unwrap();
         let start = format!("{:<17}{}", last.keys, &last.description[..20]);
         assert!(player.text(width, height).contains(&start), "the last of them is in view: {start}");
-    }
-}
-
-#[test]
-fn every_size_can_be_drawn() {
-    let player = opened(TRUE_COLOUR).press(&"w ".repeat(120));
-    for width in (1..=240).step_by(13) {
-        for height in (1..=90).step_by(7) {
-            player.picture(width, height);
-        }
     }
 }

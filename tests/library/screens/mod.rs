@@ -1,19 +1,20 @@
-//! What is seen: keys and the mouse go through the real app, and its pictures are compared.
+//! What is seen: keys, the mouse and news go through the real app, and what it shows is looked at.
 
 mod advice;
 mod coach;
-mod coach_player;
-mod drill_player;
 mod drills;
 mod film;
 mod finder;
 mod keys;
 mod mouse;
+mod player;
+mod practice;
+mod runs;
 mod settings;
 mod sides;
+mod sizes;
 mod table;
 mod tabs;
 mod toasts;
 mod training;
-mod training_player;
 mod undo;

@@ -1,9 +1,12 @@
 //! The mouse through the real app: reports go in, balls, shots and lists follow.
 
-use super::coach_player::{NO_COLOUR, Player, TRUE_COLOUR};
+use super::{
+    player::{NO_COLOUR, Player, TRUE_COLOUR},
+    runs::{NAME, OTHER},
+};
 use carom::{
     table::Table,
-    terminal::{Advised, App, Mapping, Overlay, Report, Screen},
+    terminal::{Advised, App, Mapping, Overlay, Screen},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -23,18 +26,10 @@ fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
     MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
 }
 
-trait Hand: Sized {
-    fn app(&mut self) -> &mut App;
-
+impl Player {
     fn point(mut self, kind: MouseEventKind, cell: (u16, u16)) -> Self {
-        self.app().mouse(event(kind, cell));
+        self.app.mouse(event(kind, cell));
         self
-    }
-}
-
-impl Hand for Player {
-    fn app(&mut self) -> &mut App {
-        &mut self.app
     }
 }
 
@@ -153,7 +148,7 @@ fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
 
 #[test]
 fn the_mark_of_the_library_follows_wheel_and_click() {
-    let mut player = super::drill_player::Player::with(super::drill_player::TRUE_COLOUR, &[], &[]);
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]);
     let text = player.text(120, 40);
     let marked = |app: &App| app.drills().catalogue.mark();
     assert_eq!(marked(&player.app), 0);
@@ -183,11 +178,10 @@ fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
 
 #[test]
 fn the_mark_of_the_runs_follows_wheel_and_click() {
-    let mut player =
-        super::training_player::Player::new().report(Report::Runs(Ok(super::training_player::summaries().into())));
+    let mut player = Player::listing(TRUE_COLOUR);
     let text = player.text(120, 40);
     let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
-    let (first, second) = (row(super::training_player::NAME), row(super::training_player::OTHER));
+    let (first, second) = (row(NAME), row(OTHER));
     assert_eq!(player.app.training().list.mark(), 0);
     player.app.mouse(event(PRESS, (5, second)));
     assert_eq!(player.app.training().list.mark(), usize::from(second - first));

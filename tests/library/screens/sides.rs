@@ -1,9 +1,6 @@
 //! Both players' balls: whoever is at the table, every ball keeps its place and its colour, and is called by it.
 
-use super::{
-    coach_player::{NO_COLOUR, Player},
-    drill_player,
-};
+use super::player::{NO_COLOUR, Player};
 
 /// Where brackets stand around each ball's letter on the picture.
 fn places(text: &str) -> Vec<Option<(usize, usize)>> {
@@ -45,7 +42,7 @@ fn taking_the_other_ball_moves_and_repaints_none() {
 
 #[test]
 fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own() {
-    let player = drill_player::Player::practising(drill_player::NO_COLOUR).press("o o o");
+    let player = Player::practising(NO_COLOUR).press("o o o");
     player.says("match, 10 innings");
     player.says("The stroke of white");
     // Away from everything, softly: a miss.

@@ -8,7 +8,7 @@ use carom::{
 };
 use ratatui::{buffer::Buffer, style::Color};
 
-use super::coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
+use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check};
 
 const OCTANTS: Look = Look { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
 
@@ -30,9 +30,7 @@ fn count(picture: &Buffer, color: Color) -> usize {
 fn octants_are_drawn_only_where_they_were_asked_for() {
     let is_octant = |text: &str| text.chars().any(|one| ('\u{1CD00}'..='\u{1CDE5}').contains(&one));
     let asked = Player::with(OCTANTS).press("Enter").answer();
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("octants_{width}x{height}"), asked.text(width, height));
-    }
+    check("octants", &asked);
     let round = asked.press("g g g");
     assert!(!is_octant(&round.text(120, 40)));
     assert!(is_octant(&round.press("g").text(120, 40)));
@@ -60,9 +58,9 @@ fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
 fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
     for (name, look) in [("spin", TRUE_COLOUR), ("spin_no_colour", NO_COLOUR), ("spin_ascii", ASCII)] {
         let player = shown(look, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
-        for (width, height) in [(80, 24), (120, 40)] {
+        check(name, &player);
+        for (width, height) in SIZES {
             let text = player.text(width, height);
-            insta::assert_snapshot!(format!("{name}_{width}x{height}"), text);
             assert!(text.contains("Spin") && text.contains("left") && !text.contains("Sight"), "{text}");
         }
         let text = player.press("End").text(80, 24);
@@ -89,7 +87,7 @@ fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
     let bank = shown(TRUE_COLOUR, "0,0,3,-173,4");
     let contact = bank.app.shot().unwrap().contact;
     assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
-    for (width, height) in [(80, 24), (120, 40)] {
+    for (width, height) in SIZES {
         let text = bank.text(width, height);
         for words in ["left rail", "first, then", "yellow "] {
             assert!(text.contains(words), "{words}\n{text}");

@@ -1,9 +1,6 @@
 //! Going from screen to screen: wherever one is, the same keys lead everywhere, and nothing is lost on the way.
 
-use super::{
-    coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR},
-    drill_player, training_player,
-};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
 use carom::terminal::{App, DrillPlace, Effect, Look, Place, Screen};
 use ratatui::style::Modifier;
 
@@ -20,9 +17,9 @@ fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
         rows.push(first_row(&coach.answer().press("R R R +").text(width, height)));
         rows.push(first_row(&Player::new().press("Enter").answer().press("+ Space").wait(1.0).text(width, height)));
         rows.push(first_row(&Player::new().press("R R S S S F5 F2").text(width, height)));
-        rows.push(first_row(&drill_player::Player::with(TRUE_COLOUR, &[], &[]).text(width, height)));
-        rows.push(first_row(&drill_player::Player::practising(TRUE_COLOUR).text(width, height)));
-        rows.push(first_row(&training_player::Player::watching(TRUE_COLOUR).text(width, height)));
+        rows.push(first_row(&Player::at_library(TRUE_COLOUR, &[], &[]).text(width, height)));
+        rows.push(first_row(&Player::practising(TRUE_COLOUR).text(width, height)));
+        rows.push(first_row(&Player::watching(TRUE_COLOUR).text(width, height)));
     }
     rows.push(first_row(&Player::with(NO_COLOUR).press("Enter").answer().text(80, 24)));
     rows.push(first_row(&Player::with(ASCII).press("Enter").answer().text(80, 24)));
@@ -56,21 +53,21 @@ fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
 
 #[test]
 fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
-    let player = drill_player::Player::practising(TRUE_COLOUR).press("S-Left k Space").wait(0.3);
-    let time = |player: &drill_player::Player| player.app.drills().playback().unwrap().time;
+    let player = Player::practising(TRUE_COLOUR).press("S-Left k Space").wait(0.3);
+    let time = |player: &Player| player.app.drills().playback().unwrap().time;
     let before = time(&player);
     let player = player.press("F2 F5 F3");
     assert_eq!((player.app.place(), time(&player)), (Place::Drill(DrillPlace::Exercise), before));
     player.wait(60.0).says("your hand: ");
-    let exam = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("e Space Enter Enter F2 s");
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Space Enter Enter F2 s");
     exam.says("save the balls as");
     let exam = exam.type_in("mine").press("Enter");
     exam.says("saved as mine").says("exercise 2 of 20");
     assert_eq!(exam.press("F2 s Esc").app.place(), Place::Coach, "one has come from there");
-    let typing = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("a").type_in("carom:half");
+    let typing = Player::at_library(TRUE_COLOUR, &[], &[]).press("a").type_in("carom:half");
     let typing = typing.press("F5 F3");
     typing.says("carom:half_");
-    let form = training_player::Player::new().press("n Down Down Down 7 F2 t");
+    let form = Player::at_runs(TRUE_COLOUR).press("n Down Down Down 7 F2 t");
     assert_eq!(form.app.place(), Place::Form);
     form.says("50,000,007");
 }
@@ -86,7 +83,7 @@ fn palette_and_help_close_on_the_way() {
 
 #[test]
 fn help_and_messages_open_where_letters_are_typed_and_lead_back_there() {
-    let typing = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("a x F1");
+    let typing = Player::at_library(TRUE_COLOUR, &[], &[]).press("a x F1");
     typing.says("The library");
     let back = typing.press("Esc y F6");
     back.says("Messages, the newest first");

@@ -3,21 +3,14 @@
 use std::path::Path;
 
 use super::{
-    coach_player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, is_toast},
-    drill_player,
-    training_player::{self, NAME, RUNS},
+    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check},
+    runs::{NAME, RUNS},
 };
 use carom::terminal::{CoachNews, Failure, Report};
 use ratatui::style::Color;
 
-fn check(name: &str, text: impl Fn(u16, u16) -> String) {
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), text(width, height));
-    }
-}
-
 /// At the coach, who has refused with sentences of this many words.
-fn refused(mut player: Player, words: &[usize]) -> Player {
+pub fn refused(mut player: Player, words: &[usize]) -> Player {
     for count in words {
         player = player.press("Enter");
         let id = player.asked.take().unwrap().id;
@@ -30,13 +23,13 @@ fn refused(mut player: Player, words: &[usize]) -> Player {
 #[test]
 fn they_stand_over_the_picture_and_long_ones_are_broken() {
     let player = refused(Player::new(), &[0, 5]).press("u");
-    check("toasts", |width, height| player.text(width, height));
+    check("toasts", &player);
     let picture = player.picture(80, 24);
     let warning = Color::Rgb(0xff, 0x8a, 0x70);
     assert!((0..24).any(|y| picture[(79, y)].fg == warning && picture[(79, y)].symbol() == "│"));
     for (name, look) in [("toasts_no_colour", NO_COLOUR), ("toasts_ascii", ASCII)] {
         let player = refused(Player::with(look), &[0, 5]).press("u");
-        check(name, |width, height| player.text(width, height));
+        check(name, &player);
     }
     assert!(refused(Player::with(ASCII), &[0, 5]).text(80, 24).is_ascii());
     let long = refused(Player::new(), &[60]);
@@ -54,7 +47,7 @@ fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
     assert_eq!((gone.app.toast_time(), gone.app.toasts().shown().len()), (None, 0));
     assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
     let player = refused(gone.press("u"), &[0]).press("Left");
-    assert!(!is_toast(&player.app, "there is nothing to take back"));
+    assert!(!player.is_toast("there is nothing to take back"));
     player.warns("the weights are damaged");
     assert!(player.press("Esc").app.toasts().shown().iter().all(|toast| !toast.text.contains("weights")));
 }
@@ -76,25 +69,15 @@ fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
 
 #[test]
 fn questions_are_never_hidden() {
-    let mut player = drill_player::Player::with(TRUE_COLOUR, &[], &[]).press("Left a");
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     player.app.paste(&"half a code ".repeat(40));
     let player = player.press("Enter");
-    check("toasts_question", |width, height| player.text(width, height));
-    for (width, height) in [(80, 24), (120, 40)] {
+    check("toasts_question", &player);
+    for (width, height) in SIZES {
         let text = player.text(width, height);
         assert!(text.contains("paste or type the code of a position") && text.contains("Enter take it"), "{text}");
     }
-    let name = training_player::Player::watching(TRUE_COLOUR).press("k Backspace / Enter");
+    let name = Player::watching(TRUE_COLOUR).press("k Backspace / Enter");
     let text = name.text(80, 24);
-    assert!(text.contains("keep the weights under the name") && is_toast(&name.app, "is no name"), "{text}");
-}
-
-#[test]
-fn every_size_can_be_drawn() {
-    let player = refused(Player::new(), &[3, 60, 9]);
-    for width in (1..=240).step_by(7) {
-        for height in (1..=90).step_by(5) {
-            player.picture(width, height);
-        }
-    }
+    assert!(text.contains("keep the weights under the name") && name.is_toast("is no name"), "{text}");
 }

@@ -2,8 +2,10 @@
 
 use std::{path::Path, sync::Arc, time::Duration};
 
-use super::training_player::{
-    ASCII, NAME, NO_COLOUR, OTHER, Player, RUNS, TRUE_COLOUR, config, known, record, standing, summaries, summary,
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at},
+    runs::{NAME, OTHER, RUNS, config, known, record, standing, summaries, summary},
 };
 use carom::{
     game::Rule,
@@ -23,34 +25,13 @@ use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
 use ratatui::style::Color;
 
-fn check(name: &str, player: &Player) {
-    for (width, height) in [(80, 24), (120, 40)] {
-        insta::assert_snapshot!(format!("{name}_{width}x{height}"), without_moments(&player.text(width, height)));
-    }
-}
-
 fn failure(process: Option<u32>, sentence: &str) -> Failure {
     Failure { process, sentence: sentence.to_owned() }
 }
 
-/// The text with every moment of the form 20261120-143005 that is now replaced.
-fn without_moments(text: &str) -> String {
-    let mut text = text.to_owned();
-    let is_moment = |part: &[u8]| {
-        part.iter().enumerate().all(|(n, byte)| if n == 8 { *byte == b'-' } else { byte.is_ascii_digit() })
-    };
-    for start in 0..text.len().saturating_sub(15) {
-        let part = &text.as_bytes()[start..start + 15];
-        if is_moment(part) && !NAME.as_bytes().starts_with(part) && !OTHER.as_bytes().starts_with(part) {
-            text.replace_range(start..start + 15, "yyyymmdd-hhmmss");
-        }
-    }
-    text
-}
-
 #[test]
 fn the_list_of_runs() {
-    let player = Player::new().report(Report::Runs(Ok(summaries().into())));
+    let player = Player::listing(TRUE_COLOUR);
     check("runs", &player);
     let down = player.press("Down Down Down");
     check("runs_marked", &down);
@@ -61,7 +42,7 @@ fn the_list_of_runs() {
 
 #[test]
 fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
-    let player = Player::new().report(Report::Runs(Ok(summaries().into()))).press("Down");
+    let player = Player::listing(TRUE_COLOUR).press("Down");
     let mut more = summaries();
     more.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Stage::Running));
     let player = player.report(Report::Runs(Ok(more.into()))).press("Enter");
@@ -70,15 +51,15 @@ fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
 
 #[test]
 fn an_empty_list_says_what_to_press() {
-    check("runs_empty", &Player::new().report(Report::Runs(Ok(Listing::default()))));
-    let broken = Player::new().report(Report::Runs(Err("/runs: permission denied".into())));
+    check("runs_empty", &Player::at_runs(TRUE_COLOUR).report(Report::Runs(Ok(Listing::default()))));
+    let broken = Player::at_runs(TRUE_COLOUR).report(Report::Runs(Err("/runs: permission denied".into())));
     broken.says("/runs: permission denied");
-    Player::new().press("Enter").says("there is no run yet; n starts one");
+    Player::at_runs(TRUE_COLOUR).press("Enter").says("there is no run yet; n starts one");
 }
 
 #[test]
 fn a_new_run_is_filled_in_and_started() {
-    let player = Player::new().report(Report::Runs(Ok(summaries().into()))).press("n");
+    let player = Player::listing(TRUE_COLOUR).press("n");
     check("form", &player);
     let player = player.press("Down Right Right Down Right Down Backspace Backspace 7 Down Right Down Right");
     check("form_filled", &player);
@@ -100,7 +81,8 @@ fn a_new_run_is_filled_in_and_started() {
 
 #[test]
 fn numbers_that_start_nothing_are_refused_with_what_is_accepted() {
-    let empty = Player::new().press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
+    let empty = Player::at_runs(TRUE_COLOUR)
+        .press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
     let player = empty.press("Backspace Enter");
     assert!(player.effects.is_empty());
     player.says("\"\" is no number of shots; accepted is any number from 1 on");
@@ -115,7 +97,7 @@ fn a_run_that_trains() {
     {
         player.says(part);
     }
-    insta::assert_snapshot!("watch_200x60", player.text(200, 60));
+    check_at(&[(200, 60)], "watch", &player);
     check("watch_help", &player.press("?"));
     let scrolled = Player::watching(TRUE_COLOUR).press("?");
     let keys = |key: &str, times| vec![key; times].join(" ");
@@ -155,7 +137,7 @@ fn what_is_wrong_with_the_files_is_said() {
 
 #[test]
 fn a_run_of_which_nothing_is_known_yet() {
-    let player = Player::new().report(Report::Runs(Ok(summaries().into()))).press("Enter");
+    let player = Player::listing(TRUE_COLOUR).press("Enter");
     check("watch_unknown", &player);
     player.press("w").says("there is no run yet");
 }
@@ -277,7 +259,7 @@ fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
     let broken = || {
         let notices = Some(vec!["config.json cannot be read; the charts are shown without it".to_owned()]);
         let update = Update { config: None, examples: None, notices, ..known() };
-        let list = Player::new().report(Report::Runs(Ok(summaries().into()))).press("Enter").has_policy(true);
+        let list = Player::listing(TRUE_COLOUR).press("Enter").has_policy(true);
         list.update(Slot::Main, NAME, update)
     };
     check("watch_no_config", &broken());
@@ -364,9 +346,9 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
     let mut player = none.report(Report::Policy(folder, Ok(Arc::new(policy))));
     assert_eq!((player.app.place(), player.app.table()), (Place::Coach, &thesis));
-    insta::assert_snapshot!("used_in_the_coach", player.text(120, 40));
+    check_at(&[(120, 40)], "with_a_runs_policy", &player);
     player = player.press("Enter");
-    let Some(Effect::Recommend(job)) = player.effects.pop() else { panic!("the coach is not asked") };
+    let job = player.asked.take().expect("the coach is asked");
     assert_eq!(job.tutor.rule, Rule::ThreeCushion);
     CoachWorker::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
     assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
@@ -392,7 +374,7 @@ fn without_colours_letters_tell_everything() {
     check("watch_ascii", &Player::watching(ASCII));
     let player = Player::watching(NO_COLOUR);
     check("watch_no_colour", &player);
-    for cell in player.draw(120, 40).backend().buffer().content() {
+    for cell in player.picture(120, 40).content() {
         assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
     }
     for keys in ["", "?", "Esc", "Esc n", "c"] {
@@ -408,23 +390,11 @@ fn numbers_that_change_keep_their_places() {
         (standing.shots, standing.shots_per_second) = (shots, speed);
         let update = Update { standing: Some(standing), ..Update::default() };
         let player = Player::watching(TRUE_COLOUR).update(Slot::Main, NAME, update);
-        let buffer = player.draw(120, 40).backend().buffer().clone();
-        buffer.content().to_vec()
+        player.picture(120, 40).content().to_vec()
     };
     let (before, after) = (columns(1_200_000, 433.0), columns(1_200_433, 1298.0));
     let changes = before.iter().zip(&after).filter(|(one, other)| one != other).count();
     assert!((4..24).contains(&changes), "{changes} cells");
-}
-
-#[test]
-fn every_size_can_be_drawn() {
-    let player = Player::watching(TRUE_COLOUR).press("5 6 7 8 9");
-    for width in (1..=240).step_by(9) {
-        for height in (1..=90).step_by(7) {
-            player.draw(width, height);
-        }
-    }
-    player.says("1 mean reward");
 }
 
 /// What one may press and what may come at any time.
@@ -440,9 +410,9 @@ proptest! {
         width in 20_u16..220,
         height in 5_u16..70,
     ) {
-        let mut player = Player::new();
-        for (key, news) in steps {
-            player = player.press(KEYS.split(' ').nth(key).unwrap());
+        let mut player = Player::at_runs(TRUE_COLOUR);
+        for (index, news) in steps {
+            player.event(&key(KEYS.split(' ').nth(index).unwrap()));
             player = match news {
                 0 => player.report(Report::Runs(Ok(summaries().into()))),
                 1 => player.report(Report::Runs(Ok(Listing::default()))),
@@ -456,9 +426,9 @@ proptest! {
             };
             player.app.tick(0.7);
             if news > 9 {
-                player.draw(width, height);
+                player.picture(width, height);
             }
         }
-        player.draw(width, height);
+        player.picture(width, height);
     }
 }

@@ -1,6 +1,9 @@
 //! What is taken back and made again: strokes that are set, and balls that come from elsewhere, on another table too.
 
-use super::drill_player::{Player, TRUE_COLOUR, exercise};
+use super::{
+    player::{Player, TRUE_COLOUR},
+    practice::exercise,
+};
 use carom::{drills::Exercise, table::Layout};
 
 #[test]
@@ -25,7 +28,7 @@ fn changes_of_the_stroke_are_taken_back_input_by_input() {
 #[test]
 fn balls_that_come_from_an_exercise_on_another_table_are_one_step() {
     let thesis = Exercise { table: "thesis".to_owned(), ..exercise("small", "On the other table") };
-    let player = Player::with(TRUE_COLOUR, &[thesis], &[]).press("Left c");
+    let player = Player::at_library(TRUE_COLOUR, &[thesis], &[]).press("Left c");
     let place = |player: &Player| (player.app.table().name.clone(), *player.app.layout());
     let taken = place(&player);
     assert_eq!(taken.0, "thesis");
