@@ -1,3 +1,5 @@
+//! Codes there and back, damaged, wrapped, and of other versions.
+
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;

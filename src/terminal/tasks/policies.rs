@@ -9,7 +9,7 @@ use crate::{
         run::POLICY,
     },
     terminal::{
-        pages::training::NO_POLICY,
+        tasks::training::NO_POLICY,
         tasks::training::{Keeping, Kept},
     },
 };

@@ -14,6 +14,10 @@ use crate::{
     terminal::tasks::reel::Reel,
 };
 
+/// Why a run's weights are of no use to the coach.
+pub const NO_POLICY: &str = "the run has no policy for the coach: it comes with the first measurement, and the thesis' \
+                             agents have none";
+
 /// Which of the two runs that can be followed at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slot {

@@ -1,3 +1,5 @@
+//! History against a plain count of all lines.
+
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;

@@ -13,9 +13,9 @@ use crate::{
             Form, Question, Screen, TrainingPage, Watch,
             keys::{TrainingAction as Action, TrainingCondition as Condition},
             question::proposed_name,
-            watch::{NO_POLICY, Named},
+            watch::Named,
         },
-        tasks::training::{Keeping, Launch},
+        tasks::training::{Keeping, Launch, NO_POLICY},
         ui::message::Message,
     },
 };

@@ -44,7 +44,7 @@ use crate::{
 pub use form::{Field, Form};
 pub use question::Question;
 pub use runs::RunList;
-pub use watch::{NO_POLICY, Named, Watch};
+pub use watch::{Named, Watch};
 
 /// Time for which a run that is started is believed to come: within it nothing else is started in its folder.
 const LAUNCHING: Duration = Duration::from_secs(5);

@@ -16,10 +16,6 @@ use crate::{
     },
 };
 
-/// Why a run's weights are of no use to the coach.
-pub const NO_POLICY: &str = "the run has no policy for the coach: it comes with the first measurement, and the thesis' \
-                             agents have none";
-
 /// A run and its name.
 #[derive(Debug)]
 pub struct Named {

@@ -1,3 +1,5 @@
+//! Charts as text: their axes, gaps, bands, and what they do in little room.
+
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng as _};
 use rand_xoshiro::Xoshiro256PlusPlus;

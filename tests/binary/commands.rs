@@ -1,0 +1,243 @@
+//! The command line through the real binary: answers, JSON, batches, and what happens to bad input.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+use crate::program::asked as carom;
+
+fn json(args: &[&str]) -> Value {
+    let output = carom(args).assert().success().get_output().stdout.clone();
+    serde_json::from_slice(&output).unwrap()
+}
+
+fn lines(output: &[u8]) -> Vec<Value> {
+    String::from_utf8_lossy(output).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// The exit code and what was said, for input that must leave the standard output empty.
+fn refusal(command: &mut Command) -> (i32, String) {
+    let output = command.output().unwrap();
+    assert!(output.stdout.is_empty(), "nothing may be written for refused input");
+    (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
+}
+
+const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
+const SHOT: &str = "0,0.3,0,1,4";
+
+#[test]
+fn simulate_tells_the_events_to_people_and_to_programs() {
+    let text = carom(&["simulate", "--layout", LAYOUT, "--shot", SHOT]).assert().success();
+    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    assert!(text.contains("impulse: V0 = (4.9") && text.contains("ball-ball") && text.contains("all still after"));
+    let answer = json(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]);
+    assert_eq!(answer["events"][0]["kind"], "ball-ball");
+    assert_eq!(answer["events"][0]["balls"], serde_json::json!([0, 1]));
+    assert_eq!(answer["final"].as_array().unwrap().len(), 3);
+    assert!(answer["duration"].as_f64().unwrap() > 1.0);
+}
+
+#[test]
+fn layouts_may_be_written_in_diamonds() {
+    let metres = json(&["simulate", "--layout", "-0.71,0 0.71,0 -0.71,0.355", "--shot", SHOT, "--json"]);
+    let diamonds = json(&["simulate", "--layout", "2d,2d 6d,2d 2d,3d", "--shot", SHOT, "--json"]);
+    assert_eq!(metres["events"], diamonds["events"]);
+}
+
+#[test]
+fn a_batch_answers_every_line_in_order_and_goes_on_after_a_bad_one() {
+    let shots = include_str!("../data/shots.jsonl");
+    let mut input: Vec<&str> = shots.lines().take(3).collect();
+    input.insert(1, r#"{"preset": "match", "layout": [[0,0],[0,0.01],[1,0]], "cue": {"a":0,"b":0,"theta_deg":0,"phi_deg":0,"speed":1}}"#);
+    input.push("not json");
+    let output = carom(&["simulate", "--batch", "-"]).write_stdin(input.join("\n")).assert().code(2);
+    let answers = lines(&output.get_output().stdout);
+    assert_eq!(answers.len(), 5);
+    assert!(answers[1]["error"].as_str().unwrap().contains("0.0100"));
+    assert!(answers[4]["error"].as_str().unwrap().contains("line 5"));
+    let expected: Value = serde_json::from_str(shots.lines().next().unwrap()).unwrap();
+    let difference = answers[0]["duration"].as_f64().unwrap() - expected["duration"].as_f64().unwrap();
+    assert!(difference.abs() < 1e-9);
+    assert!(String::from_utf8_lossy(&output.get_output().stderr).contains("2 of 5 lines"));
+}
+
+#[test]
+fn recommend_gives_a_shot_that_simulates_to_a_point() {
+    let answer = json(&["recommend", "--layout", LAYOUT, "--json"]);
+    assert_eq!(answer["solved"], true);
+    let cue = &answer["cue"];
+    let number = |key: &str| cue[key].as_f64().unwrap();
+    assert!(number("a").powi(2) + number("b").powi(2) <= 0.25);
+    let shot =
+        format!("{},{},{},{},{}", number("a"), number("b"), number("theta_deg"), number("phi_deg"), number("speed"));
+    let played = json(&["simulate", "--layout", LAYOUT, "--shot", &shot, "--json"]);
+    let meets = |ball: u64| {
+        let pair = serde_json::json!([0, ball]);
+        played["events"].as_array().unwrap().iter().any(|event| event["kind"] == "ball-ball" && event["balls"] == pair)
+    };
+    assert!(meets(1) && meets(2));
+    for key in ["make_probability", "source", "simulations", "elapsed_ms", "alternatives"] {
+        assert!(!answer[key].is_null(), "{key} is missing");
+    }
+}
+
+#[test]
+fn a_recommendation_says_how_sure_it_is_how_far_off_one_may_be_and_what_else_there_is() {
+    let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
+    let args = ["recommend", "--layout", LAYOUT, "--skill", own, "--budget-ms", "200", "--margins", "--plan", "--json"];
+    let answer = json(&args);
+    let [rate, low, high] = [&answer["make_probability"], &answer["make_interval"][0], &answer["make_interval"][1]]
+        .map(|n| n.as_f64().unwrap());
+    assert!(0.0 < low && low <= rate && rate <= high && high <= 1.0);
+    let kinds: Vec<_> = answer["alternatives"].as_array().unwrap().iter().map(|other| &other["kind"]).collect();
+    assert!(!kinds.is_empty() && !kinds.contains(&&answer["kind"]), "{answer}");
+    assert!(answer["next_probability"].as_f64().is_some_and(|next| next > 0.5));
+    assert_eq!(answer["margins"].as_array().unwrap().len(), 5);
+    assert_eq!(answer["maps"][0]["outcomes"][20][20], "point", "the shot is in the middle");
+    assert!(answer["aim"]["hit"]["fullness"].is_number());
+    let (code, said) = refusal(&mut carom(&["recommend", "--skill", "a=0.7,b=0.7,theta=0.2,phi=-1,V=0.1"]));
+    assert!(code == 2 && said.contains("phi = -1") && said.contains("0 to 45 degrees"), "{said}");
+}
+
+#[test]
+fn self_play_counts_points_and_misses() {
+    let args = ["evaluate", "--self-play", "--rule", "three-cushion", "--skill", "beginner", "--layouts", "3"];
+    let report = json(&[&args[..], &["--budget-ms", "20", "--most-points", "2", "--json"]].concat());
+    let number = |key: &str| report[key].as_u64().unwrap();
+    assert_eq!(report["runs"].as_array().unwrap().len(), 3);
+    assert_eq!(number("misses") + number("broken_off"), 3);
+    assert!(number("longest") <= 2 && number("points") <= 6);
+}
+
+#[test]
+fn the_networks_alone_answer_without_a_simulation() {
+    let answer = json(&["recommend", "--policy-only", "--json"]);
+    assert_eq!((&answer["source"], &answer["simulations"]), (&"policy".into(), &0.into()));
+}
+
+#[test]
+fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
+    let input = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"three-cushion"}
+{"preset":"thesis","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
+{"preset":"snooker","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
+{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}"#;
+    let output = carom(&["recommend", "--batch", "-", "--budget-ms", "5000", "--simulations", "20000"])
+        .write_stdin(input)
+        .assert()
+        .code(2);
+    let answers = lines(&output.get_output().stdout);
+    assert_eq!((&answers[0]["solved"], &answers[1]["solved"]), (&true.into(), &true.into()));
+    assert!(answers[2]["error"].as_str().unwrap().contains("snooker"));
+    assert!(answers[3]["error"].as_str().unwrap().contains("four-cushion"));
+}
+
+#[test]
+fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
+    // Three balls in corners, one simulated batch of shots at most: three cushions are not found in no time.
+    let layout = "-1.38,-0.67 1.38,0.67 1.38,-0.67";
+    let args = ["recommend", "--table", "thesis", "--layout", "-1.2,-0.6 1.2,0.6 1.2,-0.6", "--rule", "three-cushion"];
+    let output = carom(&args).args(["--budget-ms", "0", "--json"]).output().unwrap();
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(answer["solved"], false);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("best attempt"));
+    // The same on the table that has a policy still ends, whatever it finds.
+    carom(&["recommend", "--layout", layout, "--budget-ms", "0"]).output().unwrap();
+}
+
+#[test]
+fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let cellar = folder.path().join("cellar.toml");
+    let table = include_str!("../../src/table/match.toml").replace("name = \"match\"", "name = \"cellar\"");
+    std::fs::write(&cellar, table).unwrap();
+    let cellar = cellar.to_str().unwrap();
+    let cases: [(&[&str], &[&str]); 10] = [
+        (&["simulate", "--layout", "9,0 0,0 0.5,0.5", "--shot", SHOT], &["9.0000", "1.3892"]),
+        (&["simulate", "--layout", "0,0 0,0.01 0.5,0.5", "--shot", SHOT], &["0.0100", "0.0615"]),
+        (&["simulate", "--layout", "NaN,0 0,0.01 0.5,0.5", "--shot", SHOT], &["NaN", "finite"]),
+        (&["simulate", "--layout", "here", "--shot", SHOT], &["\"here\"", "metres"]),
+        (&["simulate", "--shot", "0.9,0.9,0,0,1"], &["1.62", "at most 1"]),
+        (&["simulate", "--shot", "0,0,0,0"], &["\"0,0,0,0\"", "a,b,theta,phi,V"]),
+        (&["simulate", "--shot", "0,0,0,0,-1"], &["V = -1", "above 0"]),
+        (&["simulate", "--shot", SHOT, "--table", "snooker"], &["snooker", "match", "thesis"]),
+        (&["simulate", "--shot", "0,0,0,1e6,1"], &["phi = ", "36000"]),
+        (&["recommend", "--table", cellar, "--policy-only"], &["cellar", "--policy"]),
+    ];
+    for (args, words) in cases {
+        let (code, said) = refusal(&mut carom(args));
+        assert_eq!((code, said.lines().count()), (2, 1), "{args:?}: {said}");
+        for word in words {
+            assert!(said.contains(word), "{args:?} says {said}");
+        }
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_end_with_exit_code_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let corrupt = folder.path().join("weights.safetensors");
+    std::fs::write(&corrupt, b"this is no safetensors file").unwrap();
+    let corrupt = corrupt.to_str().unwrap();
+    let missing = folder.path().join("none").to_str().unwrap().to_owned();
+    for args in [
+        &["recommend", "--policy", corrupt][..],
+        &["recommend", "--policy", &missing],
+        &["simulate", "--batch", &missing],
+        &["evaluate", "--policy-only", "--policy", &missing],
+    ] {
+        let (code, said) = refusal(&mut carom(args));
+        assert_eq!((code, said.lines().count()), (1, 1), "{args:?}: {said}");
+    }
+}
+
+#[test]
+fn without_a_terminal_one_sentence_names_the_command_line() {
+    let (code, said) = refusal(&mut carom(&[]));
+    assert_eq!(code, 2);
+    assert!(said.contains("carom recommend"), "{said}");
+}
+
+#[test]
+fn a_table_of_ones_own_is_read_from_toml() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("club.toml");
+    let text = include_str!("../../src/table/match.toml").replace("\"match\"", "\"club\"");
+    std::fs::write(&path, &text).unwrap();
+    let table = path.to_str().unwrap();
+    let own = json(&["simulate", "--table", table, "--layout", LAYOUT, "--shot", SHOT, "--json"]);
+    assert_eq!(own, json(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]));
+    std::fs::write(&path, text.replace("mu_s = 0.2", "mu_s = -1")).unwrap();
+    let (code, said) = refusal(&mut carom(&["simulate", "--table", table, "--shot", SHOT]));
+    assert!(code == 2 && said.contains("mu_s = -1"), "{said}");
+}
+
+#[test]
+fn the_recommender_finds_a_point_on_all_of_two_thousand_layouts() {
+    let report = json(&["evaluate", "--layouts", "2000", "--seed", "11", "--json"]);
+    assert_eq!(report["success"]["successes"], 2000);
+}
+
+#[test]
+fn a_table_before_the_subcommand_is_not_silently_ignored() {
+    let (code, said) = refusal(&mut carom(&["--table", "thesis", "recommend"]));
+    assert!(code == 2 && said.contains("--table"), "{said}");
+}
+
+#[test]
+fn a_batch_line_is_named_by_its_place_in_the_file() {
+    let output =
+        carom(&["simulate", "--batch", "-"]).write_stdin(b"\n\n{\"preset\": 3}\n\xff\n".to_vec()).assert().code(2);
+    let answers = lines(&output.get_output().stdout);
+    let said = |index: usize| answers[index]["error"].as_str().unwrap().to_owned();
+    assert!(said(0).contains("line 3") && !said(0).contains("line 1"), "{}", said(0));
+    assert!(said(1).contains("line 4"), "{}", said(1));
+}
+
+#[test]
+fn a_table_that_only_has_the_name_of_a_bundled_one_gets_no_bundled_policy() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("match.toml");
+    std::fs::write(&path, include_str!("../../src/table/match.toml").replace("L = 2.84", "L = 4.0")).unwrap();
+    let (code, said) = refusal(&mut carom(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]));
+    assert!(code == 2 && said.contains("no policy is bundled"), "{said}");
+}

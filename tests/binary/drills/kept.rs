@@ -1,0 +1,50 @@
+//! Positions of one's own, codes, export and import.
+
+use std::fs;
+
+use crate::program::{SAVE, drill, folder, tried};
+
+#[test]
+fn a_position_is_shared_added_replaced_and_removed() {
+    let folder = folder();
+    let code = drill(folder.path(), &["share", "mine"]).out;
+    assert_eq!(code.lines().count(), 1);
+    // As a chat may wrap it.
+    let (begin, end) = code.trim().split_at(30);
+    assert_eq!(drill(folder.path(), &["add", begin, end]).code, Some(1), "there is one of this name");
+    assert_eq!(drill(folder.path(), &["add", begin, end, "--name", "yours"]).code, Some(0));
+    let show = |name: &str| drill(folder.path(), &["show", name, "--json"]).json().remove(0);
+    let (mine, yours) = (show("mine"), show("yours"));
+    assert_eq!((&mine["layout"], &mine["rule"]), (&yours["layout"], &yours["rule"]));
+    assert_eq!(mine["diamonds"][1], serde_json::json!([4.0, 2.0]), "the middle of the table");
+    let again = [SAVE, &["--title", "Another", "--replace"]].concat();
+    assert_eq!(drill(folder.path(), &again).code, Some(0));
+    assert_eq!(show("mine")["title"], "Another");
+    assert_eq!(drill(folder.path(), &["list", "--category", "own", "--json"]).json().len(), 2);
+    drill(folder.path(), &["log", "yours", "make"]);
+    assert_eq!(drill(folder.path(), &["remove", "yours"]).code, Some(0));
+    assert_eq!(drill(folder.path(), &["show", "yours"]).code, Some(1));
+    assert_eq!(drill(folder.path(), &["history", "yours", "--json"]).json().len(), 1, "its history stays");
+}
+
+#[test]
+fn what_is_exported_is_imported_elsewhere_and_once() {
+    let (here, there) = (folder(), tempfile::tempdir().unwrap());
+    drill(here.path(), &["log", "mine", "make", "miss"]);
+    drill(here.path(), &["log", "mine", "make"]);
+    assert_eq!(drill(here.path(), &["export", "all.json"]).code, Some(0));
+    let file = here.path().join("all.json");
+    let file = file.to_str().unwrap();
+    let import = || drill(there.path(), &["import", file, "--json"]).json().remove(0);
+    let first = import();
+    assert_eq!([&first["positions"], &first["sessions"], &first["known"]], [1, 2, 0]);
+    assert_eq!((tried(there.path()), import()["known"].as_u64()), (3, Some(3)));
+    assert_eq!(drill(there.path(), &["export", "-"]).out, drill(there.path(), &["export"]).out);
+    assert_eq!(drill(there.path(), &["export"]).out.trim(), fs::read_to_string(file).unwrap().trim());
+    // Of what has grown there since, the longer is taken; a file of a newer version is refused whole.
+    let text = fs::read_to_string(file).unwrap();
+    fs::write(file, text.replace("\"version\":1", "\"version\":2")).unwrap();
+    let newer = drill(there.path(), &["import", file]);
+    assert!(newer.code == Some(2) && newer.err.contains("version 2"), "{}", newer.err);
+    assert_eq!(tried(there.path()), 3);
+}

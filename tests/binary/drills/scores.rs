@@ -1,0 +1,205 @@
+//! Playing, logging, and the scores that come of it.
+
+use serde_json::{Value, json};
+
+use crate::program::{SAVE, carom, command, drill, fed, folder};
+
+fn kinds<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
+    lines.iter().filter(|line| line["kind"] == kind).collect()
+}
+
+#[test]
+fn results_at_a_table_are_scored_as_by_hand() {
+    let folder = folder();
+    let undo = |times| drill(folder.path(), &[&["log", "mine"][..], &["undo"].repeat(times)].concat()).code;
+    drill(folder.path(), &["log", "mine", "make", "make", "miss", "make", "miss", "miss"]);
+    assert_eq!(undo(1), Some(0));
+    let log = drill(folder.path(), &["log", "mine", "undo", "--json"]);
+    let score = &log.json()[0];
+    assert_eq!([&score["tried"], &score["made"], &score["innings"], &score["high_run"]], [4, 3, 2, 2]);
+    assert_eq!(score["average"], 1.5);
+    assert_eq!(drill(folder.path(), &["log", "mine", "--made", "7", "--of", "10"]).code, Some(0));
+    let lines =
+        fed(command(folder.path(), &["drill", "log", "mine", "--json"]), "make\nmiss\nundo\nmake\nmake\n").json();
+    assert_eq!(lines.len(), 5, "every word is answered");
+    assert_eq!([&lines[4]["tried"], &lines[4]["high_run"]], [3, 3]);
+    let all = &drill(folder.path(), &["history", "--json"]).json()[0];
+    assert_eq!(
+        [&all["name"], &all["tried"], &all["made"], &all["high_run"]],
+        [&json!("mine"), &json!(17), &json!(13), &json!(3)]
+    );
+    assert_eq!(drill(folder.path(), &["history", "mine", "--json"]).json().len(), 3);
+    let text = drill(folder.path(), &["history", "mine"]).out;
+    assert!(text.contains("13 of 17 made, 76 %") && text.contains('█'), "{text}");
+    // Four words for what was noted one by one, one for what was noted together, three again.
+    assert_eq!(undo(8), Some(0));
+    let text = drill(folder.path(), &["history", "mine"]).err;
+    assert!(text.contains("not tried yet"), "{text}");
+    assert_eq!(undo(1), Some(2));
+}
+
+#[test]
+fn a_seed_plays_the_same_again_and_is_compared_with_what_is_taught_or_the_coach() {
+    let folder = folder();
+    let play = || {
+        let args =
+            ["try", "mine", "--shot", "0,0.3,3,5,4", "--repeat", "5", "--skill", "club", "--seed", "3", "--json"];
+        drill(folder.path(), &[&args[..], &["--budget-ms", "1000"]].concat()).json()
+    };
+    let (once, again) = (play(), play());
+    let attempts = kinds(&once, "attempt");
+    assert_eq!(attempts.len(), 5);
+    for (attempt, again) in attempts.iter().zip(kinds(&again, "attempt")) {
+        assert_eq!(
+            [&attempt["played"], &attempt["end"], &attempt["chance"]],
+            [&again["played"], &again["end"], &again["chance"]]
+        );
+        assert!(attempt["advised_chance"].as_f64() > attempt["chance"].as_f64(), "{attempt}");
+        assert!(!attempt["changes"].as_array().unwrap().is_empty());
+        assert_eq!(attempt["advised_by"], "exercise");
+    }
+    let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,3,1,4", "--json"]).json();
+    let own = kinds(&own, "attempt")[0];
+    assert_eq!([&own["changes"], &own["advised_chance"]], [&json!([]), &own["chance"]], "as it is taught");
+    assert_ne!(attempts[0]["played"], attempts[1]["played"], "every attempt has its own errors");
+    assert_eq!(drill(folder.path(), &["history", "--json"]).json()[0]["tried"], 11);
+    let shifted = ["try", "mine", "--shot", "0,0.3,3,1,4", "--repeat", "3", "--shifted", "--budget-ms", "20", "--json"];
+    let lines = drill(folder.path(), &shifted).json();
+    assert_eq!(kinds(&lines, "position").len(), 3, "the balls are shifted every time");
+}
+
+#[test]
+fn a_run_reads_strokes_and_the_word_coach_and_goes_on_after_a_line_that_is_none() {
+    let folder = folder();
+    let args = ["drill", "run", "mine", "--goal", "2", "--skill", "perfect", "--seed", "1", "--json"];
+    let run =
+        fed(command(folder.path(), &args), "0,0,0,90,1\n\nfull speed\n0,0,0,0,-1\n0,0.8,0,0,1\ncoach\ncoach\ncoach\n");
+    let lines = run.json();
+    let refused: Vec<u64> = kinds(&lines, "refused").iter().map(|line| line["line"].as_u64().unwrap()).collect();
+    assert_eq!((run.code, refused), (Some(2), vec![3, 4, 5]));
+    let attempts = kinds(&lines, "attempt");
+    let told: Vec<_> =
+        attempts.iter().map(|attempt| (attempt["made"].as_bool(), attempt["helped"].as_bool())).collect();
+    let [no, yes] = [false, true].map(Some);
+    assert_eq!(told, [(no, no), (yes, yes), (yes, yes)], "two in a row end it");
+    assert_eq!(attempts[0]["verdict"], "missed: no ball was met");
+    let result = lines.last().unwrap();
+    assert_eq!([&result["kind"], &result["over"], &result["high_run"]], [&json!("result"), &json!(true), &json!(2)]);
+}
+
+#[test]
+fn a_game_goes_on_from_where_the_balls_stop_and_ends_after_its_innings() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = [
+        "play",
+        "--coach",
+        "--innings",
+        "2",
+        "--rule",
+        "three-cushion",
+        "--skill",
+        "beginner",
+        "--seed",
+        "5",
+        "--json",
+    ];
+    let lines = carom(folder.path(), &[&args[..], &["--budget-ms", "300"]].concat()).json();
+    let mut lie = &Value::Null;
+    for line in &lines {
+        // After a miscue the balls lie as they did, and nothing is told.
+        match line["kind"].as_str() {
+            Some("attempt") => lie = &line["end"],
+            Some("position") => assert!(lie.is_null() || *lie == line["layout"], "{lie} {line}"),
+            _ => {}
+        }
+    }
+    let made: Vec<bool> = kinds(&lines, "attempt").iter().map(|turn| turn["made"].as_bool().unwrap()).collect();
+    let points = made.iter().filter(|made| **made).count();
+    assert_eq!((made.len() - points, made.last()), (2, Some(&false)));
+    let result = lines.last().unwrap();
+    assert_eq!([&result["made"], &result["innings"]], [points, 2]);
+    assert_eq!(result["average"].as_f64().unwrap(), points as f64 / 2.0);
+    let games = drill(folder.path(), &["history", "--games", "three-cushion", "--json"]).json();
+    assert!(games.is_empty(), "what the coach plays is none of the player's games");
+}
+
+#[test]
+fn a_coach_without_a_point_is_one_line_refused_and_no_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["play", "--table", "thesis", "--rule", "three-cushion", "--budget-ms", "0", "--innings", "1", "--json"];
+    let layout = ["--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5"];
+    let lines = fed(command(folder.path(), &[&args[..], &layout].concat()), "coach\n0,0,0,0,2\n").json();
+    assert_eq!([kinds(&lines, "refused").len(), kinds(&lines, "attempt").len()], [1, 1], "{lines:?}");
+}
+
+#[test]
+fn enough_results_tell_a_skill_that_every_command_takes() {
+    let folder = folder();
+    let early = drill(folder.path(), &["skill"]);
+    assert!(early.code == Some(1) && early.err.contains("0 attempts") && early.err.contains("20"), "{}", early.err);
+    let own = |args: &[&str]| carom(folder.path(), &[args, &["--skill", "own"]].concat());
+    let none = own(&["recommend"]);
+    assert!(none.code == Some(2) && none.err.contains("carom drill skill --keep"), "{}", none.err);
+    drill(folder.path(), &["log", "half-ball", "--made", "60", "--of", "60"]);
+    let bound = drill(folder.path(), &["skill", "--keep"]);
+    assert!(bound.code == Some(1) && bound.err.contains("at most"), "{}", bound.err);
+    assert!(drill(folder.path(), &["skill"]).out.contains("at most"));
+    assert_eq!(own(&["recommend"]).code, Some(2), "nothing was kept");
+    drill(folder.path(), &["log", "half-ball", "undo"]);
+    drill(folder.path(), &["log", "mine", "--made", "12", "--of", "60"]);
+    let answer = &drill(folder.path(), &["skill", "--keep", "--json"]).json()[0];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let [low, high] = [&answer["interval"][0], &answer["interval"][1]].map(number);
+    assert!(low < number(&answer["scale"]) && number(&answer["scale"]) < high && high < 16.0, "{answer}");
+    let report = own(&["evaluate", "--policy-only", "--layouts", "1", "--json"]).json().remove(0);
+    assert_eq!(report["robustness"]["skill"], answer["skill"]);
+    let lines = own(&["drill", "try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "0", "--json"]).json();
+    assert_eq!(kinds(&lines, "attempt").len(), 1);
+}
+
+#[test]
+fn what_is_wrong_or_not_there_is_named() {
+    let folder = folder();
+    let own = |args: &'static [&'static str]| args;
+    let cases: [(&[&str], i32, &str); 12] = [
+        (own(&["show", "nobody"]), 1, "\"nobody\""),
+        (own(&["history", "nobody"]), 1, "\"nobody\""),
+        (own(&["remove", "nobody"]), 1, "\"nobody\""),
+        (SAVE, 1, "--replace"),
+        (own(&["log", "mine", "made"]), 2, "\"made\""),
+        (own(&["log", "mine", "--made", "4", "--of", "3"]), 2, "4 made of 3"),
+        (own(&["save", "a/b", "--layout", "-0.5,0 0,0 0.5,0.03"]), 2, "\"a/b\""),
+        (own(&["save", "near", "--layout", "0,0 0,0 0.5,0.03"]), 2, "0.0615"),
+        (own(&["try", "mine", "--shot", "0,0.8,0,0,1"]), 2, "0.6400"),
+        (own(&["try", "mine", "--shot", "hard"]), 2, "\"hard\""),
+        (own(&["add", "carom:04000"]), 2, "damaged"),
+        (own(&["list", "--category", "snooker"]), 2, "three-cushion"),
+    ];
+    for (args, code, word) in cases {
+        let outcome = drill(folder.path(), args);
+        assert_eq!(outcome.code, Some(code), "{args:?}: {}", outcome.err);
+        assert!(outcome.err.contains(word), "{args:?}: {}", outcome.err);
+    }
+}
+
+#[test]
+fn an_exam_asks_twenty_exercises_once_and_says_whose_score_it_is() {
+    let folder = folder();
+    let args = ["exam", "--level", "2", "--seed", "8", "--skill", "perfect", "--budget-ms", "200", "--json"];
+    let lines = drill(folder.path(), &[&args[..], &["--coach"]].concat()).json();
+    let attempts = kinds(&lines, "attempt");
+    let names: std::collections::BTreeSet<&str> =
+        attempts.iter().map(|attempt| attempt["exercise"].as_str().unwrap()).collect();
+    assert_eq!((attempts.len(), names.len()), (20, 20));
+    let result = lines.last().unwrap();
+    let points = result["made"].as_u64().unwrap();
+    assert_eq!((&result["over"], &result["nearest"]), (&json!(true), &json!("expert")), "{result}");
+    assert!(points > 15, "a perfect player makes what the coach finds: {points}");
+    // The same seed asks the same; one that ends early is kept as far as it went.
+    let lines = fed(command(folder.path(), &[&["drill"], &args[..]].concat()), "0,0,0,0,1\n").json();
+    assert_eq!(kinds(&lines, "position")[0]["exercise"], attempts[0]["exercise"]);
+    let result = lines.last().unwrap();
+    assert_eq!([&result["tried"], &result["over"]], [&json!(1), &json!(false)]);
+    let text = fed(command(folder.path(), &["drill", "exam"]), "0,0,0,0,1\n").out;
+    assert!(text.contains("(1 of 20 played)"), "{text}");
+}

@@ -1,0 +1,138 @@
+//! Nothing is lost: kills, a full disk, newer versions, damaged files, several programs at once.
+
+use std::{
+    fs,
+    io::{BufRead, BufReader, Write},
+    path::Path,
+    process::Stdio,
+    time::Duration,
+};
+
+use assert_cmd::cargo::cargo_bin;
+
+use crate::program::{SAVE, command, drill, fed, folder, outcome, program, sessions, tried};
+
+/// The attempts in a session's file, which must be whole.
+fn attempts(file: &Path) -> usize {
+    let text = fs::read_to_string(file).unwrap();
+    let session: serde_json::Value = serde_json::from_str(&text).unwrap();
+    session["attempts"].as_array().unwrap().len()
+}
+
+#[test]
+fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
+    let folder = folder();
+    let mut least = 0;
+    for kill in 0..12 {
+        let before = sessions(folder.path());
+        let args = ["drill", "run", "mine", "--goal", "10000", "--strokes", "10000", "--json"];
+        let mut child = command(folder.path(), &args).stdin(Stdio::piped()).spawn().unwrap();
+        let mut input = child.stdin.take().unwrap();
+        let feeder = std::thread::spawn(move || while writeln!(input, "0,0.3,3,1,4").is_ok() {});
+        let lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        // All kills at another moment, most of them while an attempt is played or written.
+        std::thread::sleep(Duration::from_millis(40 + 37 * kill));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let told =
+            lines.map_while(Result::ok).filter(|line| line.contains("\"attempt\"") && line.ends_with('}')).count();
+        feeder.join().unwrap();
+        let new: Vec<_> = sessions(folder.path()).into_iter().filter(|file| !before.contains(file)).collect();
+        let kept: usize = new.iter().map(|file| attempts(file)).sum();
+        assert!(kept == told || kept == told + 1, "{kept} attempts kept, {told} told");
+        least += told as u64;
+    }
+    assert!(least > 20, "the kills came before anything was played");
+    assert!(tried(folder.path()) >= least);
+}
+
+#[test]
+fn programs_at_the_same_time_lose_nothing_of_each_others() {
+    let folder = folder();
+    let logs: Vec<_> = (0..4)
+        .map(|_| {
+            let mut child = command(folder.path(), &["drill", "log", "mine"]).stdin(Stdio::piped()).spawn().unwrap();
+            let mut input = child.stdin.take().unwrap();
+            let feeder = std::thread::spawn(move || input.write_all("make\n".repeat(25).as_bytes()).unwrap());
+            (child, feeder)
+        })
+        .collect();
+    for (child, feeder) in logs {
+        feeder.join().unwrap();
+        assert_eq!(outcome(child).code, Some(0));
+    }
+    assert_eq!((tried(folder.path()), sessions(folder.path()).len()), (100, 4));
+    // Of several who save under the same new name, one does.
+    let saves: Vec<_> = (0..4)
+        .map(|title| {
+            let title = title.to_string();
+            let args = [&["drill", "save", "ours"], &SAVE[2..], &["--title", &title]].concat();
+            command(folder.path(), &args).spawn().unwrap()
+        })
+        .collect();
+    let codes: Vec<_> = saves.into_iter().map(|child| outcome(child).code).collect();
+    assert_eq!(codes.iter().filter(|code| **code == Some(0)).count(), 1, "{codes:?}");
+}
+
+/// The program in a shell that lets no file grow beyond so many blocks, as a full disk does not.
+#[cfg(unix)]
+#[test]
+fn on_a_full_disk_a_sentence_says_so_and_what_was_written_stays() {
+    let folder = folder();
+    let script = "trap '' XFSZ; ulimit -f 6; exec \"$0\" drill log mine --json";
+    let mut shell = program(folder.path(), Path::new("sh"));
+    shell.args(["-c", script]).arg(cargo_bin!("carom"));
+    let full = fed(shell, &"make\n".repeat(500));
+    let told = full.out.lines().count() as u64;
+    assert!(full.code == Some(1) && full.err.contains("sessions") && full.err.contains("large"), "{}", full.err);
+    assert!(told > 5 && told < 500, "{told} were told");
+    assert_eq!(tried(folder.path()), told);
+    let left = fs::read_dir(folder.path().join("carom/sessions")).unwrap().count();
+    assert_eq!(left, 1, "nothing half written is left");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let folder = folder();
+    fs::write(folder.path().join("carom/sessions"), "in the way").unwrap();
+    for args in [&["log", "mine", "make"][..], &["try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "10"]] {
+        let refused = drill(folder.path(), args);
+        assert!(refused.code == Some(1) && refused.err.contains("carom/sessions"), "{}", refused.err);
+        assert!(!refused.out.contains("of 1 made"), "{}", refused.out);
+    }
+    assert_eq!(fs::read_to_string(folder.path().join("carom/sessions")).unwrap(), "in the way");
+}
+
+#[test]
+fn files_of_a_newer_version_and_damaged_ones_are_named_and_never_touched() {
+    let folder = folder();
+    drill(folder.path(), &["log", "mine", "make", "miss"]);
+    let [session] = &sessions(folder.path())[..] else { panic!("one session") };
+    let text = fs::read_to_string(session).unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join("carom").join(name);
+        fs::write(&path, text).unwrap();
+        (path, text.to_owned())
+    };
+    let bad = [
+        file("sessions/newer.json", &text.replace("\"version\":1", "\"version\":2")),
+        file("sessions/half.json", &text[..text.len() / 2]),
+        file("sessions/garbage.json", "\u{0}\u{1}"),
+        file("positions/later.json", r#"{"format":"carom-library","version":5,"exercises":"unknown"}"#),
+        file("player.json", r#"{"format":"carom-player","version":3,"skill":7}"#),
+    ];
+    drill(folder.path(), &["log", "mine", "make"]);
+    let history = drill(folder.path(), &["history", "--json"]);
+    assert_eq!((history.code, &history.json()[0]["tried"]), (Some(0), &serde_json::json!(3)), "{}", history.err);
+    for name in ["newer.json", "version 2", "half.json", "garbage.json", "later.json", "version 5"] {
+        assert!(history.err.contains(name), "{name}: {}", history.err);
+    }
+    let export = drill(folder.path(), &["export"]);
+    assert!(export.code == Some(1) && export.err.contains("5 files"), "{}", export.err);
+    for args in [&["remove", "later"][..], &["skill", "--keep"]] {
+        assert_eq!(drill(folder.path(), args).code, Some(1), "{args:?}");
+    }
+    for (path, text) in bad {
+        assert_eq!(fs::read_to_string(&path).unwrap(), text, "{}", path.display());
+    }
+}

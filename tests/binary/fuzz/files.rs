@@ -1,0 +1,105 @@
+//! Files that somebody else has written, or half of one: settings, practice, runs, policies.
+
+use std::{fs, process::Command, sync::LazyLock};
+
+use carom::{
+    drills::Store,
+    learning::{
+        Policy,
+        run::{Run, list::runs_in},
+    },
+    storage::Places,
+    terminal::Settings,
+};
+use proptest::prelude::*;
+use tempfile::TempDir;
+
+use super::mutation::mutated;
+use crate::program::home;
+
+/// Files cost a thousand times what text in memory does.
+fn few() -> ProptestConfig {
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: (default.cases / 4).max(16), ..default }
+}
+
+/// A run and a session as the program writes them.
+static SOUND: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let small = "actor_layers = [4]\ncritic_layers = [4]\nbatch = 8\nactor_batch = 4\nreplay = 1000\n";
+    fs::write(folder.path().join("small.toml"), small).unwrap();
+    let carom = |args: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
+        command.args(args).envs(home()).env("XDG_DATA_HOME", folder.path()).current_dir(folder.path());
+        let said = command.output().unwrap();
+        assert!(said.status.success(), "{args:?}: {}", String::from_utf8_lossy(&said.stderr));
+    };
+    let train = ["train", "--config", "small.toml", "--steps", "200", "--evaluate-every", "100"];
+    carom(&[&train[..], &["--evaluation-layouts", "2", "--run", "run"]].concat());
+    carom(&["drill", "save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03"]);
+    carom(&["drill", "log", "mine", "make", "miss"]);
+    folder
+});
+
+fn sound(name: &str) -> Vec<u8> {
+    fs::read(SOUND.path().join(name)).unwrap()
+}
+
+/// The only file in a folder of practice.
+fn only(folder: &str) -> (String, Vec<u8>) {
+    let mut files = fs::read_dir(SOUND.path().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let file = files.find(|file| file.extension().is_some_and(|extension| extension == "json")).unwrap();
+    (file.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(file).unwrap())
+}
+
+fn one_of(names: &'static [&'static str]) -> impl Strategy<Value = (&'static str, Vec<u8>)> {
+    prop::sample::select(names).prop_flat_map(|name| (Just(name), mutated(sound(&format!("run/{name}")))))
+}
+
+proptest! {
+    #![proptest_config(few())]
+
+    #[test]
+    fn settings(bytes in mutated(Settings::default().document().into_bytes())) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("config.toml");
+        fs::write(&path, bytes).unwrap();
+        let _ = Settings::load(&path).0.table();
+    }
+
+    #[test]
+    fn practice(session in mutated(only("carom/sessions").1), position in mutated(only("carom/positions").1)) {
+        let folder = tempfile::tempdir().unwrap();
+        for (kind, bytes) in [("sessions", &session), ("positions", &position)] {
+            fs::create_dir(folder.path().join(kind)).unwrap();
+            fs::write(folder.path().join(kind).join(only(&format!("carom/{kind}")).0), bytes).unwrap();
+        }
+        let store = Store::new(&Places::under(folder.path()));
+        let found = store.sessions();
+        prop_assert_eq!(found.items.len() + found.notes.len(), 1, "it is read or told of");
+        for session in &found.items {
+            let _ = (session.record(), session.position());
+        }
+        store.library().unwrap();
+    }
+
+    #[test]
+    fn runs((name, bytes) in one_of(&["config.json", "metrics.jsonl", "state.json", "checkpoint.safetensors"])) {
+        let folder = tempfile::tempdir().unwrap();
+        let run = folder.path().join("run");
+        fs::create_dir(&run).unwrap();
+        for known in ["config.json", "metrics.jsonl", "state.json", "checkpoint.safetensors"] {
+            fs::write(run.join(known), if known == name { bytes.clone() } else { sound(&format!("run/{known}")) }).unwrap();
+        }
+        let _ = runs_in(folder.path());
+        let _ = Run::resume(&run);
+    }
+
+    #[test]
+    fn policies(bytes in mutated(sound("run/policy.safetensors"))) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("policy.safetensors");
+        fs::write(&path, bytes).unwrap();
+        let _ = Policy::load(&path);
+    }
+}

@@ -1,0 +1,107 @@
+//! JSON Lines to the real program: every line is answered, and nothing that a terminal obeys comes out.
+
+use std::{
+    io::Write,
+    process::{Command, Stdio},
+    thread,
+};
+
+use carom::printing::is_hidden;
+use proptest::{
+    prelude::*,
+    strategy::ValueTree,
+    test_runner::{Config, TestRunner},
+};
+
+use super::mutation::mutated;
+use crate::program::home;
+
+const LINE: &str = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{"a":0.1,"b":0.3,"theta_deg":5,"phi_deg":1,"speed":4},"rule":"straight"}"#;
+
+/// Runs `args` on so many damaged lines.
+fn check(args: &[&str], lines: usize) {
+    let (mut runner, mutated) = (TestRunner::new(Config::default()), mutated(LINE.as_bytes().to_vec()));
+    let line = |runner: &mut TestRunner| {
+        let mut line = mutated.new_tree(runner).unwrap().current();
+        line.retain(|byte| *byte != b'\n');
+        line
+    };
+    let lines: Vec<_> = (0..lines).map(|_| line(&mut runner)).collect();
+    let asked = lines.iter().filter(|line| !line.trim_ascii().is_empty()).count();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .args(args)
+        .envs(home())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let feeder = thread::spawn(move || input.write_all(&lines.join(&b'\n')));
+    let output = child.wait_with_output().unwrap();
+    let _ = feeder.join().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text.lines().count(), asked);
+    for line in text.lines() {
+        assert!(!line.chars().any(is_hidden), "{line:?}");
+        let answer: serde_json::Value = serde_json::from_str(line).unwrap();
+        assert!(answer.is_object(), "{line}");
+    }
+}
+
+#[test]
+fn shots() {
+    check(&["simulate", "--batch", "-"], 10 * Config::default().cases as usize);
+}
+
+#[test]
+fn questions() {
+    check(&["recommend", "--policy-only", "--batch", "-"], 4 * Config::default().cases as usize);
+}
+
+#[test]
+fn conversation() {
+    let (mut runner, words) = (
+        TestRunner::new(Config::default()),
+        prop::sample::select(vec![
+            "where",
+            "balls -0.5,0 0,0 0.5,0.03",
+            "move white up 5",
+            "rule three-cushion",
+            "skill expert",
+            "plan on",
+            "margins",
+            "other",
+            "undo",
+            "help",
+            "random",
+            "opening",
+            "go on",
+            "tell",
+        ]),
+    );
+    let mut said = Vec::new();
+    for _ in 0..Config::default().cases {
+        let order = words.new_tree(&mut runner).unwrap().current();
+        let mut line = mutated(order.into()).new_tree(&mut runner).unwrap().current();
+        line.retain(|byte| *byte != b'\n');
+        said.extend(line);
+        said.push(b'\n');
+    }
+    let mut child = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .arg("--plain")
+        .envs(home())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let feeder = thread::spawn(move || input.write_all(&said));
+    let output = child.wait_with_output().unwrap();
+    // It may have understood "quit".
+    let _ = feeder.join().unwrap();
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(!text.chars().any(|character| is_hidden(character) && !matches!(character, '\n' | '\t')));
+}

@@ -1,0 +1,167 @@
+//! A monkey at the terminal: keys, pastes, mouse reports, cut sequences and resizes at random, and in the end Ctrl-C, which
+//! has to end the program with the terminal as it was.
+//!
+//! `CAROM_MONKEY=3600 cargo test --profile quick --test binary fuzz::monkey -- --nocapture` plays for an hour.
+
+use std::{
+    env, fs,
+    path::Path,
+    thread,
+    time::{Duration, Instant},
+};
+
+use rand::{RngExt, SeedableRng, seq::IndexedRandom};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use crate::terminal::{OPENING, Session};
+
+/// Events of a session.
+const EVENTS: u32 = 300;
+
+const KEYS: [&str; 60] = [
+    "\x1b[A",
+    "\x1b[B",
+    "\x1b[C",
+    "\x1b[D",
+    "\x1b[1;2A",
+    "\x1b[1;2D",
+    "\x1b[5~",
+    "\x1b[6~",
+    "\x1b[H",
+    "\x1b[F",
+    "\x1bOP",
+    "\x1bOQ",
+    "\x1bOR",
+    "\x1b[15~",
+    "\x1b",
+    "\r",
+    "\t",
+    "\x1b[Z",
+    " ",
+    "\x7f",
+    ".",
+    ",",
+    "?",
+    "m",
+    "d",
+    "t",
+    "u",
+    "r",
+    "s",
+    "p",
+    "n",
+    "x",
+    "1",
+    "2",
+    "3",
+    "+",
+    "-",
+    "/",
+    ":",
+    "!",
+    "\x12",
+    "\x1a!",
+    "y",
+    "a",
+    "b",
+    "c",
+    "e",
+    "f",
+    "g",
+    "h",
+    "i",
+    "j",
+    "k",
+    "l",
+    "o",
+    "v",
+    "w",
+    "z",
+    "[",
+    "]",
+];
+
+const HOSTILE: [&str; 12] = [
+    "\x1b[<",
+    "\x1b[<0;5;",
+    "\x1b[?",
+    "\x1b[200~",
+    "\x1b[200~qqq\x1b[201~",
+    "\x1b\x1b[200~qqq\x1b[201~",
+    "\x1b]11;rgb:0/0/0\x07",
+    "\x1bP1$r0m\x1b\\",
+    "\x1b[M",
+    "\x1bO",
+    "\u{1b}[1;9999999999999R",
+    "\u{9b}\u{202e}",
+];
+
+#[test]
+fn a_monkey_leaves_no_trace() {
+    let seconds = env::var("CAROM_MONKEY").ok().and_then(|text| text.parse().ok());
+    let (start, end) = (Instant::now(), Duration::from_secs(seconds.unwrap_or(0)));
+    let (mut sessions, mut events, mut most) = (0, 0_u64, 0);
+    for seed in 0.. {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let mut session = Session::start(120, 40);
+        session.wait_for(OPENING);
+        for _ in 0..EVENTS {
+            events += 1;
+            match rng.random_range(0..20) {
+                0 => session.send(HOSTILE.choose(&mut rng).unwrap()),
+                1 => session.resize(rng.random_range(20..200), rng.random_range(5..60)),
+                2 => {
+                    let (button, column, row) =
+                        (rng.random_range(0..70), rng.random_range(0..130), rng.random_range(0..45));
+                    session.send(&format!("\x1b[<{button};{column};{row}M"));
+                }
+                3 => {
+                    session.count(Duration::from_millis(20));
+                }
+                // Ctrl-Z would stop it, and nobody is there to go on.
+                _ => session.send(KEYS.choose(&mut rng).unwrap().trim_start_matches('\x1a')),
+            }
+            if session.child.try_wait().unwrap().is_some() {
+                break;
+            }
+            session.count(Duration::from_millis(1));
+        }
+        most = most.max(memory(&session));
+        // A paste that has no end may stand still for a second.
+        session.count(Duration::from_millis(1200));
+        if session.child.try_wait().unwrap().is_none() {
+            session.send("\x03");
+        }
+        let status = session.assert_left_without_trace();
+        assert!(status.success(), "seed {seed}: {status:?}");
+        if let Some(home) = session.home() {
+            abandon(&home.join("data/carom/runs"));
+        }
+        sessions += 1;
+        if start.elapsed() >= end {
+            break;
+        }
+    }
+    println!("{sessions} sessions, {events} events, at most {most} kB");
+}
+
+/// Has the runs given up that the keys have started: they outlive the screen.
+fn abandon(runs: &Path) {
+    let Ok(entries) = fs::read_dir(runs) else { return };
+    for run in entries.map(|entry| entry.unwrap().path()) {
+        let asked = Instant::now();
+        // One that has ended by itself asks nobody any more.
+        while run.exists() && asked.elapsed() < Duration::from_secs(10) {
+            let _ = fs::write(run.join("request"), "abandon");
+            thread::sleep(Duration::from_millis(100));
+        }
+    }
+}
+
+/// Resident memory, kB.
+fn memory(session: &Session) -> u64 {
+    let id = session.child.process_id().unwrap_or_default();
+    let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmRSS")).unwrap_or_default();
+    line.split_whitespace().nth(1).and_then(|size| size.parse().ok()).unwrap_or(0)
+}

@@ -1,0 +1,97 @@
+//! Folders and files that are not what a command takes them for.
+
+use std::{fs, os::unix::fs::symlink, path::Path, process::Command};
+
+use crate::program::{carom, folder};
+
+const TRAIN: [&str; 8] = ["train", "--steps", "100", "--evaluation-layouts", "2", "--evaluate-every", "100", "--run"];
+
+fn train(home: &Path, run: &str) -> crate::program::Outcome {
+    carom(home, &[&TRAIN[..], &[run]].concat())
+}
+
+#[test]
+fn a_new_run_writes_over_nothing_that_no_run_has_written() {
+    let home = folder();
+    for name in ["state.json", "shots.json", "request", "metrics.jsonl", "notes.txt"] {
+        let run = home.path().join(format!("run-{name}"));
+        fs::create_dir(&run).unwrap();
+        fs::write(run.join(name), "mine").unwrap();
+        let said = train(home.path(), run.to_str().unwrap());
+        assert_eq!(said.code, Some(2), "{name}: {}", said.err);
+        assert!(said.err.contains("not empty") && said.err.contains(name), "{}", said.err);
+        assert_eq!(fs::read_to_string(run.join(name)).unwrap(), "mine");
+        let several = carom(home.path(), &[&TRAIN[..], &[run.to_str().unwrap(), "--seeds", "2"]].concat());
+        assert_eq!(several.code, Some(2), "{}", several.err);
+        assert!(!run.join("seeds.json").exists());
+    }
+    let (mine, run) = (home.path().join("mine.json"), home.path().join("linked"));
+    fs::write(&mine, "mine").unwrap();
+    fs::create_dir(&run).unwrap();
+    symlink(&mine, run.join("state.json")).unwrap();
+    assert_eq!(train(home.path(), run.to_str().unwrap()).code, Some(2));
+    assert_eq!(fs::read_to_string(&mine).unwrap(), "mine");
+    fs::create_dir(home.path().join("empty")).unwrap();
+    assert_eq!(train(home.path(), "empty").code, Some(0), "an empty folder is as good as none");
+    assert_eq!(train(home.path(), "empty").code, Some(2), "and is a run then");
+}
+
+#[test]
+fn pipes_and_devices_are_refused_and_not_waited_for() {
+    let home = folder();
+    let pipe = home.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let shot = ["--shot", "0,0,0,0,1"];
+    for path in [pipe.to_str().unwrap(), "/dev/zero"] {
+        for args in [
+            &[&["simulate", "--table", path], &shot[..]].concat()[..],
+            &["table", "check", path],
+            &["train", "--config", path],
+            &["train", "--from", path],
+            &["recommend", "--policy", path],
+            &["drill", "import", path],
+        ] {
+            let said = carom(home.path(), args);
+            assert!(matches!(said.code, Some(1 | 2)), "{args:?}: {}", said.err);
+            assert!(said.err.contains("regular file"), "{args:?}: {}", said.err);
+        }
+    }
+    // As the files of a run.
+    let run = home.path().join("runs/one");
+    assert_eq!(train(home.path(), run.to_str().unwrap()).code, Some(0));
+    for name in ["config.json", "state.json", "metrics.jsonl", "checkpoint.safetensors", "lock"] {
+        let file = run.join(name);
+        let _ = fs::remove_file(&file);
+        fs::rename(&pipe, &file).unwrap();
+        carom(home.path(), &["train", "--list", "runs"]);
+        if name != "metrics.jsonl" {
+            carom(home.path(), &["train", "--resume", "runs/one"]);
+        }
+        // Whether the run can do without is another question: it does not hang.
+        fs::rename(&file, &pipe).unwrap();
+    }
+}
+
+#[test]
+fn an_export_goes_where_a_link_leads() {
+    let home = folder();
+    fs::write(home.path().join("real.json"), "").unwrap();
+    symlink("real.json", home.path().join("link.json")).unwrap();
+    assert_eq!(carom(home.path(), &["drill", "export", "link.json"]).code, Some(0));
+    assert!(home.path().join("link.json").is_symlink());
+    assert!(fs::read_to_string(home.path().join("real.json")).unwrap().contains("carom"));
+}
+
+#[test]
+fn a_tables_name_leads_no_run_into_other_folders() {
+    let home = folder();
+    let table = carom(home.path(), &["table", "show", "match"]).out;
+    fs::write(home.path().join("t.toml"), table.replace("\"match\"", "\"../../../gone\\u001b\"")).unwrap();
+    let args = ["train", "--table", "t.toml", "--steps", "100", "--evaluation-layouts", "2", "--evaluate-every", "100"];
+    let said = carom(home.path(), &args);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let runs = fs::read_dir(home.path().join("carom/runs")).unwrap();
+    let names: Vec<_> = runs.map(|run| run.unwrap().file_name().into_string().unwrap()).collect();
+    assert!(names.len() == 1 && names[0].contains("gone"), "{names:?}");
+    assert!(home.path().join("carom/runs").join(&names[0]).join("config.json").exists());
+}

@@ -1,0 +1,15 @@
+//! What goes through the real binary: the command line, runs that train, practice, trouble, and a screen in a pseudo-terminal.
+
+mod accuracy;
+mod bench;
+mod commands;
+mod cue_room;
+mod documents;
+mod drills;
+mod fuzz;
+mod hostile;
+mod program;
+mod pty;
+mod reproduce;
+mod terminal;
+mod training;

@@ -1,0 +1,126 @@
+//! The program as a process: whose user it has, what it is told, and what it says.
+
+use std::{
+    fs,
+    io::Write,
+    ops::{Deref, DerefMut},
+    path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+};
+
+use assert_cmd::cargo::cargo_bin;
+use serde_json::Value;
+
+/// Where a test's program finds settings, runs and practice: none of whoever runs the tests. Nothing is looked for there by
+/// a test; one that does has a folder of its own.
+pub fn home() -> impl Iterator<Item = (&'static str, String)> {
+    ["HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_STATE_HOME"]
+        .into_iter()
+        .map(|name| (name, format!("{}/home/{name}", env!("CARGO_TARGET_TMPDIR"))))
+}
+
+/// The program, which finds nothing of any user's, with what there is to assert on its answer.
+pub fn asked(args: &[&str]) -> assert_cmd::Command {
+    let mut command = assert_cmd::Command::new(cargo_bin!("carom"));
+    command.envs(home()).args(args);
+    command
+}
+
+/// A position with a shot that an expert makes now and then.
+pub const SAVE: &[&str] = &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,3,1,4"];
+
+pub struct Outcome {
+    pub code: Option<i32>,
+    pub out: String,
+    pub err: String,
+}
+
+impl Outcome {
+    /// The lines of JSON.
+    pub fn json(&self) -> Vec<Value> {
+        self.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    }
+}
+
+/// A user's folder with the position `mine`.
+pub fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(drill(folder.path(), SAVE).code, Some(0));
+    folder
+}
+
+pub fn command(folder: &Path, args: &[&str]) -> Command {
+    let mut command = program(folder, cargo_bin!("carom"));
+    command.args(args);
+    command
+}
+
+/// A program whose user lives in `folder`.
+pub fn program(folder: &Path, program: &Path) -> Command {
+    let mut command = Command::new(program);
+    command.current_dir(folder).env("XDG_DATA_HOME", folder).env("HOME", folder);
+    command.env("XDG_CONFIG_HOME", folder.join("config")).env("XDG_STATE_HOME", folder.join("state"));
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+pub fn carom(folder: &Path, args: &[&str]) -> Outcome {
+    outcome(command(folder, args).spawn().unwrap())
+}
+
+pub fn drill(folder: &Path, args: &[&str]) -> Outcome {
+    carom(folder, &[&["drill"], args].concat())
+}
+
+/// With these lines on the standard input.
+pub fn fed(mut command: Command, lines: &str) -> Outcome {
+    let mut child = command.stdin(Stdio::piped()).spawn().unwrap();
+    // A program that ends early does not read all of it.
+    let _ = child.stdin.take().unwrap().write_all(lines.as_bytes());
+    outcome(child)
+}
+
+pub fn outcome(child: Child) -> Outcome {
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Outcome { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// The files of all sessions.
+pub fn sessions(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder.join("carom/sessions")).into_iter().flatten();
+    let files = entries.map(|entry| entry.unwrap().path());
+    files.filter(|file| file.extension().is_some_and(|extension| extension == "json")).collect()
+}
+
+/// Attempts at `mine` that the program finds in its files; it must find nothing to complain of.
+pub fn tried(folder: &Path) -> u64 {
+    let history = drill(folder, &["history", "--json"]);
+    assert!(history.code == Some(0) && history.err.is_empty(), "{}", history.err);
+    history.json().iter().map(|row| row["tried"].as_u64().unwrap()).sum()
+}
+
+/// A process that ends when the test does, however that ends.
+pub struct Kept(pub Child);
+
+impl Deref for Kept {
+    type Target = Child;
+
+    fn deref(&self) -> &Child {
+        &self.0
+    }
+}
+
+impl DerefMut for Kept {
+    fn deref_mut(&mut self) -> &mut Child {
+        &mut self.0
+    }
+}
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        // It has ended already where the test went well.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}

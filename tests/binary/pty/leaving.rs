@@ -1,0 +1,213 @@
+//! Every way of leaving gives the terminal back and keeps what was done.
+
+use std::time::{Duration, Instant};
+
+use portable_pty::CommandBuilder;
+
+use crate::terminal::{OPENING, PATIENCE, Session, carom};
+
+#[test]
+fn signals_restore_the_terminal_and_still_end_the_program() {
+    for name in ["TERM", "INT", "HUP", "QUIT"] {
+        let mut session = Session::start(80, 24);
+        session.wait_for(OPENING);
+        session.signal(name);
+        let status = session.assert_left_without_trace();
+        assert!(!status.success(), "{name}: {status:?}");
+    }
+}
+
+#[test]
+fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
+    let home = tempfile::tempdir().unwrap();
+    let start = || Session::start_at(home.path(), carom(), 80, 24);
+    let mut first = start();
+    first.wait_for("white at x -710.0 mm, y 182.5 mm");
+    first.send("\x1b[1;2B");
+    first.wait_for("white at x -710.0 mm, y 82.5 mm");
+    first.send("[");
+    first.wait_for("there is no");
+    first.signal("HUP");
+    first.assert_left_without_trace();
+    // Looking in without doing anything changes nothing.
+    for _ in 0..2 {
+        let mut second = start();
+        second.wait_for("c goes on from where the last session ended");
+        second.send("q");
+        assert!(second.assert_left_without_trace().success());
+    }
+    let mut third = start();
+    third.wait_for("c goes on");
+    third.send("c");
+    third.wait_for("this is where the last session ended");
+    third.send("\t\x1b[Z");
+    third.wait_for("white at x -710.0 mm, y 82.5 mm");
+    third.send("q");
+    assert!(third.assert_left_without_trace().success());
+    let log = std::fs::read_to_string(home.path().join("state/carom/carom.log")).unwrap();
+    assert!(log.contains("the screen opens") && log.contains("WARN there is no"), "{log}");
+}
+
+#[test]
+fn suspending_gives_the_terminal_back_and_continuing_repaints() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(OPENING);
+    session.send("\x1a");
+    session.wait_until("the shell's screen", |screen| {
+        let has_mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
+        !screen.alternate_screen() && !screen.hide_cursor() && !has_mouse
+    });
+    session.come_back_to(OPENING);
+    session.send("\x1b[C");
+    session.wait_for("white at x -700.0 mm");
+    session.send("\x03");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn raw_mode_is_off_again_after_the_end() {
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "\"$0\"; stty -a", env!("CARGO_BIN_EXE_carom")]);
+    let mut session = Session::start_command(command, 120, 40);
+    session.wait_for(OPENING);
+    session.send("q");
+    session.wait_for(" icanon");
+    session.wait_for(" echo ");
+}
+
+#[test]
+fn it_is_told_to_end_wherever_it_is() {
+    let press_the_white_ball = "\x1b[<0;34;13M\x1b[<32;40;13M";
+    for (keys, text) in [
+        (&[":", "the"][..], " of "),
+        (&["?"], "Placing the balls"),
+        (&["d", "/", "half"], "The half ball"),
+        (&["d", "a"], "the code of a position"),
+        (&["d", "\r", " "], "on its way"),
+        (&["t", "n"], "Enter"),
+        (&[press_the_white_ball], "white at x -5"),
+        (&["\r"], "Esc"),
+    ] {
+        let mut session = Session::start(120, 40);
+        session.wait_for(OPENING);
+        for key in keys {
+            session.press(key);
+        }
+        session.wait_for(text);
+        session.signal("TERM");
+        let status = session.assert_left_without_trace();
+        assert!(status.signal().is_some(), "{keys:?}: {status:?}");
+    }
+}
+
+#[test]
+fn every_screen_comes_back_after_it_was_stopped() {
+    for (keys, text) in [
+        (&[":"][..], " of "),
+        (&["?"], "Placing the balls"),
+        (&["d"], "The half ball"),
+        (&["d", "\r"], "set the stroke"),
+        (&["t"], "No agent"),
+    ] {
+        let mut session = Session::start(80, 24);
+        session.wait_for(OPENING);
+        for key in keys {
+            session.press(key);
+        }
+        session.wait_for(text);
+        let before = session.screen().contents();
+        session.signal("TSTP");
+        session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
+        session.assert_given_back();
+        session.come_back_to(text);
+        assert_eq!(session.screen().contents(), before);
+        session.signal("TERM");
+        session.assert_left_without_trace();
+    }
+}
+
+#[test]
+fn a_shot_goes_on_from_where_it_was_stopped() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(OPENING);
+    session.send("\r");
+    session.wait_for_advice();
+    session.send(" ");
+    session.wait_until("it plays", |screen| clock(screen).is_some_and(|time| time > 0.0));
+    let (start, before) = (Instant::now(), clock(session.screen()).unwrap());
+    session.send("\x1a");
+    session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
+    let (played, stopped) = (start.elapsed(), Instant::now());
+    // The time in which the shot would run on.
+    std::thread::sleep(Duration::from_secs(1));
+    let stood = stopped.elapsed();
+    session.come_back_to("Events");
+    session.wait_until("the clock", |screen| clock(screen).is_some());
+    let passed = clock(session.screen()).unwrap() - before;
+    let running = played.as_secs_f64() + (stopped.elapsed() - stood).as_secs_f64();
+    assert!(passed < running + 0.5 * stood.as_secs_f64(), "the shot ran on: {passed} s in {running} s");
+}
+
+/// Seconds since the stroke, as the first row tells them: "1.25 / 6.50 s", or "1.25/6.50" where there is less room.
+fn clock(screen: &vt100::Screen) -> Option<f64> {
+    let row = screen.rows(0, 80).next()?;
+    row.split('/').next()?.split_whitespace().last()?.parse().ok()
+}
+
+#[test]
+fn whatever_kills_it_two_seconds_are_lost_at_most() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(OPENING);
+    // The second move comes at once after the first one, and then nothing that could be a reason to write it down.
+    session.send("\x1b[1;2B");
+    session.wait_for("y 82.5 mm");
+    session.send("\x1b[1;2C");
+    session.wait_for("x -610.0 mm");
+    let start = Instant::now();
+    while !session.last().contains("[-0.61,0.0824") {
+        assert!(start.elapsed() < Duration::from_secs(4), "{}", session.last());
+        session.count(Duration::from_millis(50));
+    }
+    session.signal("KILL");
+    session.ends_within(PATIENCE);
+}
+
+#[test]
+fn an_exam_that_was_interrupted_is_gone_on_with() {
+    let home = tempfile::tempdir().unwrap();
+    let start = || Session::start_at(home.path(), carom(), 80, 24);
+    let mut first = start();
+    first.wait_for(OPENING);
+    first.send("d");
+    first.wait_for("The half ball");
+    first.send("e");
+    first.wait_for("exercise 1 of 20");
+    first.send(" ");
+    first.wait_for("to the end");
+    first.send("\r");
+    first.wait_for("next");
+    first.send("\r");
+    first.wait_for("exercise 2 of 20");
+    first.signal("HUP");
+    first.assert_left_without_trace();
+    let mut second = start();
+    second.wait_for("c goes on");
+    second.send("c");
+    second.wait_for("exercise 2 of 20");
+    second.send("q");
+    assert!(second.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_said_once() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::create_dir(home.path().join("state")).unwrap();
+    std::fs::write(home.path().join("state/carom"), "in the way").unwrap();
+    let mut session = Session::start_at(home.path(), carom(), 80, 24);
+    session.wait_for(OPENING);
+    session.send("\x1b[C");
+    // A word of the sentence, which is broken into rows.
+    session.wait_for("cannot");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}

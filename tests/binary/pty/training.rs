@@ -1,0 +1,85 @@
+//! Runs that train beside the program.
+
+use std::{
+    process::Command,
+    thread,
+    time::{Duration, Instant},
+};
+
+use carom::learning::run::list::{Stage, runs_in};
+
+use crate::program::{Kept, home};
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
+
+#[test]
+fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
+    let data = tempfile::tempdir().unwrap();
+    let mut command = carom();
+    command.env("XDG_DATA_HOME", data.path());
+    let mut session = Session::start_command(command, 80, 24);
+    session.wait_for(OPENING);
+    session.send("t");
+    session.wait_for("No agent has been trained here yet.");
+    session.send("n\x1b[B\x1b[B\x1b[B\x7f\x7f\x7f\x7f\x7f\x7f\x7f20000\r");
+    session.wait_for("Numbers");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+    // The pseudo-terminal goes with the session.
+    drop(session);
+    let start = Instant::now();
+    loop {
+        let runs = runs_in(&data.path().join("carom/runs")).unwrap_or_default().runs;
+        if runs.first().is_some_and(|run| run.state == Stage::Finished && run.best_reward.is_some()) {
+            break;
+        }
+        assert!(start.elapsed() < 9 * PATIENCE, "it does not finish: {runs:?}");
+        thread::sleep(Duration::from_millis(100));
+    }
+}
+
+#[test]
+fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_has_ended() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    let settings = folder.path().join("small.toml");
+    let small = "actor_layers = [16]\ncritic_layers = [16]\nbatch = 32\nactor_batch = 8\nshots_per_update = 16\n";
+    std::fs::write(&settings, small).unwrap();
+    let training = Command::new(env!("CARGO_BIN_EXE_carom"))
+        .envs(home())
+        .args(["train", "--steps", "60000", "--evaluate-every", "10000", "--evaluation-layouts", "50", "--config"])
+        .args([&settings, &"--run".into(), &run])
+        .stderr(std::process::Stdio::null())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut training = Kept(training);
+    while !run.join("metrics.jsonl").exists() {
+        assert!(training.try_wait().unwrap().is_none(), "the run ended by itself");
+        thread::sleep(Duration::from_millis(10));
+    }
+    let watch = |width, height| {
+        let mut command = carom();
+        command.arg("watch");
+        command.arg(&run);
+        Session::start_command(command, width, height)
+    };
+    let mut watchers = [watch(80, 24), watch(120, 40)];
+    for watcher in &mut watchers {
+        watcher.wait_for("1 mean reward");
+        watcher.wait_for("training");
+        watcher.wait_for("Shot 1 of 8");
+    }
+    // Where nobody looks on any more, the training goes on; whoever still does sees it end.
+    let [left, mut stays] = watchers;
+    drop(left);
+    let watched = stays.count(Duration::from_secs(2));
+    assert!(training.wait().unwrap().success());
+    stays.wait_for("finished");
+    stays.send(".");
+    stays.settle(REST);
+    assert_eq!(stays.count(Duration::from_secs(2)), 0, "the run has ended, and no shot plays");
+    // Each second ten pictures of some hundreds of bytes at most; 2,300 bytes a second were measured.
+    assert!((100..40_000).contains(&watched), "{watched} bytes in two seconds");
+    stays.send("q");
+    assert!(stays.assert_left_without_trace().success());
+}

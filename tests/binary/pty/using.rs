@@ -1,0 +1,230 @@
+//! A session from start to end, and what it writes meanwhile.
+
+use std::{
+    process::Command,
+    thread,
+    time::{Duration, Instant},
+};
+
+use portable_pty::CommandBuilder;
+
+use crate::program::home;
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
+
+/// What every frame begins with.
+const FRAME: &[u8] = b"\x1b[?2026h";
+
+#[test]
+fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
+    let mut session = Session::start(80, 24);
+    session.wait_for("white at x -710.0 mm, y 182.5 mm");
+    assert!(session.screen().alternate_screen() && session.screen().hide_cursor());
+    session.send("\x1b[B\x1b[1;2B");
+    session.wait_for("white at x -710.0 mm, y 72.5 mm");
+    session.send("\r");
+    session.wait_for("Events 0/");
+    session.wait_for("‖");
+    session.send(".");
+    session.wait_for("Events 1/");
+    session.send(" ");
+    session.wait_until("it plays", |screen| !screen.contents().contains('‖'));
+    session.wait_until("the next event", |screen| !screen.contents().contains("Events 1/"));
+    session.send(" ?");
+    session.wait_for("Placing the balls");
+    // Escape and q at once would be Alt-q.
+    session.send("?q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn it_costs_nothing_while_nothing_moves() {
+    let mut session = Session::start(120, 40);
+    session.wait_for(OPENING);
+    session.settle(REST);
+    assert_eq!(session.count(Duration::from_millis(500)), 0);
+}
+
+#[test]
+fn playback_stays_small_enough_for_a_slow_link() {
+    let mut session = Session::start(120, 40);
+    session.wait_for(OPENING);
+    session.send("\r");
+    session.wait_for_advice();
+    // The coach has looked at the shot more closely, too.
+    session.settle(Duration::from_millis(1500));
+    session.send(" ");
+    let (mut shot, mut silent) = (Vec::new(), 0);
+    while silent < 10 {
+        let bytes = session.take(Duration::from_millis(100)).unwrap();
+        silent = if bytes.is_empty() { silent + 1 } else { 0 };
+        shot.extend(bytes);
+    }
+    let frames = shot.windows(FRAME.len()).filter(|window| *window == FRAME).count();
+    assert!(frames > 50, "{frames} frames");
+    let frame = shot.len() / frames;
+    // 190 to 240 were measured, by the shot; 540 with crossterm's backend.
+    assert!((20..=300).contains(&frame), "{frame} bytes a frame");
+}
+
+#[test]
+fn a_resize_repaints_and_a_small_terminal_says_so() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(OPENING);
+    for (width, height, text) in [(60, 20, "60×20"), (120, 40, "Shift x10")] {
+        session.resize(width, height);
+        session.wait_for(text);
+    }
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
+    let mut session = Session::start(120, 40);
+    session.wait_for("white at x -710.0 mm, y 182.5 mm");
+    let screen = session.screen();
+    assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::ButtonMotion, "not every motion");
+    assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
+    session.settle(REST);
+    // What comes at once is below the 1,024 bytes that the input library reads at a time.
+    let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 13 + n % 2)).collect();
+    let before = session.bytes;
+    session.send(&format!("\x1b[<0;34;13M{}\x1b[<32;44;13M\x1b[<0;44;13m", reports.concat()));
+    session.wait_for("white at x -447.0 mm, y 182.5 mm");
+    session.settle(REST);
+    let drag = session.bytes - before;
+    // A picture is about 300 bytes.
+    assert!(drag < 5_000, "{drag} bytes");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_user_may_keep_the_mouse() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::create_dir(home.path().join("carom")).unwrap();
+    std::fs::write(home.path().join("carom/config.toml"), "mouse = false\n").unwrap();
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "XDG_CONFIG_HOME=\"$1\" exec \"$0\"", env!("CARGO_BIN_EXE_carom")]);
+    command.arg(home.path());
+    let mut session = Session::start_command(command, 80, 24);
+    session.wait_for("placing balls");
+    assert_eq!(session.screen().mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+}
+
+#[test]
+fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
+    let home = tempfile::tempdir().unwrap();
+    let mut session = Session::start_at(home.path(), carom(), 80, 24);
+    session.wait_for(OPENING);
+    session.send("\x1b[15~");
+    session.wait_for("what is set holds at once");
+    // The last setting is the mouse.
+    session.send("\x1b[F\x1b[C");
+    session.wait_until("the mouse is left to the terminal", |screen| {
+        screen.mouse_protocol_mode() == vt100::MouseProtocolMode::None
+    });
+    let file = home.path().join("config/carom/config.toml");
+    let start = Instant::now();
+    while !std::fs::read_to_string(&file).unwrap_or_default().contains("mouse = false") {
+        assert!(start.elapsed() < PATIENCE, "it is not written");
+        thread::sleep(Duration::from_millis(20));
+    }
+    session.send("\x1bOQ");
+    session.wait_for(OPENING);
+    session.send("u");
+    session.wait_for("there is nothing to take back");
+    session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to take back"));
+    assert!(session.screen().contents().contains(OPENING));
+    session.settle(REST);
+    assert_eq!(session.count(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_note_is_kept_that_was_made_just_before_the_end() {
+    let home = tempfile::tempdir().unwrap();
+    let mut save = Command::new(env!("CARGO_BIN_EXE_carom"));
+    save.args(["drill", "save", "mine", "--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5", "--rule", "three-cushion"]);
+    assert!(
+        save.envs(crate::program::home())
+            .env("XDG_DATA_HOME", home.path().join("data"))
+            .output()
+            .unwrap()
+            .status
+            .success()
+    );
+    let mut session = Session::start_at(home.path(), carom(), 80, 24);
+    session.wait_for(OPENING);
+    // The library's last category holds the position, of which the coach begins to think when it is opened.
+    session.send("d\x1b[D");
+    session.wait_for("mine");
+    session.send("\rmq");
+    assert!(session.assert_left_without_trace().success());
+    let sessions = home.path().join("data/carom/sessions");
+    assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 1);
+}
+
+#[test]
+fn without_a_terminal_it_names_the_command_line() {
+    for term in ["xterm", "dumb"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_carom")).envs(home()).env("TERM", term).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(output.stdout.is_empty());
+        assert!(String::from_utf8_lossy(&output.stderr).contains("carom recommend --layout"));
+    }
+    let mut command = CommandBuilder::new("sh");
+    command.args(["-c", "TERM=dumb \"$0\"; echo code $?", env!("CARGO_BIN_EXE_carom")]);
+    let mut session = Session::start_command(command, 120, 40);
+    session.wait_for("carom recommend --layout");
+    session.wait_for("code 2");
+}
+
+#[test]
+fn what_comes_at_once_is_all_taken_without_another_key() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(OPENING);
+    // 2,700 bytes, of which the last one selects the yellow ball; the input library reads 1,024 at a time.
+    session.send(&format!("{}{}\t", "\x1b[C".repeat(450), "\x1b[D".repeat(450)));
+    session.wait_for("yellow at x");
+    session.send(":");
+    session.wait_for(" of ");
+    session.send(&format!("\x1b[200~{}\x1b[201~", "paste ".repeat(1000)));
+    session.wait_for("nothing here is called like that");
+    session.send("\x1b");
+    session.wait_for("yellow at x");
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_storm_of_resizes_ends_with_the_right_picture_and_then_silence() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(OPENING);
+    for n in 0..200 {
+        session.resize(60 + n % 90, 20 + n % 30);
+    }
+    session.resize(120, 40);
+    session.wait_for("Shift x10");
+    session.wait_for(OPENING);
+    session.settle(REST);
+    assert_eq!(session.count(Duration::from_millis(500)), 0);
+    session.send("q");
+    assert!(session.assert_left_without_trace().success());
+}
+
+#[test]
+fn a_pipe_that_is_closed_ends_it_quietly() {
+    for (ends, told) in [("--plain < /dev/null", ""), ("--plain | true", ""), ("| true", "carom recommend --layout")] {
+        let output = Command::new("sh")
+            .args(["-c", &format!("echo help | \"$0\" {ends}"), env!("CARGO_BIN_EXE_carom")])
+            .envs(home())
+            .env("XDG_CONFIG_HOME", "/nonexistent")
+            .output()
+            .unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(errors.contains(told) && !errors.contains("panicked"), "{ends}: {errors}");
+        assert_eq!(errors.is_empty(), told.is_empty(), "{ends}: {errors}");
+    }
+}

@@ -1,0 +1,60 @@
+//! `carom reproduce` through the real binary.
+
+use assert_cmd::Command;
+
+use crate::program::{Kept, asked, home};
+
+fn reproduce(args: &[&str]) -> Command {
+    asked(&[&["reproduce"], args].concat())
+}
+
+#[test]
+fn a_figure_is_written_as_csv_and_svg_and_does_not_depend_on_threads() {
+    let files = |jobs: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().to_str().unwrap();
+        let args = ["--figure", "23", "--figure", "25", "--episodes", "800", "--jobs", jobs, "--out", out];
+        let output = reproduce(&args).assert().success().get_output().stdout.clone();
+        let said = String::from_utf8(output).unwrap();
+        assert!(said.contains("Figure 23") && said.contains("random play"), "{said}");
+        ["figure-23.csv", "figure-23.svg", "figure-25.csv", "figure-25.svg"]
+            .map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
+    };
+    let one = files("1");
+    assert!(one[0].starts_with("episode,shots,mean_reward,mean_q,loss\none shot,800,"), "{}", one[0]);
+    assert!(one[0].contains("\n20 shots,200,") && one[0].contains("\nuntil a miss,200,"), "{}", one[0]);
+    assert!(one[1].contains("</svg>") && one[3].contains(">loss</text>"));
+    assert_eq!(one, files("2"));
+}
+
+#[test]
+fn an_unknown_figure_is_refused_with_those_that_there_are() {
+    let output = reproduce(&["--figure", "26"]).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), said.lines().count()), (Some(2), 1), "{said}");
+    assert!(said.contains("26") && said.contains("q-learning, 21, 22"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_it_with_the_number_of_figures_that_are_complete() {
+    let folder = tempfile::tempdir().unwrap();
+    let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("carom"))
+        .envs(home())
+        .args(["reproduce", "--figure", "29", "--episodes", "100000000", "--out"])
+        .arg(folder.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut child = Kept(child);
+    // It says that it trains as soon as it listens to signals.
+    let mut said = std::io::BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
+    std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    let mut rest = String::new();
+    std::io::Read::read_to_string(&mut said, &mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(1), "{line}{rest}");
+    assert!(rest.contains("0 of 1 figures"), "{rest}");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}

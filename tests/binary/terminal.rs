@@ -1,0 +1,266 @@
+//! The program in a pseudo-terminal: typing, looking at what it shows, and the ways in which a line ends.
+
+use std::{
+    io::{Read, Write},
+    num::NonZero,
+    path::Path,
+    process::Command,
+    sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+    thread,
+    time::{Duration, Instant},
+};
+
+use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
+use tempfile::TempDir;
+
+/// Longest time that a test waits for a picture; a loaded machine may take long to start a process.
+pub const PATIENCE: Duration = Duration::from_secs(20);
+/// What the coach shows at the start.
+pub const OPENING: &str = "white at x -710.0 mm";
+/// Silence after which no picture is on its way any more.
+pub const REST: Duration = Duration::from_millis(150);
+
+pub fn carom() -> CommandBuilder {
+    CommandBuilder::new(env!("CARGO_BIN_EXE_carom"))
+}
+
+fn cells(count: u16) -> NonZero<u16> {
+    NonZero::new(count).unwrap()
+}
+
+/// The terminal's side. It takes something only when it is asked for more: a line that nobody reads stands still.
+struct Line {
+    master: Box<dyn MasterPty + Send>,
+    writer: Box<dyn Write + Send>,
+    ask: Sender<()>,
+    output: Receiver<Vec<u8>>,
+    is_asked: bool,
+}
+
+pub struct Session {
+    /// Nothing once it is cut.
+    line: Option<Line>,
+    pub child: Box<dyn Child + Send + Sync>,
+    screen: vt100::Parser,
+    /// Settings, the last session and the log: not those of whoever runs the tests.
+    home: Option<TempDir>,
+    /// Bytes seen so far.
+    pub bytes: usize,
+}
+
+impl Session {
+    pub fn start(width: u16, height: u16) -> Self {
+        Self::start_command(carom(), width, height)
+    }
+
+    pub fn start_command(command: CommandBuilder, width: u16, height: u16) -> Self {
+        let home = tempfile::tempdir().unwrap();
+        let mut session = Self::start_at(home.path(), command, width, height);
+        session.home = Some(home);
+        session
+    }
+
+    /// The user's home, where the session has one of its own.
+    pub fn home(&self) -> Option<&Path> {
+        self.home.as_ref().map(TempDir::path)
+    }
+
+    pub fn start_at(home: &Path, mut command: CommandBuilder, width: u16, height: u16) -> Self {
+        command.env("HOME", home);
+        command.env("XDG_STATE_HOME", home.join("state"));
+        command.env("XDG_CONFIG_HOME", home.join("config"));
+        if command.get_env("XDG_DATA_HOME").is_none_or(|folder| !Path::new(folder).starts_with(std::env::temp_dir())) {
+            command.env("XDG_DATA_HOME", home.join("data"));
+        }
+        let size = PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 };
+        let pair = native_pty_system().openpty(size).unwrap();
+        for (name, value) in [("TERM", "xterm-256color"), ("COLORTERM", "truecolor"), ("LC_ALL", "C.UTF-8")] {
+            command.env(name, value);
+        }
+        command.env_remove("NO_COLOR");
+        command.env_remove("CAROM_GLYPHS");
+        let child = pair.slave.spawn_command(command).unwrap();
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let ((ask, asked), (sender, output)) = (channel(), channel());
+        thread::spawn(move || {
+            let mut buffer = vec![0; 65536];
+            while asked.recv().is_ok() {
+                let Ok(count @ 1..) = reader.read(&mut buffer) else { break };
+                if sender.send(buffer[..count].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        let writer = pair.master.take_writer().unwrap();
+        let line = Some(Line { master: pair.master, writer, ask, output, is_asked: false });
+        let screen = vt100::Parser::new(cells(height), cells(width), 0);
+        Self { line, child, screen, home: None, bytes: 0 }
+    }
+
+    pub fn screen(&self) -> &vt100::Screen {
+        self.screen.screen()
+    }
+
+    /// The file in which the next session looks for the last one.
+    pub fn last(&self) -> String {
+        let home = self.home.as_ref().unwrap().path();
+        std::fs::read_to_string(home.join("state/carom/last.json")).unwrap_or_default()
+    }
+
+    pub fn send(&mut self, keys: &str) {
+        let writer = &mut self.line.as_mut().unwrap().writer;
+        writer.write_all(keys.as_bytes()).unwrap();
+        writer.flush().unwrap();
+    }
+
+    /// Types these keys and waits until the program has answered them with a picture.
+    pub fn press(&mut self, keys: &str) {
+        let before = self.bytes;
+        self.send(keys);
+        let start = Instant::now();
+        while self.bytes == before {
+            assert!(start.elapsed() < PATIENCE, "no answer to {keys:?}\n{}", self.screen().contents());
+            self.take(Duration::from_millis(50));
+        }
+    }
+
+    pub fn resize(&mut self, width: u16, height: u16) {
+        let size = PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 };
+        self.line.as_ref().unwrap().master.resize(size).unwrap();
+        self.screen.screen_mut().set_size(cells(height), cells(width));
+    }
+
+    pub fn signal(&self, name: &str) {
+        let id = self.child.process_id().unwrap().to_string();
+        assert!(Command::new("kill").args([&format!("-{name}"), &id]).status().unwrap().success());
+    }
+
+    /// Bytes that the program has written so far, to whatever; where the system does not tell, nothing.
+    pub fn written(&self) -> Option<u64> {
+        let text = std::fs::read_to_string(format!("/proc/{}/io", self.child.process_id()?)).ok()?;
+        text.lines().find_map(|line| line.strip_prefix("wchar: ")?.parse().ok())
+    }
+
+    /// The terminal goes away. (Its last words are an empty line and Ctrl-D: the library that makes it has it so.)
+    pub fn cut(&mut self) {
+        // Whoever waits for something to read holds it: there has to be something.
+        let mut sizes = [(100, 30), (120, 40)].into_iter().cycle();
+        while self.line.as_ref().is_some_and(|line| line.is_asked)
+            && let Some((width, height)) = sizes.next()
+        {
+            self.resize(width, height);
+            self.take(Duration::from_millis(200));
+        }
+        self.line = None;
+    }
+
+    /// Takes what comes within `time`; `None` once the other side is closed.
+    pub fn take(&mut self, time: Duration) -> Option<Vec<u8>> {
+        let line = self.line.as_mut()?;
+        if !line.is_asked {
+            line.ask.send(()).ok()?;
+            line.is_asked = true;
+        }
+        match line.output.recv_timeout(time) {
+            Ok(bytes) => {
+                line.is_asked = false;
+                self.bytes += bytes.len();
+                self.screen.process(&bytes);
+                Some(bytes)
+            }
+            Err(RecvTimeoutError::Timeout) => Some(Vec::new()),
+            Err(RecvTimeoutError::Disconnected) => None,
+        }
+    }
+
+    pub fn wait_until(&mut self, what: &str, condition: impl Fn(&vt100::Screen) -> bool) {
+        let start = Instant::now();
+        while !condition(self.screen()) {
+            assert!(start.elapsed() < PATIENCE, "never came: {what}\n{}", self.screen().contents());
+            self.take(Duration::from_millis(50));
+        }
+    }
+
+    pub fn wait_for(&mut self, text: &str) {
+        self.wait_until(text, |screen| screen.contents().contains(text));
+    }
+
+    /// Waits until the coach has found its shot, of which nothing has been played yet.
+    pub fn wait_for_advice(&mut self) {
+        self.wait_until("the advice", |screen| {
+            let text = screen.contents();
+            text.contains("Events 0/") && !text.contains("cancel")
+        });
+    }
+
+    /// Waits until nothing has come for so long.
+    pub fn settle(&mut self, silence: Duration) {
+        let start = Instant::now();
+        while self.take(silence).is_some_and(|bytes| !bytes.is_empty()) {
+            assert!(start.elapsed() < PATIENCE, "it never rests\n{}", self.screen().contents());
+        }
+    }
+
+    /// Bytes that come within `time`.
+    pub fn count(&mut self, time: Duration) -> usize {
+        let (start, before) = (Instant::now(), self.bytes);
+        while start.elapsed() < time {
+            self.take(time.saturating_sub(start.elapsed()));
+        }
+        self.bytes - before
+    }
+
+    /// Waits for the end of the process for so long, without taking anything from it.
+    pub fn ends_within(&mut self, time: Duration) -> ExitStatus {
+        let start = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status;
+            }
+            assert!(start.elapsed() < time, "it does not end\n{}", self.screen().contents());
+            thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// Waits for the end of the process and of its output; the terminal has to be as it was.
+    pub fn assert_left_without_trace(&mut self) -> ExitStatus {
+        let start = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                break status;
+            }
+            assert!(start.elapsed() < PATIENCE, "it does not end\n{}", self.screen().contents());
+            self.take(Duration::from_millis(20));
+        };
+        while self.take(Duration::from_millis(100)).is_some() && self.count(Duration::from_millis(50)) > 0 {}
+        self.assert_given_back();
+        status
+    }
+
+    /// What the program has taken of the terminal is given back.
+    pub fn assert_given_back(&self) {
+        let screen = self.screen();
+        assert!(!screen.alternate_screen(), "the alternate screen was left on");
+        assert!(!screen.hide_cursor(), "the cursor was left hidden");
+        assert!(!screen.bracketed_paste(), "pastes are still marked");
+        assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
+    }
+
+    /// Ctrl-Z has given the terminal to the shell; continues the program until `text` is there again.
+    pub fn come_back_to(&mut self, text: &str) {
+        // A signal that comes before the process has stopped continues nothing: as often as needed.
+        let start = Instant::now();
+        while !self.screen().alternate_screen() || !self.screen().contents().contains(text) {
+            assert!(start.elapsed() < PATIENCE, "it does not come back\n{}", self.screen().contents());
+            self.signal("CONT");
+            self.count(Duration::from_millis(50));
+        }
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        // It has ended already where the test went well.
+        let _ = self.child.kill();
+    }
+}

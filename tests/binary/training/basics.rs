@@ -1,0 +1,140 @@
+//! Runs as they should go, and input that is wrong.
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+
+use super::common::{SHORT, carom, done, folder, start, wait_for};
+
+#[test]
+fn a_run_trains_a_policy_that_can_be_evaluated() {
+    let folder = folder();
+    let here = folder.path();
+    let first = done(here, &format!("{SHORT} --json --run one"));
+    let lines: Vec<Value> = first.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let last = lines.last().unwrap();
+    assert_eq!(last["time/total_timesteps"], 640);
+    for name in ["time/fps", "time/time_elapsed", "rollout/ep_rew_mean", "train/critic_loss", "train/actor_loss"] {
+        assert!(last[name].is_number(), "{name} in {last}");
+    }
+    for name in ["train/n_updates", "train/learning_rate", "train/q_value", "eval/mean_reward"] {
+        assert!(last[name].is_number(), "{name} in {last}");
+    }
+    let file = fs::read_to_string(here.join("one/metrics.jsonl")).unwrap();
+    assert_eq!(file, first.out, "the file and the output have the same lines");
+    let config: Value = serde_json::from_slice(&fs::read(here.join("one/config.json")).unwrap()).unwrap();
+    assert_eq!(
+        (&config["agent"], &config["seed"], &config["settings"]["batch"]),
+        (&"ddpg".into(), &3.into(), &32.into())
+    );
+    assert_eq!((&config["table"]["name"], &config["version"]), (&"match".into(), &env!("CARGO_PKG_VERSION").into()));
+
+    let measured = done(here, "evaluate --policy one/policy.safetensors --policy-only --layouts 100 --json");
+    let report: Value = serde_json::from_str(&measured.out).unwrap();
+    assert_eq!(report["success"]["layouts"], 100);
+
+    let again = carom(here, &format!("{SHORT} --run one"));
+    assert_eq!(again.code, Some(2));
+    assert!(again.err.contains("--resume"), "{}", again.err);
+    let finished = done(here, "train --resume one");
+    assert!(finished.err.contains("is finished") && finished.out.contains("640 shots"), "{}", finished.err);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile() {
+    let folder = folder();
+    let here = folder.path();
+    // Among the user's own runs, where they are found by name.
+    let name = "mine";
+    let run = here.join("carom/runs").join(name);
+    let line = "train --config small.toml --steps 100000000 --evaluate-every 2000 --evaluation-layouts 20";
+    let mut child = start(here, &format!("{line} --run {}", run.display()));
+    // The first lines of metrics show that the signal handlers stand and training is under way.
+    wait_for(&run.join("metrics.jsonl"), &mut child);
+    let listed = || -> Value { serde_json::from_str(&done(here, "train --list --json").out).unwrap() };
+    assert_eq!((&listed()["name"], &listed()["state"]), (&name.into(), &"running".into()));
+    let busy = carom(here, &format!("train --resume {name}"));
+    assert_eq!(busy.code, Some(1));
+    assert!(busy.err.contains("another process"), "{}", busy.err);
+
+    let interrupt = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert!(run.join("policy.safetensors").exists());
+    let stopped = listed();
+    assert_eq!(stopped["state"], "interrupted");
+    let resumed = done(here, &format!("train --resume {name} --minutes 0.002"));
+    assert!(resumed.err.contains("carom train --resume"), "{}", resumed.err);
+    assert!(listed()["shots"].as_u64() > stopped["shots"].as_u64());
+    let table = done(here, "train --list").out;
+    assert!(table.lines().count() == 2 && table.contains(name) && table.contains("interrupted"), "{table}");
+}
+
+#[test]
+fn every_bundled_policy_alone_beats_a_search_of_a_hundred_random_shots() {
+    // What a search of 100 random shots finds is in the model card; one shot of the networks does better everywhere.
+    for (table, rule, search) in [
+        ("match", "straight", 0.862),
+        ("match", "one-cushion", 0.853),
+        ("match", "three-cushion", 0.699),
+        ("thesis", "straight", 0.405),
+        ("thesis", "one-cushion", 0.365),
+        ("thesis", "three-cushion", 0.079),
+    ] {
+        let line = format!("evaluate --policy-only --table {table} --rule {rule} --layouts 500 --json");
+        let report: Value = serde_json::from_str(&done(Path::new("."), &line).out).unwrap();
+        assert!(report["success"]["rate"].as_f64().unwrap() > search, "{report}");
+    }
+}
+
+#[test]
+fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
+    let folder = folder();
+    let here = folder.path();
+    fs::write(here.join("broken.safetensors"), b"not weights").unwrap();
+    fs::write(here.join("wrong.toml"), "heads = 0").unwrap();
+    fs::write(here.join("nan.toml"), "target_rate = nan").unwrap();
+    let table = include_str!("../../../src/table/match.toml").replace("name = \"match\"", "name = \"cellar\"");
+    fs::write(here.join("cellar.toml"), table).unwrap();
+    for (line, code, named) in [
+        ("evaluate --policy none.safetensors", 1, "none.safetensors"),
+        ("evaluate --policy broken.safetensors", 1, "broken.safetensors"),
+        ("evaluate --table snooker", 2, "snooker"),
+        ("evaluate --policy-only --table cellar.toml", 2, "cellar"),
+        ("evaluate --random-search 10 --policy-only", 2, "--random-search"),
+        ("evaluate --policy-only --reward r9", 2, "r9"),
+        ("evaluate --layouts 0", 2, "0"),
+        ("evaluate --random-search 0", 2, "0"),
+        ("evaluate --random-search 10 --reward r1", 2, "--reward"),
+        ("train --run new --table snooker", 2, "snooker"),
+        ("train --run new --minutes -1", 2, "-1"),
+        ("train --run new --minutes NaN", 2, "NaN"),
+        ("train --run new --steps 0", 2, "0"),
+        ("train --run new --evaluate-every 0", 2, "0"),
+        ("train --run new --seeds 0", 2, "0"),
+        ("train --run new --jobs 2", 2, "--seeds"),
+        ("train --run new --agent sarsa", 2, "sarsa"),
+        ("train --run new --agent sarsa --seeds 2", 2, "sarsa"),
+        ("train --run new --config wrong.toml", 2, "heads = 0"),
+        ("train --run new --config nan.toml", 2, "target_rate"),
+        ("train --run new --config none.toml", 1, "none.toml"),
+        ("train --run new --set heads", 2, "heads"),
+        ("train --run new --set heads=0", 2, "heads = 0"),
+        ("train --run new --set batch=16777216", 2, "65536"),
+        ("train --run new --set exploration={unifrom=0.1}", 2, "unifrom"),
+        ("train --run new --set actions=three", 2, "three"),
+        ("train --run new --reward r1 --set hindsight=0.5", 2, "hindsight"),
+        ("train --run new --from nowhere", 1, "nowhere"),
+        ("train --run new --from broken.safetensors", 1, "broken.safetensors"),
+        ("train --resume nowhere", 1, "nowhere"),
+        ("train --resume new --seed 2", 2, "--seed"),
+        ("train --list nowhere", 1, "nowhere"),
+    ] {
+        let outcome = carom(here, line);
+        assert_eq!(outcome.code, Some(code), "{line}: {}", outcome.err);
+        assert!(outcome.err.contains(named) && !outcome.err.contains("panicked"), "{line}: {}", outcome.err);
+        assert!(outcome.out.is_empty(), "{line}");
+    }
+    assert!(!here.join("new").exists() && !here.join("nowhere").exists());
+}

@@ -1,0 +1,93 @@
+//! What the tests of training share: small runs, and what two of them are compared by.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+    time::Duration,
+};
+
+use serde_json::Value;
+
+use crate::program::{self, Kept, Outcome, outcome};
+
+/// An agent that learns thousands of updates a second.
+pub const SMALL: &str =
+    "actor_layers = [16]\ncritic_layers = [16]\nbatch = 32\nactor_batch = 8\nshots_per_update = 16\nreplay = 5000\n";
+
+/// A run of 40 turns with ten measurements.
+pub const SHORT: &str = "train --config small.toml --steps 640 --evaluate-every 64 --evaluation-layouts 20 --seed 3";
+
+/// A folder with the small agent's settings.
+pub fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.toml"), SMALL).unwrap();
+    folder
+}
+
+pub fn command(folder: &Path, line: &str) -> Command {
+    program::command(folder, &line.split_whitespace().collect::<Vec<_>>())
+}
+
+pub fn carom(folder: &Path, line: &str) -> Outcome {
+    outcome(command(folder, line).spawn().unwrap())
+}
+
+/// A carom that must succeed.
+pub fn done(folder: &Path, line: &str) -> Outcome {
+    let outcome = carom(folder, line);
+    assert_eq!(outcome.code, Some(0), "{line}: {}", outcome.err);
+    outcome
+}
+
+pub fn start(folder: &Path, line: &str) -> Kept {
+    Kept(command(folder, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap())
+}
+
+/// Waits until there is such a file, while the program runs.
+pub fn wait_for(file: &Path, child: &mut Child) {
+    while !file.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Everything in a run's folder that must not depend on the clock, and the names of all files. The checkpoint before
+/// the last is left out: when it was written does depend on it.
+#[derive(PartialEq)]
+pub struct Files {
+    names: Vec<PathBuf>,
+    policy: Vec<u8>,
+    checkpoint: Vec<u8>,
+    metrics: Vec<Value>,
+    config: Value,
+}
+
+impl Files {
+    pub fn of(run: &Path) -> Self {
+        let mut names: Vec<_> = fs::read_dir(run).unwrap().map(|entry| entry.unwrap().file_name().into()).collect();
+        names.sort();
+        let read = |name: &str| fs::read(run.join(name)).unwrap();
+        let metrics = String::from_utf8(read("metrics.jsonl")).unwrap();
+        let metrics = metrics.lines().map(|line| without(line, &["time/time_elapsed", "time/fps"])).collect();
+        let config = without(&String::from_utf8(read("config.json")).unwrap(), &["started"]);
+        Self { names, policy: read("policy.safetensors"), checkpoint: read("checkpoint.safetensors"), metrics, config }
+    }
+
+    /// Where they differ, for people: bytes are of no use to them.
+    pub fn assert_same(&self, other: &Self, what: &str) {
+        assert_eq!(self.names, other.names, "{what}");
+        assert_eq!(self.config, other.config, "{what}");
+        assert_eq!(self.metrics, other.metrics, "{what}");
+        assert!(self.checkpoint == other.checkpoint, "{what}: the checkpoints differ");
+        assert!(self.policy == other.policy, "{what}: the policies differ");
+    }
+}
+
+fn without(text: &str, names: &[&str]) -> Value {
+    let mut value: Value = serde_json::from_str(text).unwrap();
+    for name in names {
+        assert!(value.as_object_mut().unwrap().remove(*name).is_some(), "{name} in {text}");
+    }
+    value
+}

@@ -1,0 +1,71 @@
+//! Several seeds, and runs that start from others.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::common::{Files, SHORT, carom, done, folder};
+
+#[test]
+fn several_seeds_are_the_single_runs_and_go_on_as_one() {
+    let folder = folder();
+    let here = folder.path();
+    let whole = done(here, &format!("{SHORT} --run whole --seeds 3 --jobs 2"));
+    assert!(whole.out.contains("standard deviation") && whole.out.contains("seeds: 3"), "{}", whole.out);
+    let spread = |group: &str| fs::read_to_string(here.join(group).join("seeds.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        spread("whole").lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert_eq!(rows.len(), 10);
+    assert!(rows.iter().all(|row| row[1] == 3.0 && row[4] <= row[2] && row[2] <= row[5] && row[3] >= 0.0), "{rows:?}");
+
+    done(here, &SHORT.replace("--seed 3", "--seed 4 --run four"));
+    Files::of(&here.join("four")).assert_same(&Files::of(&here.join("whole/seed-4")), "alone and among others");
+
+    // Stopped before the first seed is through, then again.
+    let parts = done(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
+    assert!(parts.err.contains("--resume"), "{}", parts.err);
+    done(here, "train --resume parts --minutes 0.0005");
+    let json = done(here, "train --resume parts --json");
+    assert!(json.out.lines().all(|line| serde_json::from_str::<Value>(line).unwrap()["seed"].is_u64()));
+    assert_eq!(spread("parts"), spread("whole"));
+    let listed = done(here, "train --list . --json").out;
+    let states: Vec<Value> = listed.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()).collect();
+    assert_eq!(states.len(), 7);
+    assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
+    assert!(listed.contains("whole/seed-5"), "{listed}");
+
+    // A single run would hide the seeds.
+    let single = carom(here, &format!("{SHORT} --run whole"));
+    assert_eq!(single.code, Some(2));
+    assert!(single.err.contains("--resume"), "{}", single.err);
+}
+
+#[test]
+fn a_run_can_start_from_anothers_weights_and_says_so() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{SHORT} --run one --table thesis"));
+    let config = |run: &str| -> Value {
+        serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap()
+    };
+    for (from, run) in
+        [("one", "of-run"), ("one/policy.safetensors", "of-policy"), ("one/checkpoint.safetensors", "of-file")]
+    {
+        done(here, &format!("train --from {from} --reward r1 --steps 64 --evaluation-layouts 20 --run {run}"));
+        let (config, origin) = (config(run), &config(run)["from"]);
+        assert_eq!((&origin["path"], &origin["seed"], &origin["shots"]), (&from.into(), &3.into(), &640.into()));
+        assert_eq!((&origin["reward"], &config["reward"]), (&"r3".into(), &"r1".into()));
+        assert_eq!((&config["table"]["name"], &config["settings"]["batch"]), (&"thesis".into(), &32.into()));
+    }
+    // Its seed, table and settings are the same for all three: so are the weights that they end with.
+    let policy = |run: &str| fs::read(here.join(run).join("policy.safetensors")).unwrap();
+    assert!(policy("of-run") == policy("of-policy") && policy("of-run") == policy("of-file"));
+    done(here, "train --config small.toml --reward r1 --steps 64 --evaluation-layouts 20 --table thesis --run none");
+    assert!(policy("of-run") != policy("none"));
+
+    fs::write(here.join("large.toml"), "critic_layers = [24]").unwrap();
+    let large = carom(here, "train --from one --config large.toml --run large");
+    assert_eq!(large.code, Some(2));
+    assert!(large.err.contains("critic") && large.err.contains("-24-1"), "{}", large.err);
+    assert!(!here.join("large").exists());
+}

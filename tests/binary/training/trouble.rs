@@ -1,0 +1,68 @@
+//! Damaged checkpoints and a disk that takes no more.
+
+use std::fs;
+
+use super::common::{Files, SHORT, carom, done, folder};
+
+#[test]
+fn a_damaged_checkpoint_is_reported_and_the_one_before_used() {
+    let folder = folder();
+    let here = folder.path();
+    let run = here.join("run");
+    done(here, &format!("{SHORT} --run run"));
+    let files = Files::of(&run);
+    let (current, previous) = (run.join("checkpoint.safetensors"), run.join("checkpoint-previous.safetensors"));
+    let whole = fs::read(&current).unwrap();
+    for index in [3, 100, whole.len() / 3, whole.len() - 1] {
+        let mut damaged = whole.clone();
+        damaged[index] ^= 1;
+        fs::write(&current, damaged).unwrap();
+        let resumed = done(here, "train --resume run");
+        assert!(resumed.err.contains("warning") && resumed.err.contains("checkpoint.safetensors"), "{}", resumed.err);
+        assert!(
+            resumed.err.contains("going on from checkpoint-previous.safetensors, after 576 shots"),
+            "{}",
+            resumed.err
+        );
+        Files::of(&run).assert_same(&files, "after the damage");
+    }
+    fs::write(&current, &whole[..whole.len() / 2]).unwrap();
+    fs::write(&previous, b"").unwrap();
+    let lost = carom(here, "train --resume run");
+    assert_eq!(lost.code, Some(1));
+    for named in ["checkpoint.safetensors", "checkpoint-previous.safetensors", "damaged"] {
+        assert!(lost.err.contains(named), "{}", lost.err);
+    }
+    assert_eq!(lost.err.lines().count(), 1, "{}", lost.err);
+}
+
+/// A limit on the size of files stands for a full disk: no mount is needed.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_is_reported_leaves_the_last_checkpoint_and_spoils_nothing() {
+    use super::common::command;
+    use crate::program::{outcome, program};
+
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{SHORT} --run whole"));
+    done(here, &format!("{SHORT} --run run --minutes 0.00001"));
+    let run = here.join("run");
+    let checkpoint = || fs::read(run.join("checkpoint.safetensors")).unwrap();
+    let before = checkpoint();
+    // Remembered shots make checkpoints grow: the next ones exceed this, in blocks of 512 bytes; policies do not.
+    let blocks = before.len() / 512 + 2;
+    let resume = command(here, "train --resume run");
+    let mut limited = program(here, "sh".as_ref());
+    limited.arg("-c").arg(format!("ulimit -f {blocks}; exec \"$@\"")).arg("sh");
+    limited.arg(resume.get_program()).args(resume.get_args());
+    let full = outcome(limited.spawn().unwrap());
+    assert_eq!(full.code, Some(1), "{}", full.err);
+    let warnings = full.err.lines().filter(|line| line.contains("warning") && line.contains("could not be written"));
+    assert!(warnings.count() >= 5, "{}", full.err);
+    assert!(full.err.contains("after 640 shots") && full.err.contains("--resume"), "{}", full.err);
+    assert!(checkpoint() == before);
+    assert!(fs::read_dir(&run).unwrap().all(|entry| !entry.unwrap().path().to_string_lossy().contains("partial")));
+    done(here, "train --resume run");
+    Files::of(&here.join("whole")).assert_same(&Files::of(&run), "after the disk was full");
+}

@@ -1,0 +1,198 @@
+//! Other processes look at a run: while it trains, after its end, and when something befalls it or its files.
+
+use std::{
+    fs,
+    io::{BufRead, BufReader, Read},
+    path::Path,
+    process::Child,
+    thread,
+    time::{Duration, Instant},
+};
+
+use serde_json::Value;
+
+use super::common::{SHORT, carom, command, done, folder, start, wait_for};
+use crate::program::outcome;
+
+/// A run of some seconds with many lines.
+const LONG: &str = "train --config small.toml --steps 40000 --evaluate-every 8000 --evaluation-layouts 20 --seed 3";
+
+/// A process that looks on, its output kept.
+fn watch(here: &Path, line: &str) -> Child {
+    command(here, line).spawn().unwrap()
+}
+
+fn lines(text: &str) -> Vec<Value> {
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Waits for something that happens while `child` runs.
+fn wait_until(child: &mut Child, what: &str, condition: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !condition() {
+        assert!(child.try_wait().unwrap().is_none(), "the run ended before {what}");
+        assert!(start.elapsed() < Duration::from_secs(30), "never: {what}");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+fn signal(child: &Child, name: &str) {
+    let status = std::process::Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status();
+    assert!(status.unwrap().success());
+}
+
+#[test]
+fn two_processes_see_every_line_of_a_run_while_it_trains_and_end_with_it() {
+    let folder = folder();
+    let here = folder.path();
+    let run = here.join("run");
+    let mut training = start(here, &format!("{LONG} --run run"));
+    wait_for(&run.join("metrics.jsonl"), &mut training);
+    let watchers = ["watch run --json", "watch run"].map(|line| watch(here, line));
+    let early = fs::read_to_string(run.join("metrics.jsonl")).unwrap();
+    assert!(training.try_wait().unwrap().is_none() && !early.contains("timesteps\":40000"), "it is still training");
+    let [json, plain] = watchers.map(outcome);
+    assert!(training.wait().unwrap().success());
+    let metrics = fs::read_to_string(run.join("metrics.jsonl")).unwrap();
+    assert_eq!((json.code, lines(&json.out)), (Some(0), lines(&metrics)));
+    assert_eq!((plain.code, plain.out.lines().count()), (Some(0), 5), "{}{}", plain.out, plain.err);
+    assert!(plain.out.lines().all(|line| line.contains("held-out reward")), "{}", plain.out);
+    assert!(plain.err.contains("the run is training") && plain.err.contains("the run is finished"), "{}", plain.err);
+    // Whoever comes late sees the same.
+    assert_eq!(done(here, "watch run --json").out, json.out);
+}
+
+#[test]
+fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none() {
+    let folder = folder();
+    let here = folder.path();
+    let run = here.join("run");
+    let mut training = start(here, &format!("{LONG} --steps 4000000 --run run").replace("--steps 40000 ", ""));
+    wait_for(&run.join("metrics.jsonl"), &mut training);
+    signal(&training, "HUP");
+    let before = fs::metadata(run.join("metrics.jsonl")).unwrap().len();
+    wait_until(&mut training, "lines after the terminal was hung up", || {
+        fs::metadata(run.join("metrics.jsonl")).unwrap().len() > before
+    });
+    let mut watcher = watch(here, "watch run");
+    let mut said = BufReader::new(watcher.stderr.take().unwrap());
+    let mut told = String::new();
+    // Its first sentence is that it looks on.
+    said.read_line(&mut told).unwrap();
+    training.kill().unwrap();
+    training.wait().unwrap();
+    said.read_to_string(&mut told).unwrap();
+    assert_eq!(outcome(watcher).code, Some(1));
+    assert!(told.contains("the run died") && told.contains("carom train --resume"), "{told}");
+}
+
+#[test]
+fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "300000")));
+    let list = |state: &str| {
+        let list = done(here, "train --list . --json").out;
+        let run = lines(&list).remove(0);
+        assert_eq!(run["state"], state, "{list}");
+        run["last_reward"].as_f64().unwrap()
+    };
+    assert!(list("interrupted") >= 0.0, "what it earned when it was stopped is known");
+    let mut training = start(here, "train --resume run");
+    let watcher = outcome(watch(here, "watch run"));
+    assert!(training.wait().unwrap().success());
+    assert_eq!(watcher.code, Some(0));
+    assert!(watcher.err.contains("the run is training") && watcher.err.contains("finished"), "{}", watcher.err);
+    list("finished");
+}
+
+#[test]
+fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
+    let folder = folder();
+    let here = folder.path();
+    for (word, is_kept) in [("stop", true), ("abandon", false)] {
+        let run = here.join(word);
+        let mut training = start(here, &format!("{LONG} --run {word}"));
+        wait_for(&run.join("metrics.jsonl"), &mut training);
+        fs::write(run.join("request"), word).unwrap();
+        assert!(training.wait().unwrap().success());
+        assert_eq!(run.join("policy.safetensors").exists(), is_kept);
+        assert_eq!(run.exists(), is_kept, "{word}");
+    }
+    let stopped = done(here, "watch stop");
+    assert!(stopped.err.contains("the run was stopped after"), "{}", stopped.err);
+}
+
+#[test]
+fn odd_files_give_a_sentence_each_and_no_crash() {
+    let folder = folder();
+    let here = folder.path();
+    done(here, &format!("{SHORT} --run run"));
+    let run = here.join("run");
+    let (metrics, config) = (run.join("metrics.jsonl"), run.join("config.json"));
+    let (lines, settings) = (fs::read_to_string(&metrics).unwrap(), fs::read_to_string(&config).unwrap());
+    let look = |what: &str| {
+        let seen = carom(here, "watch run");
+        assert!(seen.err.contains(what), "{what}: {}", seen.err);
+        seen
+    };
+    fs::write(&metrics, &lines[..lines.len() - 20]).unwrap();
+    assert_eq!(look("the last line of metrics.jsonl is cut off").out.lines().count(), 9);
+    fs::write(&metrics, lines.replacen("time/fps", "time/other", 2)).unwrap();
+    look("2 lines of metrics.jsonl cannot be read");
+    fs::write(&metrics, "").unwrap();
+    assert!(look("emptied or cut off: it ends after 0 of the 640 shots").out.is_empty());
+    let half = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect::<String>();
+    fs::write(&metrics, half).unwrap();
+    look("emptied or cut off: it ends after 320 of the 640 shots");
+    fs::remove_file(&metrics).unwrap();
+    assert!(look("metrics.jsonl is missing").out.is_empty());
+    fs::create_dir(&metrics).unwrap();
+    look("metrics.jsonl cannot be read");
+    fs::remove_dir(&metrics).unwrap();
+    fs::write(&metrics, &lines).unwrap();
+    let newer = settings.replacen("\"version\": \"0", "\"version\": \"90", 1);
+    fs::write(&config, &newer).unwrap();
+    look("which is newer than this one");
+    fs::write(&config, newer.replacen("\"reward\": \"r3\"", "\"reward\": \"r9\"", 1)).unwrap();
+    assert_eq!(look("config.json is of carom 90").out.lines().count(), 10);
+    let list = done(here, "train --list .");
+    assert!(
+        list.err.contains("run: config.json is of carom 90") && !list.out.contains("ddpg"),
+        "{}{}",
+        list.out,
+        list.err
+    );
+    fs::write(&config, "{").unwrap();
+    look("config.json cannot be read");
+    fs::write(run.join("state.json"), "[]").unwrap();
+    look("state.json cannot be read");
+    // Numbers that are none have names, and nobody stumbles over them.
+    fs::write(&config, settings).unwrap();
+    let odd = lines.replacen("\"train/critic_loss\":0", "\"train/critic_loss\":\"NaN\",\"was\":0", 1);
+    fs::write(&metrics, odd).unwrap();
+    let json = carom(here, "watch run --json");
+    assert!(json.out.contains("\"train/critic_loss\":\"NaN\""), "{}", json.out);
+}
+
+#[test]
+fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
+    let folder = folder();
+    let here = folder.path();
+    let none = carom(here, "watch latest");
+    assert_eq!(none.code, Some(1));
+    assert!(none.err.contains("carom train"), "{}", none.err);
+    assert!(done(here, "watch").err.contains("no runs in"));
+    let unknown = carom(here, "watch nowhere");
+    assert_eq!(unknown.code, Some(1));
+    assert!(unknown.err.contains("there is no run nowhere"), "{}", unknown.err);
+    done(here, SHORT);
+    thread::sleep(Duration::from_millis(20));
+    done(here, &SHORT.replace("--seed 3", "--seed 4"));
+    let list = done(here, "watch").out;
+    let name =
+        list.lines().find_map(|line| line.split_whitespace().next().filter(|name| name.ends_with("-4"))).unwrap();
+    assert_eq!(done(here, "watch latest --json").out, done(here, &format!("watch {name} --json")).out);
+    let dumb = outcome(command(here, "watch latest").env("TERM", "dumb").spawn().unwrap());
+    assert_eq!(dumb.out.lines().count(), 10, "{}", dumb.err);
+}

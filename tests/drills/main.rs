@@ -1,7 +1,0 @@
-//! Practice through the real binary: sessions, scores, positions, and what becomes of them when something goes wrong.
-
-mod common;
-mod kept;
-mod scores;
-mod sides;
-mod trouble;

@@ -1,0 +1,129 @@
+//! What each module imports, read from the text of its file.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A module by the names that lead to it from the crate.
+pub type Module = Vec<String>;
+
+/// Who imports whom, without what tests import. What a module passes on counts as that which it comes from.
+pub fn imports(sources: &BTreeMap<Module, String>) -> BTreeSet<(Module, Module)> {
+    let codes: BTreeMap<&Module, String> = sources
+        .iter()
+        .filter(|(module, _)| !module.iter().any(|name| name == "tests"))
+        .map(|(module, text)| (module, code(text)))
+        .collect();
+    let passed: BTreeMap<Module, Module> = codes.iter().flat_map(|(module, code)| passed_on(module, code)).collect();
+    let origin = |mut path: Module| loop {
+        let known = (0..=path.len()).rev().find(|length| codes.contains_key(&path[..*length].to_vec())).unwrap_or(0);
+        match passed.get(path.get(..=known).unwrap_or_default()) {
+            Some(further) if further[..] != path[..=known] => path = further.clone(),
+            _ => break path[..known].to_vec(),
+        }
+    };
+    let mut found = BTreeSet::new();
+    for (module, code) in &codes {
+        let all = paths(code).into_iter().map(|path| origin(absolute(module, &path)));
+        found.extend(all.filter(|other| other != *module).map(|other| ((*module).clone(), other)));
+    }
+    found
+}
+
+/// The text without comments and without the tests at its end.
+fn code(text: &str) -> String {
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    lines.take_while(|line| !line.ends_with("mod tests {")).collect::<Vec<_>>().join("\n")
+}
+
+/// The names that a module makes public as its own, and what they are.
+fn passed_on(module: &Module, code: &str) -> Vec<(Module, Module)> {
+    let mut found = Vec::new();
+    for (start, _) in code.match_indices("use ") {
+        let line = &code[code[..start].rfind('\n').map_or(0, |end| end + 1)..start];
+        if line.starts_with("pub") {
+            tree(&code[start + 4..], &[], &mut found);
+        }
+    }
+    let name = |path: &[&str]| [&module[..], &[(*path.last().unwrap_or(&"")).to_owned()]].concat();
+    found.into_iter().map(|path| (name(&path), absolute(module, &path))).collect()
+}
+
+/// Everything that is named from the crate, from the module or from one above it: in imports, and in the midst of the code.
+fn paths(code: &str) -> Vec<Vec<&str>> {
+    let mut found = Vec::new();
+    for start in ["crate::", "super::", "self::"] {
+        for (at, _) in code.match_indices(start) {
+            if !code[..at].ends_with(|before: char| is_of_a_name(before) || before == ':') {
+                tree(&code[at..], &[], &mut found);
+            }
+        }
+    }
+    found
+}
+
+/// Takes the paths of a tree such as `a::{b, c::{self, d}}` from the beginning of a text, each behind `start`, and gives
+/// what follows.
+fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> &'a str {
+    let text = text.trim_start();
+    if let Some(mut rest) = text.strip_prefix('{') {
+        loop {
+            rest = tree(rest, start, found).trim_start_matches(|next| !matches!(next, ',' | '}'));
+            match rest.strip_prefix(',') {
+                Some(more) => rest = more,
+                None => return rest.get(1..).unwrap_or_default(),
+            }
+        }
+    }
+    let (name, rest) = text.split_at(text.find(|next| !is_of_a_name(next)).unwrap_or(text.len()));
+    let path = [start, &[name]].concat();
+    match rest.strip_prefix("::") {
+        Some(rest) => tree(rest, &path, found),
+        None => {
+            // After the last comma stands nothing.
+            if !name.is_empty() || rest.starts_with('*') {
+                found.push(path);
+            }
+            rest
+        }
+    }
+}
+
+fn is_of_a_name(character: char) -> bool {
+    character.is_alphanumeric() || character == '_'
+}
+
+/// A path in `module` as one from the crate.
+fn absolute(module: &Module, path: &[&str]) -> Module {
+    let mut base = module.clone();
+    for name in path {
+        match *name {
+            "crate" => base.clear(),
+            "super" => drop(base.pop()),
+            // Nothing stands for a star.
+            "self" | "" => {}
+            name => base.push(name.to_owned()),
+        }
+    }
+    base
+}
+
+#[test]
+fn imports_are_found_in_every_form_but_not_in_comments_and_tests() {
+    let sources = [
+        ("", "pub use low::Kept;"),
+        ("low", "pub struct Kept;"),
+        ("low/inside", "//! crate::high\nuse super::{other::{self, Part as Piece}, *};\n"),
+        (
+            "low/other",
+            "fn f() { self::inside(); crate::high::call::<u8>() }\n#[cfg(test)]\nmod tests {\nuse crate::top;\n}",
+        ),
+        ("high", "use crate::{\n    Kept,\n    top::{A, B},\n};"),
+        ("high/tests", "use crate::top;"),
+        ("top", "#[cfg(test)]\nmod tests;\n\nuse std::fs;"),
+    ];
+    let module = |name: &str| name.split('/').filter(|part| !part.is_empty()).map(str::to_owned).collect::<Module>();
+    let sources = sources.map(|(name, text)| (module(name), text.to_owned())).into();
+    let found: Vec<String> =
+        imports(&sources).iter().map(|(from, to)| format!("{} > {}", from.join("/"), to.join("/"))).collect();
+    let wanted = ["high > low", "high > top", "low/inside > low", "low/inside > low/other", "low/other > high"];
+    assert_eq!(found, wanted);
+}

@@ -1,0 +1,12 @@
+//! What goes through the library: shots against independent answers, laws of physics, agents, exercises, and the app's screens.
+
+mod documents;
+mod exercises;
+mod house;
+mod physics_properties;
+mod reference;
+mod rules;
+mod same_bits;
+mod screens;
+mod stability;
+mod thesis_agents;

@@ -1,0 +1,205 @@
+//! How the coach is asked and what of its advice is seen: better shots while it thinks, chances, margins, maps and the plan.
+
+use std::sync::atomic::Ordering;
+
+use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, check_at, proposal};
+use carom::{
+    coach::{Skill, Way},
+    game::Rule,
+    physics::CueInputs,
+    terminal::{Answer, CoachNews, CoachWorker, View},
+};
+use ratatui::{buffer::Buffer, style::Color};
+
+#[test]
+fn every_better_shot_is_shown_while_the_coach_thinks_until_its_answer_replaces_it() {
+    let player = Player::new().press("Enter").better(OTHERS[1], 612).wait(0.35);
+    assert!(player.text(80, 24).contains("so far a shot that makes the point 61 % of the time; Esc takes it"));
+    let player = player.better(OTHERS[0], 893);
+    check("so_far", &player);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert!(player.study.is_none(), "nothing is studied as long as there may be a better shot");
+    let player = player.press("Space");
+    assert!(player.text(80, 24).contains("so far") || !player.app.playback().playing);
+    let player = player.answer();
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    assert!(player.study.is_some());
+}
+
+#[test]
+fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
+    let player = Player::new().press("Enter").better(OTHERS[0], 893);
+    let late = player.asked.clone();
+    let mut player = player.press("Esc");
+    assert!(late.as_ref().unwrap().cancel.load(Ordering::Relaxed));
+    check("so_far_taken", &player);
+    assert_eq!(player.study.as_ref().unwrap().shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    player.asked = late;
+    let player = player.better(SHOT, 940).answer();
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.app.frame_interval(), None);
+    // The errors that it was chosen by flatter it: no interval is told.
+    let text = player.press("v").text(120, 40);
+    assert!(text.contains("expert so far 89 %") && !text.contains("89 % ("), "{text}");
+}
+
+#[test]
+fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhile() {
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.take().expect("the coach is asked");
+    let so_far = proposal(&job.table, &job.layout, OTHERS[0], Way::OffCushion, 893);
+    player.app.receive(Answer { id: job.id, news: CoachNews::Better(so_far) });
+    assert!(player.app.shot().is_some());
+    let player = player.press("d p Esc");
+    assert_eq!(job.query.skill, Skill::EXPERT);
+    assert_ne!(player.app.coach().query.skill, Skill::EXPERT);
+    assert!(player.app.shot().is_none(), "the best shot so far is an expert's");
+    let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
+    assert!(player.study.is_none() && player.app.shot().is_none());
+    player.says("the coach has answered for expert; Enter asks it for");
+    // It is kept for the player whose shot it is.
+    let mut player = player.press("S");
+    for _ in 1..Skill::NAMED.len() {
+        if player.study.is_none() {
+            player = player.press("S");
+        }
+    }
+    assert!(player.study.is_some());
+    assert_eq!(player.app.coach().query.skill, Skill::EXPERT);
+    player.says("the player: expert; the shot for it is known");
+}
+
+#[test]
+fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown() {
+    for (keys, words, header) in [
+        ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan"),
+        ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan"),
+        ("S", "the player: club; Enter asks the coach", "R straight S club P plan"),
+        ("R S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan"),
+        ("P", "only this point counts; Enter asks the coach", "R straight S expert P off"),
+    ] {
+        let player = Player::new().press("Enter").answer().press(keys);
+        let text = player.text(80, 24);
+        assert!(text.contains(words) && text.contains(header), "{keys}\n{text}");
+        assert!(player.app.shot().is_none(), "{keys}");
+        let query = &player.press("Enter").asked.unwrap().query;
+        assert_eq!(query.plan, keys != "P");
+        assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S"));
+    }
+    let player = Player::new().press("Enter").answer();
+    let player = player.press("R S");
+    check("other_question", &player);
+    let cancelled = player.study.clone().unwrap().cancel;
+    assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
+    let player = player.press("R R S S S");
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
+    let asked = player.press("R R Enter").asked.unwrap();
+    assert_eq!(asked.query.rule, Rule::ThreeCushion);
+}
+
+#[test]
+fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its_own_closer_look() {
+    let player = Player::new().press("Enter").answer().press("v");
+    check("chances", &player);
+    let first = player.study.clone().unwrap();
+    let player = player.press("]");
+    check("chances_second", &player);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert!(first.cancel.load(Ordering::Relaxed));
+    let second = player.study.clone().unwrap();
+    assert_eq!(second.shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    // What comes late about the first shot is not taken for the second.
+    let mut player = player;
+    player.study = Some(first);
+    let mut late = player.studied().press("v");
+    assert!(late.text(80, 24).contains("being worked out"));
+    late.study = Some(second);
+    let player = late.studied();
+    assert!(!player.text(80, 24).contains("being worked out"));
+    // Back at it, it is known already.
+    let player = player.press("[ [");
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[1]).unwrap(), "after the first comes the last");
+    let mut player = player.press("[");
+    player.study = None;
+    let player = player.press("Space Esc");
+    assert!(player.study.is_none() && player.text(80, 24).contains("yours"));
+}
+
+#[test]
+fn margins_and_maps() {
+    let player = Player::new().press("Enter").answer().press("v v");
+    assert!(player.text(80, 24).contains("being worked out"));
+    let player = player.studied();
+    check_at(&[(80, 24), (120, 40), (200, 60)], "margins", &player);
+    let picture = player.picture(120, 40);
+    let (point, tip) = (Color::Rgb(0x5c, 0xbd, 0x72), Color::Rgb(0x1f, 0x63, 0xc8));
+    // The map of direction and speed from column 45 to 70: the stroke in its middle, and a point all around it.
+    for middle in [(57, 33), (58, 33)] {
+        assert!([picture[middle].fg, picture[middle].bg].contains(&tip), "{middle:?} {:?}", picture[middle]);
+    }
+    for around in [(55, 33), (60, 33), (57, 32), (57, 34)] {
+        assert!([picture[around].fg, picture[around].bg].contains(&point), "{around:?} {:?}", picture[around]);
+    }
+    // The tip is left of the middle of its own map, at column 84, as the shooter sees it.
+    let tips: Vec<u16> = (77..91).filter(|&x| (30..38).any(|y| picture[(x, y)].fg == tip)).collect();
+    assert!(!tips.is_empty() && tips.iter().all(|&x| x <= 83), "{tips:?}");
+}
+
+#[test]
+fn the_plan_and_where_it_goes_on() {
+    let player = Player::new().press("Enter").answer();
+    let before = player.picture(120, 40);
+    let player = player.press("v v v").studied();
+    check_at(&[(80, 24), (120, 40), (200, 60)], "plan", &player);
+    assert_eq!(player.app.coach().view, View::Plan);
+    // Ends of the balls are drawn around the places where they are meant to stop.
+    let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
+    let count = |picture: &Buffer| picture.content().iter().filter(|cell| cell.fg == yellow).count();
+    assert!(count(&player.picture(120, 40)) > count(&before) + 5);
+    let end = player.app.shot().unwrap().recording.final_layout();
+    let player = player.press("n");
+    assert_eq!(*player.app.layout(), end);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
+    check("went_on", &player);
+    assert!(player.asked.is_none(), "nothing more was asked");
+}
+
+#[test]
+fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() {
+    let mut worker = CoachWorker::unhurried(30_000);
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.clone().unwrap();
+    let mut told = Vec::new();
+    worker.answer(&job, |answer| told.push(answer));
+    assert!(told.len() > 1 && told[..told.len() - 1].iter().all(|one| matches!(one.news, CoachNews::Better(_))));
+    for Answer { id, news } in told {
+        player = player.tell(id, news);
+    }
+    let best = player.app.coach().proposal().unwrap().clone();
+    assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.9) && best.next.is_some());
+    let job = player.study.clone().unwrap();
+    let mut told = Vec::new();
+    worker.answer(&job, |answer| told.push(answer));
+    assert_eq!(told.len(), 2);
+    for Answer { id, news } in told {
+        player = player.tell(id, news);
+    }
+    let player = player.press("n");
+    assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
+    // Nobody waits any more: nothing but the end is told, at once.
+    let mut told = Vec::new();
+    job.cancel.store(true, Ordering::Relaxed);
+    worker.answer(&job, |answer| told.push(answer));
+    assert!(matches!(&told[..], [Answer { news: CoachNews::Next(None), .. }]));
+}
+
+#[test]
+fn a_perfect_player_gets_the_first_point() {
+    let player = Player::new().press("S S S Enter");
+    let mut told = Vec::new();
+    CoachWorker::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
+    let [Answer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
+    assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
+    let player = told.into_iter().fold(player, |player, Answer { id, news }| player.tell(id, news));
+    assert!(player.text(80, 24).contains("makes the point (policy"), "{}", player.text(80, 24));
+}

@@ -1,0 +1,276 @@
+//! What the player sees: keys go through the real app, and its pictures are compared at both sizes.
+
+use std::{
+    sync::{Arc, atomic::Ordering},
+    time::Duration,
+};
+
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, SHOT, advice, check, check_at},
+};
+use carom::{
+    physics::CueInputs,
+    terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
+};
+use proptest::prelude::*;
+use ratatui::style::Color;
+
+#[test]
+fn the_start() {
+    check("start", &Player::new());
+}
+
+#[test]
+fn a_ball_moved_by_plain_coarse_and_fine_steps() {
+    let player = Player::new().press("2 Right S-Right C-Up l L");
+    check("moved", &player);
+    let text = player.text(80, 24);
+    assert!(text.contains("yellow at x -490.0 mm, y 1.0 mm"), "{text}");
+}
+
+#[test]
+fn an_overlap_is_refused_at_contact_with_the_same_sentence_as_everywhere() {
+    let player = Player::new().press("S-Down S-Down");
+    check("overlap_refused", &player);
+    player.warns("white stops in contact with yellow: beyond, white and yellow are");
+    let text = player.text(80, 24);
+    assert!(text.contains("y 61.5 mm"), "the white ball touches the yellow one\n{text}");
+}
+
+#[test]
+fn the_rail_stops_a_ball_and_says_where_it_is() {
+    let player = Player::new().press("+ + S-Left");
+    check("rail_refused", &player);
+    player.warns("|x| <= 1.3892 and |y| <= 0.6792");
+}
+
+#[test]
+fn the_coach_thinks_and_can_be_stopped() {
+    let player = Player::new().press("Enter").wait(0.35);
+    check("thinking", &player);
+    let player = player.press("Left");
+    player.warns("the coach is thinking; Esc stops it");
+    let late = player.asked.clone().unwrap();
+    let mut player = player.press("Esc");
+    assert!(late.cancel.load(Ordering::Relaxed));
+    player.asked = Some(late);
+    assert!(player.answer().app.shot().is_none(), "a late answer is dropped");
+}
+
+#[test]
+fn a_shot_is_recommended() {
+    let player = Player::new().press("Enter").answer();
+    check("recommended", &player);
+    let text = player.text(120, 40);
+    for part in ["expert makes it 94 % (92-95); hits yellow", "0.200 R, 6.2 mm left", "-72.00°", "V0", "ω0"] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    // The line of aim in diamonds beside the degrees.
+    assert!(text.contains("-72.00° ") && text.contains("hits yellow"), "{text}");
+}
+
+#[test]
+fn a_shot_without_a_point_is_said_to_be_one() {
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.take().unwrap();
+    let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
+    let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
+    let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
+    let player = player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], effort }));
+    check("no_point", &player);
+    assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
+}
+
+#[test]
+fn what_the_coach_refuses_is_said_in_its_words() {
+    let mut player = Player::new().press("Enter");
+    let job = player.asked.take().unwrap();
+    let player = player.tell(job.id, CoachNews::Refused("the weights file is corrupt".to_owned()));
+    player.warns("the weights file is corrupt");
+}
+
+#[test]
+fn the_shot_plays() {
+    check("playing", &Player::new().press("Enter").answer().press("+ Space").wait(0.5));
+}
+
+#[test]
+fn stepping_stops_at_events() {
+    let player = Player::new().press("Enter").answer().press(". . Right Left .");
+    check("at_event", &player);
+    let shot = player.app.shot().unwrap();
+    assert_eq!(player.app.playback().time, shot.recording.events()[2].time);
+}
+
+#[test]
+fn the_end_of_a_shot_is_a_new_beginning() {
+    let player = Player::new().press("Enter").answer().press("End");
+    check("at_the_end", &player);
+    let end = player.app.shot().unwrap().recording.final_layout();
+    let player = player.press("n");
+    assert_eq!(*player.app.layout(), end);
+    assert!(player.app.shot().is_none());
+    assert_eq!(player.asked.as_ref().unwrap().layout, end, "the next shot is not known yet, so the coach is asked");
+    let player = player.press("Esc u");
+    assert!(player.app.shot().is_some(), "undo brings the shot back as well");
+}
+
+#[test]
+fn undo_and_redo_walk_through_all_changes() {
+    let start = *Player::new().app.layout();
+    let moved = Player::new().press("Left 3 Up r");
+    let end = *moved.app.layout();
+    let back = moved.press("u u u");
+    assert_eq!(*back.app.layout(), start);
+    let refused = back.press("u");
+    refused.warns("there is nothing to take back");
+    assert_eq!(*refused.press("U U C-r").app.layout(), end);
+}
+
+#[test]
+fn a_key_that_does_nothing_now_says_why() {
+    for (keys, reason) in [
+        ("Space", "there is no shot yet; Enter asks the coach"),
+        ("Esc", "there is no shot yet; Enter asks the coach"),
+        ("U", "nothing was taken back"),
+    ] {
+        Player::new().press(keys).warns(reason);
+    }
+    let watching = Player::new().press("Enter").answer().press("h");
+    watching.warns("a shot is being watched; Esc goes back to the balls");
+}
+
+#[test]
+fn the_help_lists_every_key() {
+    check("help", &Player::new().press("?"));
+    let closed = Player::new().press("? Left Esc");
+    assert_eq!(closed.picture(80, 24), Player::new().picture(80, 24));
+}
+
+#[test]
+fn without_colours_letters_tell_everything() {
+    for (name, caps) in [("no_colour", NO_COLOUR), ("ascii", ASCII)] {
+        let player = Player::with(caps).press("Enter").answer().press(". .");
+        check(name, &player);
+        let player = player.press("2");
+        check(&format!("{name}_placing"), &player);
+        let player = player.press("v v").studied();
+        check(&format!("{name}_margins"), &player);
+        check(&format!("{name}_plan"), &player.press("v"));
+    }
+    for views in ["v", "v v", "v v v"] {
+        let player = Player::with(ASCII).press("Enter").answer().studied().press(views);
+        assert!(player.text(200, 60).is_ascii(), "{views}");
+    }
+}
+
+#[test]
+fn monochrome_pictures_hold_no_colour_at_all() {
+    let mut player = Player::with(NO_COLOUR).press("Enter").answer().studied();
+    for _ in 0..4 {
+        for cell in player.picture(200, 60).content() {
+            assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
+        }
+        player = player.press("v");
+    }
+}
+
+#[test]
+fn half_blocks_draw_the_same_scene() {
+    check("half_blocks", &Player::new().press("Enter").answer().press("g ."));
+}
+
+#[test]
+fn too_small_a_terminal_names_both_sizes() {
+    let player = Player::new();
+    check_at(&[(79, 24)], "too_small", &player);
+    for (width, height) in [(80, 23), (20, 5), (1, 1), (0, 0)] {
+        player.picture(width, height);
+    }
+    let text = player.text(40, 10);
+    assert!(text.contains("40×10") && text.contains("80×24"), "{text}");
+}
+
+#[test]
+fn keys_do_nothing_that_nobody_can_see() {
+    let player = Player::new();
+    player.picture(60, 20);
+    let before = *player.app.layout();
+    let mut player = player.press("Right Enter d F5 :");
+    assert_eq!((*player.app.layout(), player.app.screen()), (before, PageId::Coach));
+    assert!(player.asked.is_none());
+    player.event(&key("q"));
+    assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
+    player.picture(80, 24);
+    assert_ne!(*player.press("Right").app.layout(), before);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn no_series_of_keys_breaks_the_program(keys in prop::collection::vec(0..KEYS.len(), 1..60), width in 60_u16..200) {
+        let mut player = Player::new();
+        for key in keys {
+            player = player.press(KEYS[key]).wait(0.2);
+            if player.asked.is_some() && key % 3 > 0 {
+                player = player.answer();
+            }
+            if let Some(job) = player.study.take_if(|_| key % 5 == 0) {
+                player = player.tell(job.id, CoachNews::Next(Some(advice(&job))));
+            }
+        }
+        prop_assert!(player.app.layout().validate(player.app.table()).is_ok());
+        player.picture(width, 40);
+    }
+}
+
+/// What a player may press at any time, but for leaving.
+const KEYS: &[&str] = &[
+    "Left", "S-Left", "C-Left", "Up", "S-Up", "Right", "S-Right", "Down", "S-Down", "h", "J", "+", "-", "Tab", "1",
+    "2", "3", "Enter", "Enter", "Enter", "Esc", "Space", ",", ".", "0", "End", "n", "u", "U", "o", "r", "g", "?", "x",
+    "R", "S", "P", "v", "[", "]", "F2", "F3", "F4", "F5", "F5", "F6", "Delete", "BackTab",
+];
+
+#[test]
+fn the_balls_have_their_colours_where_they_lie() {
+    let picture = Player::new().picture(120, 40);
+    // Bed of 108 by 27 cells from (6, 2): yellow at a quarter, white above it, red at three quarters, half way down.
+    assert_eq!(picture[(33, 15)].fg, Color::Rgb(0xf6, 0xc3, 0x24));
+    assert_eq!(picture[(33, 12)].fg, Color::Rgb(0xf7, 0xf3, 0xe8));
+    assert_eq!(picture[(87, 15)].fg, Color::Rgb(0xd9, 0x36, 0x36));
+    assert_eq!(picture[(60, 15)].bg, Color::Rgb(0x1b, 0x6d, 0x83));
+}
+
+#[test]
+fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
+    // Positive a is left of the centre, as that of the recommended shot is.
+    let picture = Player::new().press("Enter").answer().picture(120, 40);
+    let blue = Color::Rgb(0x1f, 0x63, 0xc8);
+    let columns: Vec<u16> =
+        (72..84).filter(|&x| (30..40).any(|y| picture[(x, y)].fg == blue || picture[(x, y)].bg == blue)).collect();
+    assert!(!columns.is_empty() && columns.iter().all(|&x| x <= 77), "{columns:?}");
+}
+
+#[test]
+fn nothing_moves_by_itself_while_nothing_plays() {
+    let player = Player::new();
+    assert_eq!(player.app.frame_interval(), None);
+    let player = player.press("Enter");
+    assert!(player.app.frame_interval().is_some());
+    let player = player.answer();
+    assert_eq!(player.app.frame_interval(), None);
+    let player = player.press("Space");
+    assert!(player.app.frame_interval().is_some());
+    assert_eq!(player.wait(1e3).app.frame_interval(), None, "playback ends at the end");
+}
+
+#[test]
+fn a_shot_that_is_left_does_not_play_on_unseen() {
+    for leave in ["Esc", "Tab", "2"] {
+        let player = Player::new().press("Enter").answer().press("Space").wait(0.5).press(leave);
+        assert_eq!(player.app.frame_interval(), None, "{leave}");
+        assert!(!player.app.playback().playing);
+    }
+}

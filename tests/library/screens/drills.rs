@@ -1,0 +1,438 @@
+//! The drill screens as one sees them: keys go through the real app, files into a folder, and the pictures are compared.
+
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at, places},
+    practice::{exercise, session},
+};
+use carom::{
+    coach::Skill,
+    drills::{Exercise, Goal, Venue, decode, store::Store},
+    game::Rule,
+    table::Layout,
+    terminal::{Condition, DrillCondition, DrillContext, DrillReport, DrillTask, Effect, KeyContext},
+};
+use crossterm::event::{KeyCode, KeyEvent};
+use proptest::prelude::*;
+
+/// Compares the pictures of what rests.
+fn check(name: &str, player: &Player) {
+    assert_eq!(player.app.frame_interval(), None, "nothing moves by itself");
+    super::player::check(name, player);
+}
+
+/// More positions than fit on a screen.
+fn many() -> Vec<Exercise> {
+    (1..=60).map(|n| exercise(&format!("position-{n:02}"), &format!("Position number {n} of a long list"))).collect()
+}
+
+fn history() -> Vec<carom::drills::Session> {
+    vec![
+        session(1, "opening", Goal::Free, "x-x--x-x--"),
+        session(2, "opening", Goal::Run(5), "xx-xxx-xxxxx"),
+        session(5, "opening", Goal::Free, "xxxx-xxxxxxx-xx"),
+    ]
+}
+
+fn played() -> Player {
+    Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history())
+}
+
+#[test]
+fn the_library_of_own_positions() {
+    check("library_none", &Player::at_library(TRUE_COLOUR, &[], &[]).press("Left"));
+    check("library_played", &played().press("Left"));
+    let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
+    check("library_long", &long);
+    check("library_ascii", &Player::at_library(ASCII, &many(), &[]).press("Left End Up"));
+}
+
+#[test]
+fn every_bundled_exercise_is_listed_and_can_be_opened() {
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]);
+    let library = player.app.drills().catalogue.library().clone();
+    let mut player = player;
+    for exercise in library.exercises() {
+        player.says(&exercise.title.chars().take(20).collect::<String>());
+        // Beside the list stands all of it, on the smallest screen too.
+        let beside: Vec<String> =
+            player.text(80, 24).lines().skip(2).map(|row| row.chars().skip(47).collect()).collect();
+        let beside = beside.join(" ").replace('"', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        let ends = [&exercise.point, "expert", "you: not tried yet"];
+        assert!(ends.into_iter().all(|words| beside.contains(words)), "{}: {beside}", exercise.name);
+        player = player.press("Enter");
+        assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Exercise), "{}", exercise.name);
+        player.says("set the stroke and play it");
+        player = player.press("Esc Down");
+    }
+}
+
+#[test]
+fn words_are_looked_for_while_they_are_typed() {
+    let player = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left /").type_in("number 17");
+    check("search", &player);
+    let found = player.press("Enter");
+    assert_eq!(found.app.place(), KeyContext::Drill(DrillContext::Library));
+    found.says("Position number 17").is_silent_on("Position number 18");
+    let none = found.press("/").type_in("zzz");
+    none.says("No exercise is like that");
+    none.press("Esc").says("Position number 18");
+}
+
+#[test]
+fn a_stroke_is_set_with_keys() {
+    let player = Player::practising(TRUE_COLOUR);
+    check("aiming", &player);
+    player.says("yellow 100 % full");
+    let set = player.press("S-Left Left Left Left C-Right h h k K Up S-Up +");
+    for part in ["-84.41°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "2.3° up"] {
+        set.says(part);
+    }
+    check("aiming_set", &set);
+    let full = set.press("Tab 0");
+    full.says("-90.00°").says("side   middle");
+    check("aiming_no_colour", &Player::practising(NO_COLOUR).press("S-Left"));
+    check("aiming_ascii", &Player::practising(ASCII).press("S-Right S-Right"));
+    check_at(&[(200, 60)], "aiming", &Player::practising(TRUE_COLOUR));
+    let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");
+    far.says("further out the tip would slip off the ball");
+}
+
+#[test]
+fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
+    let player = Player::practising(TRUE_COLOUR).press("v");
+    check("hint", &player);
+    let player = player.press("Space").wait(60.0);
+    assert!(player.store().sessions().items[0].attempts[0].helped);
+    player.says("1 of them with a hint");
+    let again = player.press("Enter Space").wait(60.0);
+    let attempts = &again.store().sessions().items[0].attempts;
+    assert_eq!((attempts.len(), attempts[1].helped), (2, false));
+}
+
+/// The player aims as the exercise teaches it.
+fn taught(player: Player) -> Player {
+    let turn = player.app.drills().turn.as_ref().unwrap();
+    let degrees = turn.stroke().phi.to_degrees();
+    let fine = ((-72.0 - degrees) * 5.0).round() as usize;
+    let keys = vec!["Left"; fine].join(" ");
+    player.press(&keys).press("C-Left").press(&"h ".repeat(12)).press(&"k ".repeat(18)).press("+ + + + + +")
+}
+
+#[test]
+fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
+    let player = taught(Player::practising(TRUE_COLOUR)).press("Space");
+    let attempt = player.store().sessions().items[0].attempts[0].clone();
+    assert!(attempt.meant != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
+    let half = player.wait(0.4);
+    assert!(half.app.frame_interval().is_some());
+    half.says("the shot is on its way").says("no attempt yet").is_silent_on("Yours makes");
+    let ended = half.wait(60.0);
+    check("played", &ended);
+    ended.says("Yours makes").says("your hand: ");
+    ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
+    check("played_hint", &ended.press("v"));
+    check("played_no_colour", &Player::practising(NO_COLOUR).press("Right Space").wait(60.0));
+}
+
+#[test]
+fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
+    let player = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space");
+    player.says("the shot is on its way");
+    let ended = player.press("Enter");
+    ended.says("missed: ");
+    assert_eq!(ended.app.frame_interval(), None);
+    let next = ended.press("Enter");
+    next.says("set the stroke").says("0 of 1 made");
+    assert_eq!(next.kept(), 1);
+}
+
+#[test]
+fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
+    let player = Player::practising(TRUE_COLOUR).press("m m n m");
+    player.says("Real table: free repetition").says("3 of 4 made").says("noted: made, 3 of 4 now");
+    check("noted", &player);
+    let sessions = player.store().sessions().items;
+    assert_eq!((sessions.len(), sessions[0].venue, sessions[0].attempts.len()), (1, Venue::Table, 4));
+    assert!(sessions[0].attempts.iter().all(|attempt| attempt.advised.is_some() && attempt.played.is_none()));
+    let back = player.press("u u");
+    back.says("2 of 2 made");
+    assert_eq!(back.store().sessions().items[0].attempts.len(), 2);
+    let none = back.press("u u u");
+    none.says("no attempt yet").says("no note from a real table can be taken back");
+    // A stroke that is played here counts apart.
+    let played = none.press("m Space").wait(60.0);
+    assert_eq!(played.store().sessions().items.len(), 2);
+}
+
+#[test]
+fn a_run_is_over_when_it_is_reached_and_the_next_note_begins_another() {
+    let player = Player::practising(TRUE_COLOUR).press("o < < m n m m");
+    player.says("run of 3").says("3 of 4 made");
+    check("run", &player);
+    let over = player.press("m");
+    over.says("done: 4 of 5 made");
+    let again = over.press("n");
+    again.says("0 of 1 made");
+    assert_eq!((again.kept(), again.store().sessions().items.len()), (6, 2));
+}
+
+#[test]
+fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
+    let at = |player: &Player| player.app.drills().turn.as_ref().unwrap().layout;
+    let game = Player::practising(TRUE_COLOUR).press("o o Space Enter");
+    let opening: Layout = exercise("opening", "").layout;
+    let end = game.app.drills().turn.as_ref().unwrap().watched().unwrap().outcome.played.end;
+    let next = game.press("Enter");
+    assert!(at(&next) == end && end != opening);
+    next.says("game, 10 innings");
+    let shifted = Player::practising(TRUE_COLOUR).press("x Space Enter Enter");
+    let moved = at(&shifted);
+    for (from, to) in opening.balls.iter().zip(moved.balls) {
+        assert!((from.distance(to) - 0.03075).abs() < 1e-9, "{from} {to}");
+    }
+    shifted.says("shifted");
+    // What is noted at a table in a shifted layout moves the balls on as well.
+    let noted = shifted.press("m m");
+    assert_ne!(at(&noted), moved);
+    assert_ne!(at(&noted), opening);
+}
+
+#[test]
+fn an_exam_has_twenty_exercises_and_a_grade() {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e");
+    for n in 1..=20 {
+        player.says(&format!("exercise {n} of 20"));
+        let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::AdviceState));
+        assert_eq!(hint, Some("an exam gives no hints"));
+        player = player.press("Space Enter Enter");
+    }
+    player.says("Grade: ").says("of 20 made").says("beginner");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Result));
+    assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
+    let left = player.press("Enter e Space Enter Enter Esc");
+    left.says("leave the exam after 1 of 20 exercises?");
+    let stays = left.press("n c");
+    assert_eq!(stays.app.place(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");
+    stays.says("an exam is under way");
+    assert_eq!(stays.press("Esc y").app.place(), KeyContext::Drill(DrillContext::Library));
+}
+
+#[test]
+fn the_records() {
+    check("record_none", &Player::at_library(TRUE_COLOUR, &[], &[]).press("r"));
+    let one = played().press("Left Enter r");
+    check("record", &one);
+    one.says("37").says("high run").says("7");
+    check("record_all", &played().press("r"));
+    check("record_ascii", &Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r"));
+    check_at(&[(200, 60)], "record", &played().press("r"));
+    // 37 attempts at one shot tell something of the player.
+    one.says("times an expert's");
+    let kept = one.press("w");
+    kept.says("own skill");
+    let skill = kept.store().own_skill().unwrap().unwrap().skill;
+    let played = kept.app.drills().player.skill;
+    assert_eq!(played.to_string(), skill.to_string());
+    assert_eq!(kept.press("Esc Esc Esc").app.coach().query.skill, played, "the same player everywhere");
+}
+
+#[test]
+fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    Store::new(&places(folder.path())).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
+    let own = player.store().own_skill().unwrap().unwrap().skill;
+    player.says("player: own skill");
+    let back = player.press("Esc");
+    assert_eq!(back.app.coach().query.skill, Skill::EXPERT);
+    let again = back.press("d");
+    again.says("player: own skill");
+    let cycled = again.press("Esc S S S");
+    assert_eq!(cycled.app.coach().query.skill, own);
+    let perfect = cycled.press("S d");
+    perfect.says("player: perfect");
+    let chosen = perfect.press("p Esc");
+    assert_eq!(chosen.app.coach().query.skill, own);
+}
+
+#[test]
+fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
+    let player = Player::new().press("Right s");
+    check("save", &player);
+    assert_eq!(player.press("Esc").app.place(), KeyContext::Coach);
+    let player = Player::new().press("Right s");
+    let refused = player.type_in("??").press("Enter");
+    refused.says("makes no name");
+    let saved = refused.press("Backspace Backspace").type_in("My corner #draw #hard").press("Enter");
+    saved.says("saved as my-corner").says("My corner").says("#draw #hard");
+    let kept = saved.store().positions().items.remove(0);
+    assert_eq!((kept.title.as_str(), kept.rule, kept.tags.len()), ("My corner", Rule::StraightRail, 2));
+    let shared = saved.press("y");
+    let code = shared.copied[0].clone();
+    assert_eq!(decode(&code).unwrap().layout, kept.layout);
+    check("share", &shared);
+    let asked = shared.press("x");
+    asked.says("remove your position my-corner? Its results stay. y/n");
+    let gone = asked.press("y");
+    assert!(gone.store().positions().items.is_empty());
+    let mut adding = gone.press("a");
+    adding.app.paste(&format!("  {}\n{}", &code[..20], &code[20..]));
+    check("add", &adding);
+    let added = adding.press("Enter");
+    added.says("saved as my-corner");
+    assert_eq!(added.store().positions().items[0].layout, kept.layout);
+    // Once more: there is one of that name.
+    let mut again = added.press("a");
+    again.app.paste(&code);
+    let again = again.press("Enter");
+    again.says("there is a position called my-corner already; replace it? y/n");
+    again.press("n").says("My corner");
+}
+
+#[test]
+fn a_code_that_was_cut_is_refused_and_can_be_mended() {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
+    let code = carom::drills::encode(&exercise("opening", "From the opening")).unwrap();
+    player.app.paste(&code[..code.len() - 3]);
+    let refused = player.press("Enter");
+    check("code_refused", &refused);
+    assert_eq!(refused.app.place(), KeyContext::Drill(DrillContext::Text));
+    let mended = refused.type_in(&code[code.len() - 3..]).press("Enter");
+    mended.says("saved as opening");
+}
+
+#[test]
+fn what_the_disk_refuses_is_said_and_nothing_is_lost() {
+    let player = Player::practising(TRUE_COLOUR).press("m");
+    // The folder of sessions is a file: nothing can be written there.
+    std::fs::remove_dir_all(player.path("sessions")).unwrap();
+    std::fs::write(player.path("sessions"), "in the way").unwrap();
+    let refused = player.press("m");
+    check_unsaved(&refused, "the note counts here, but it is not saved");
+    refused.says("2 of 2 made");
+    // As soon as it can be written, all of it is.
+    std::fs::remove_file(refused.path("sessions")).unwrap();
+    let saved = refused.press("n");
+    assert_eq!(saved.store().sessions().items[0].attempts.len(), 3);
+    std::fs::remove_dir_all(saved.path("sessions")).unwrap();
+    std::fs::write(saved.path("sessions"), "in the way").unwrap();
+    check_unsaved(&saved.press("Space"), "the attempt counts here, but it is not saved");
+}
+
+fn check_unsaved(player: &Player, sentence: &str) {
+    player.says(sentence);
+    assert_eq!(std::fs::read(player.path("sessions")).unwrap(), b"in the way");
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named_and_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |path: &str, text: &str| {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    };
+    write("sessions/20260101-000000-00000001.json", r#"{"format":"carom-session","version":9}"#);
+    write("positions/broken.json", "{\"half");
+    let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
+    let text = player.text(200, 40);
+    assert!(text.contains("version 9") && text.contains("broken.json"), "{text}");
+    assert_eq!(std::fs::read(player.path("positions/broken.json")).unwrap(), b"{\"half");
+}
+
+#[test]
+fn an_exercise_goes_to_the_coachs_table() {
+    let player = Player::practising(TRUE_COLOUR).press("x Space Enter Enter");
+    let layout = player.app.drills().turn.as_ref().unwrap().layout;
+    let coach = player.press("c");
+    assert_eq!((coach.app.place(), *coach.app.layout()), (KeyContext::Coach, layout));
+    // The exercise is still there.
+    assert_eq!(coach.press("d").app.place(), KeyContext::Drill(DrillContext::Exercise));
+    let from_list = Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
+    assert_eq!(*from_list.app.layout(), exercise("opening", "x").layout);
+    assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills().player.skill, Skill::PERFECT);
+}
+
+#[test]
+fn the_help_tells_every_key() {
+    for (name, keys) in [("help_library", ""), ("help_exercise", "Left Enter"), ("help_record", "r")] {
+        let player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &[]).press(keys);
+        check_at(&[(100, 60)], name, &player.press("?"));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn no_keys_whatever_break_the_screens(keys in prop::collection::vec(0..54_usize, 1..60)) {
+        let mut player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history()).press("Left");
+        for key in keys {
+            let code = match key {
+                0..=25 => KeyCode::Char(char::from(b'a' + key as u8)),
+                26 => KeyCode::Enter,
+                27 => KeyCode::Esc,
+                28 => KeyCode::Left,
+                29 => KeyCode::Up,
+                30 => KeyCode::Down,
+                31 => KeyCode::Tab,
+                32 => KeyCode::Backspace,
+                33 => KeyCode::End,
+                48..=53 => KeyCode::F(key as u8 - 46),
+                34..=38 => KeyCode::Char(' '),
+                _ => KeyCode::Char("<>,.+-/0123vmnux"[key - 34..].chars().next().unwrap()),
+            };
+            // What ends the program or leaves for training is another matter.
+            if !matches!(code, KeyCode::Char('q' | 't')) {
+                player.event(&KeyEvent::from(code));
+                player = player.wait(0.7);
+                player.text(80, 24);
+            }
+        }
+        let sessions = player.store().sessions();
+        prop_assert!(sessions.notes.is_empty(), "{:?}", sessions.notes);
+    }
+}
+
+/// What a key asks for outside, as long as nobody has done it.
+fn asked(player: &mut Player, name: &str) -> Vec<DrillTask> {
+    match player.app.handle(&key(name)) {
+        Some(Effect::Drill(tasks)) => tasks,
+        other => panic!("{name} gives {other:?}"),
+    }
+}
+
+#[test]
+fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
+    let mut player = Player::practising(TRUE_COLOUR);
+    let noted = |player: &mut Player, name: &str| {
+        let saved = asked(player, name).into_iter().find_map(|task| match task {
+            DrillTask::Save(session) => Some(session),
+            _ => None,
+        });
+        saved.expect("a session is saved")
+    };
+    for session in ["m", "u", "n"].map(|name| noted(&mut player, name)) {
+        player.app.receive_drill(DrillReport::Saved(session, Ok(())));
+    }
+    let notes: Vec<bool> = noted(&mut player, "m").attempts.iter().map(|attempt| attempt.made).collect();
+    assert_eq!(notes, [false, true]);
+}
+
+#[test]
+fn no_two_questions_to_the_coach_have_the_same_number_and_they_are_about_whoever_plays() {
+    let mut player = Player::practising(TRUE_COLOUR);
+    let position = |tasks: Vec<DrillTask>| {
+        let asked = tasks.into_iter().find_map(|task| match task {
+            DrillTask::Advise(position) => Some((position.id, position.skill)),
+            _ => None,
+        });
+        asked.expect("the coach is asked")
+    };
+    let other = position(player.app.receive_drill(DrillReport::SkillKept(Skill::BEGINNER, Ok(()))));
+    assert_eq!(other.1, Skill::BEGINNER);
+    let mut player = player.press("Esc");
+    let again = position(asked(&mut player, "Enter"));
+    assert_eq!(again.1, Skill::BEGINNER);
+    assert_ne!(again.0, other.0);
+}

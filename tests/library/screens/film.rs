@@ -1,0 +1,111 @@
+//! Filmed shots as one sees them: keys go through the real app, strokes are fitted, and the pictures are compared.
+
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check},
+};
+use carom::terminal::{Capabilities, Depth, DrillContext, DrillTask, Effect, Glyphs, KeyContext};
+
+const HALF_BLOCKS: Capabilities = Capabilities { depth: Depth::Ansi, glyphs: Glyphs::Half, unicode: true };
+
+fn list(caps: Capabilities) -> Player {
+    Player::at_library(caps, &[], &[]).press("f")
+}
+
+/// The second shot of the film, a point.
+fn watching(caps: Capabilities) -> Player {
+    list(caps).press("Down Enter")
+}
+
+/// What the status line says, from that word on.
+fn status(player: &Player, word: &str) -> String {
+    let text = player.text(120, 40);
+    let line = text.lines().rev().find(|line| line.contains(word)).unwrap_or_else(|| panic!("{word}: {text}"));
+    line[line.find(word).unwrap()..].to_owned()
+}
+
+/// How far white is from the film, cm.
+fn white(player: &Player) -> f64 {
+    let line = status(player, "white ");
+    line.split_whitespace().find_map(|word| word.parse().ok()).unwrap_or_else(|| panic!("{line}"))
+}
+
+#[test]
+fn the_list_of_filmed_shots() {
+    let player = list(TRUE_COLOUR);
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
+    check("film_list", &player);
+    check("film_list_ascii", &list(ASCII).press("End"));
+    player.says("91 shots of a match, 21 points");
+    player.press("?").says("fitted to the cue ball");
+}
+
+#[test]
+fn a_filmed_shot_and_its_simulation_move_together() {
+    let player = watching(TRUE_COLOUR);
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Film));
+    assert!(player.app.frame_interval().is_some(), "it plays at once");
+    let early = player.wait(1.5);
+    early.says("within the fitted 2 s");
+    assert!(white(&early) < 2.0, "{} cm on the part that was fitted", white(&early));
+    let late = early.wait(4.0);
+    late.says("predicted from the first 2 s");
+    let paused = late.press("Space");
+    assert_eq!(paused.app.frame_interval(), None);
+    check("film_watching", &paused);
+    let end = paused.press("Space").wait(60.0);
+    end.says("at rest, white ").says("simulated no point, filmed a point");
+    assert_eq!(end.app.frame_interval(), None, "it rests at its end");
+    check("film_end", &end);
+}
+
+#[test]
+fn the_film_shows_in_letters_and_in_half_blocks_too() {
+    for (name, caps) in [("no_colour", NO_COLOUR), ("ascii", ASCII), ("half_blocks", HALF_BLOCKS)] {
+        check(&format!("film_watching_{name}"), &watching(caps).wait(5.5).press("Space"));
+    }
+    // The other player's ball, where nothing has met it yet, hides its outline.
+    let picture = watching(NO_COLOUR).wait(5.5).text(80, 24);
+    assert!(picture.contains("letters the film's"), "{picture}");
+}
+
+#[test]
+fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
+    let player = watching(TRUE_COLOUR).wait(1.0).press("]");
+    player.says("filmed shot 4").is_silent_on("filmed shot 2 ");
+    let player = player.press("[ [ [");
+    player.says("filmed shot 0");
+    let mut player = player.press("Esc");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
+    // Two are asked for before the first is there.
+    let ask = |player: &mut Player, word: &str| match player.app.handle(&key(word)) {
+        Some(Effect::Drill(tasks)) => tasks,
+        other => panic!("{other:?}"),
+    };
+    let first = ask(&mut player, "Enter");
+    player.says("the stroke is being fitted").says("filmed shot 0");
+    player = player.press("Space");
+    player.says("there is no filmed shot on the table yet");
+    let second = ask(&mut player, "]");
+    assert!(matches!((&first[..], &second[..]), ([DrillTask::Film(_)], [DrillTask::Film(_)])));
+    player.run(first);
+    player.says("the stroke is being fitted").says("filmed shot 2");
+    player.run(second);
+    player.says("white is ");
+}
+
+#[test]
+fn events_and_speeds_are_those_of_any_shot_and_back_leads_to_the_library() {
+    let player = watching(TRUE_COLOUR).press(". .");
+    assert_eq!(player.app.frame_interval(), None, "stepping pauses");
+    player.says("Events 2/");
+    let player = player.press("+ Space").wait(0.1).press("Esc");
+    assert_eq!(player.app.frame_interval(), None, "nobody watches");
+    let player = player.press("Esc");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Library));
+    let player = player.press("F2 f");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
+    let player = player.press("Enter F2 f");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "not the page over itself");
+    player.press("Esc").says("choose an exercise");
+}

@@ -1,0 +1,90 @@
+//! The command palette through the real app: what it lists, how it is narrowed, and what it does.
+
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check};
+use carom::terminal::Capabilities;
+use ratatui::style::Modifier;
+
+fn opened(caps: Capabilities) -> Player {
+    Player::with(caps).press("Left :")
+}
+
+#[test]
+fn it_lists_what_the_keys_do_and_what_they_may_not_do_now() {
+    check("finder", &opened(TRUE_COLOUR));
+    check("finder_no_colour", &opened(NO_COLOUR));
+    let text = opened(ASCII).press("s h o t").text(80, 24);
+    assert!(text.is_ascii(), "{text}");
+}
+
+#[test]
+fn words_narrow_it_and_enter_does_what_is_marked() {
+    let player = opened(TRUE_COLOUR).press("c h a n g e Space B A C K");
+    check("finder_narrowed", &player);
+    let moved = *player.app.layout();
+    let player = player.press("Enter");
+    assert_ne!(*player.app.layout(), moved, "the move was taken back");
+    assert_eq!(player.app.command_palette().map(|_| ()), None);
+    let player = player.press("C-p r e c o m m Esc u");
+    player.warns("there is nothing to take back");
+}
+
+#[test]
+fn what_may_not_be_used_now_says_why_and_stays() {
+    let player = opened(TRUE_COLOUR);
+    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
+    let player = player.press("p l a y Space p a u s e Enter");
+    player.warns("there is no shot yet; Enter asks the coach");
+    assert!(player.app.command_palette().is_some() && player.app.shot().is_none());
+    let player = player.press("x x x x");
+    assert!(player.text(80, 24).contains("nothing here is called like that"));
+    let player = player.press("Enter Esc");
+    assert!(player.app.command_palette().is_none());
+}
+
+#[test]
+fn letters_of_the_users_own_are_typed_and_their_keys_are_shown() {
+    let player = Player::with_settings(TRUE_COLOUR, "[keys]\n\"x\" = \"u\"\n");
+    let text = player.press("Left : x").text(120, 40);
+    assert!(text.contains("x u ") && text.contains("take the last change back"), "{text}");
+}
+
+#[test]
+fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
+    let player = Player::with_settings(TRUE_COLOUR, "[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
+    let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().trim_matches('"').to_owned();
+    assert!(hints(&player).starts_with(" z recommend"), "{}", hints(&player));
+    let player = player.press(":");
+    assert!(hints(&player).starts_with(" Enter do it"), "{}", hints(&player));
+    assert!(hints(&player).contains(" F9 close"), "{}", hints(&player));
+}
+
+#[test]
+fn the_help_goes_to_its_end_and_back_to_its_beginning() {
+    let is_at_the_end = |player: &Player| !player.text(80, 24).contains("more lines below");
+    let player = Player::new().press("?");
+    assert!(!is_at_the_end(&player));
+    let beginning = player.text(80, 24);
+    let player = player.press("End");
+    assert!(is_at_the_end(&player));
+    let player = player.press("Home");
+    assert_eq!(player.text(80, 24), beginning);
+}
+
+#[test]
+fn the_mark_can_be_seen_without_colours_wherever_it_is() {
+    for (width, height) in [(80, 24), (200, 60)] {
+        let mut player = opened(NO_COLOUR);
+        for _ in 0..60 {
+            let picture = player.picture(width, height);
+            let marked = (0..height).filter(|&y| {
+                let reversed = |x: u16| picture[(x, y)].modifier.contains(Modifier::REVERSED);
+                (width / 2 - 20..width / 2 + 20).all(reversed)
+            });
+            assert_eq!(marked.count(), 1);
+            player = player.press("Down");
+        }
+        let last = player.app.commands().pop().unwrap();
+        let start = format!("{:<17}{}", last.keys, &last.description[..20]);
+        assert!(player.text(width, height).contains(&start), "the last of them is in view: {start}");
+    }
+}

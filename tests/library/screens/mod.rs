@@ -1,0 +1,20 @@
+//! What is seen: keys, the mouse and news go through the real app, and what it shows is looked at.
+
+mod advice;
+mod coach;
+mod drills;
+mod film;
+mod finder;
+mod keys;
+mod mouse;
+mod player;
+mod practice;
+mod runs;
+mod settings;
+mod sides;
+mod sizes;
+mod table;
+mod tabs;
+mod toasts;
+mod training;
+mod undo;

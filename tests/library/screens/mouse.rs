@@ -1,0 +1,210 @@
+//! The mouse through the real app: reports go in, balls, shots and lists follow.
+
+use super::{
+    player::{NO_COLOUR, Player, TRUE_COLOUR},
+    runs::{NAME, OTHER},
+};
+use carom::{
+    table::Table,
+    terminal::{AdviceState, App, Mapping, Overlay, PageId},
+};
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+use glam::DVec2;
+use proptest::prelude::*;
+use ratatui::layout::Rect;
+
+const PRESS: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
+const RELEASE: MouseEventKind = MouseEventKind::Up(MouseButton::Left);
+
+/// The table of the coach's screen at 120×40.
+fn mapping() -> Mapping {
+    Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29))
+}
+
+fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
+    MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
+}
+
+impl Player {
+    fn point(mut self, kind: MouseEventKind, cell: (u16, u16)) -> Self {
+        self.app.mouse(event(kind, cell));
+        self
+    }
+}
+
+/// At 120×40, with what the program asks for taken.
+fn at_the_table(player: Player) -> Player {
+    player.picture(120, 40);
+    player
+}
+
+#[test]
+fn a_ball_goes_where_the_mouse_is_and_one_step_takes_all_of_it_back() {
+    let player = at_the_table(Player::new().press("2"));
+    let start = *player.app.layout();
+    let cell = mapping().to_cell(start.balls[2]);
+    let mut player = player.point(PRESS, cell);
+    assert_eq!((player.app.selected(), *player.app.layout()), (2, start), "a press alone moves nothing");
+    for column in 0..100 {
+        player = player.point(DRAG, (cell.0 - column / 4, cell.1 + column / 12));
+    }
+    let end = (cell.0 - 24, cell.1 + 8);
+    let player = player.point(RELEASE, end);
+    assert_eq!(mapping().to_cell(player.app.layout().balls[2]), end);
+    let player = player.point(DRAG, (10, 10));
+    assert_eq!(mapping().to_cell(player.app.layout().balls[2]), end, "it was let go");
+    let player = player.press("u");
+    assert_eq!(*player.app.layout(), start);
+    assert!(player.press("u").text(120, 40).contains("there is nothing to take back"));
+}
+
+#[test]
+fn a_ball_stops_at_the_cushion_and_at_other_balls() {
+    let player = at_the_table(Player::new());
+    let (table, start) = (Table::default(), *player.app.layout());
+    let cell = mapping().to_cell(start.balls[0]);
+    let player = player.point(PRESS, cell).point(DRAG, (0, 0));
+    assert_eq!(player.app.layout().balls[0], DVec2::new(-1.0, 1.0) * table.reach());
+    let onto = mapping().to_cell(start.balls[1]);
+    let player = player.point(DRAG, onto).point(RELEASE, onto);
+    let gap = player.app.layout().balls[0].distance(start.balls[1]) - 2.0 * table.radius;
+    assert!(gap.abs() < 1e-9, "{gap}");
+}
+
+#[test]
+fn a_key_in_the_middle_of_a_drag_ends_it() {
+    let player = at_the_table(Player::new());
+    let start = *player.app.layout();
+    let cell = mapping().to_cell(start.balls[0]);
+    let player = player.point(PRESS, cell).point(DRAG, (40, 20)).press("u").point(DRAG, (50, 20));
+    assert_eq!(*player.app.layout(), start);
+}
+
+#[test]
+fn balls_of_a_shot_that_plays_are_not_taken_but_those_of_one_that_waits_are() {
+    let player = at_the_table(Player::new().press("Enter").answer());
+    let cell = mapping().to_cell(player.app.layout().balls[2]);
+    let taken = player.point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
+    assert!(taken.app.shot().is_none(), "the shot was for where the balls lay");
+    let player = taken.press("u .").wait(0.1);
+    let start = *player.app.layout();
+    let player = at_the_table(player).point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
+    assert_eq!(*player.app.layout(), start);
+    player.warns("a shot is being watched; Esc goes back to the balls");
+    let thinking = at_the_table(Player::new().press("Enter")).point(PRESS, cell);
+    thinking.warns("the coach is thinking; Esc stops it");
+}
+
+#[test]
+fn the_wheel_over_the_table_changes_the_speed() {
+    let player = at_the_table(Player::new().press("Enter").answer());
+    let speed = player.app.playback().speed();
+    let player = player.point(MouseEventKind::ScrollUp, (40, 20));
+    assert!(player.app.playback().speed() > speed);
+    let player = player.point(MouseEventKind::ScrollDown, (40, 20)).point(MouseEventKind::ScrollDown, (40, 20));
+    assert!(player.app.playback().speed() < speed);
+    assert_eq!(player.point(MouseEventKind::ScrollUp, (40, 39)).app.playback().speed(), 0.5 * speed);
+}
+
+#[test]
+fn a_click_on_a_shot_of_the_list_shows_it() {
+    for (caps, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
+        let player = at_the_table(Player::with(caps).press("Enter").answer().press(views));
+        let chosen = |player: &Player| player.app.coach().advised().map(AdviceState::chosen);
+        let text = player.text(120, 40);
+        let row = text.lines().position(|line| line.contains("62 %")).unwrap() as u16;
+        let player = player.point(PRESS, (5, row));
+        assert_eq!(chosen(&player), Some(2), "{text}");
+        assert_eq!(chosen(&player.point(PRESS, (5, row - 2))), Some(0));
+    }
+}
+
+#[test]
+fn the_wheel_scrolls_the_help_and_moves_the_mark_of_the_commands() {
+    let player = at_the_table(Player::new().press("?")).point(MouseEventKind::ScrollDown, (3, 3));
+    assert_eq!(player.app.help(), Some((Overlay::Help, 3)));
+    assert_eq!(player.point(PRESS, (60, 15)).app.help(), Some((Overlay::Help, 3)), "what lies below is not reached");
+    let player = at_the_table(Player::new().press(":")).point(MouseEventKind::ScrollDown, (3, 3));
+    assert_eq!(player.app.command_palette().unwrap().mark(9), 1);
+}
+
+#[test]
+fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
+    for width in [80, 120, 200] {
+        let mut player = Player::new();
+        for screen in [PageId::Settings, PageId::Drills, PageId::Training, PageId::Coach] {
+            player.picture(width, 40);
+            let row = player.text(width, 40).lines().next().unwrap().to_owned();
+            // The text has quotes around its lines.
+            let column = row.find(screen.title()).unwrap() as u16 - 1;
+            player = player.point(PRESS, (column, 0));
+            assert_eq!(player.app.screen(), screen, "{width}");
+        }
+        player.picture(width, 40);
+        assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen(), PageId::Coach);
+    }
+}
+
+#[test]
+fn the_mark_of_the_library_follows_wheel_and_click() {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]);
+    let text = player.text(120, 40);
+    let marked = |app: &App| app.drills().catalogue.mark();
+    assert_eq!(marked(&player.app), 0);
+    player.app.mouse(event(MouseEventKind::ScrollDown, (5, 10)));
+    player.app.mouse(event(MouseEventKind::ScrollDown, (100, 10)));
+    assert_eq!(marked(&player.app), 1, "only over the list");
+    // The first category's heading is the second row of the page's part, and its exercises follow.
+    player.app.mouse(event(PRESS, (5, 7)));
+    let title = player.app.drills().catalogue.marked().unwrap().title.clone();
+    let row = text.lines().nth(7).unwrap();
+    assert!(row.contains(title.split_whitespace().next().unwrap()), "{title}: {row}");
+}
+
+#[test]
+fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
+    let player = at_the_table(Player::new().press("F5"));
+    let row = |player: &Player, part: &str| player.text(120, 40).lines().position(|line| line.contains(part)).unwrap();
+    let speed = row(&player, "speed") as u16;
+    let player = at_the_table(player.point(PRESS, (5, speed)));
+    assert_eq!(player.app.settings().marked().key, "speed");
+    let player = at_the_table(player.point(MouseEventKind::ScrollDown, (5, speed)).press("Tab"));
+    assert_eq!(player.app.settings().marked().key, "mouse");
+    let random = row(&player, "put the balls anywhere") as u16;
+    let player = player.point(PRESS, (5, random)).press("Enter");
+    assert!(player.text(120, 40).contains("press the key that is to do this: put the balls anywhere"));
+}
+
+#[test]
+fn the_mark_of_the_runs_follows_wheel_and_click() {
+    let mut player = Player::listing(TRUE_COLOUR);
+    let text = player.text(120, 40);
+    let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
+    let (first, second) = (row(NAME), row(OTHER));
+    assert_eq!(player.app.training().list.mark(), 0);
+    player.app.mouse(event(PRESS, (5, second)));
+    assert_eq!(player.app.training().list.mark(), usize::from(second - first));
+    player.app.mouse(event(MouseEventKind::ScrollUp, (5, second)));
+    assert_eq!(player.app.training().list.mark(), usize::from(second - first) - 1);
+    player.app.mouse(event(PRESS, (5, 0)));
+    assert_eq!(player.app.training().list.mark(), usize::from(second - first) - 1);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn no_series_of_reports_makes_an_impossible_position(
+        reports in prop::collection::vec((0..4_usize, 0..130_u16, 0..50_u16), 1..80), ball in 0..3_usize,
+    ) {
+        let mut player = at_the_table(Player::new());
+        let cell = mapping().to_cell(player.app.layout().balls[ball]);
+        player = player.point(PRESS, cell);
+        for (kind, column, row) in reports {
+            let kind = [DRAG, DRAG, PRESS, MouseEventKind::Down(MouseButton::Right)][kind];
+            player = player.point(kind, (column, row));
+            prop_assert_eq!(player.app.layout().validate(player.app.table()), Ok(()));
+        }
+    }
+}

@@ -1,0 +1,394 @@
+//! Somebody at the program: presses keys, does what the program asks for, and looks at what it shows.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use carom::{
+    coach::{Kind, Pace, Way},
+    drills::{Exercise, Session, store::Store},
+    learning::{
+        evaluation::SuccessRate,
+        run::{
+            follow::{Condition, Update},
+            standing::{Phase, Standing},
+        },
+    },
+    physics::CueInputs,
+    storage::Places,
+    table::{Layout, Table},
+    terminal::{
+        Advice, Answer, App, Capabilities, CoachNews, CoachWorker, Depth, DrillReport, DrillTask, Effect, Glyphs, Job,
+        PracticeWorker, Proposal, Reel, Report, Settings, SettingsFile, Shot, Slot,
+    },
+};
+use crossterm::event::KeyEvent;
+use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
+use tempfile::TempDir;
+
+use super::{
+    keys::key,
+    practice::exercise,
+    runs::{NAME, OTHER, RUNS, known, standing, summaries},
+};
+
+pub const TRUE_COLOUR: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+pub const NO_COLOUR: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+pub const ASCII: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+
+/// The sizes of terminals at which most is looked at.
+pub const SIZES: [(u16, u16); 2] = [(80, 24), (120, 40)];
+
+/// A shot that makes the point from the opening position, so that the pictures do not change with the coach, two others,
+/// and one that makes the point from where the first leaves the balls.
+pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
+pub const OTHERS: [&str; 2] = ["0.4,-0.22,2.37,-104.8,4.84", "0.09,0.35,2,-73.3,2.58"];
+pub const NEXT: &str = "-0.353,0.054,3.2,87.8,5.07";
+
+pub struct Player {
+    pub app: App,
+    /// The question to the coach, which a test answers when it likes.
+    pub asked: Option<Box<Job>>,
+    pub study: Option<Box<Job>>,
+    pub copied: Vec<String>,
+    /// What is asked of processes and of the terminal.
+    pub effects: Vec<Effect>,
+    practice: PracticeWorker,
+    settings: SettingsFile,
+    folder: TempDir,
+}
+
+/// Where a player has what, of whose runs tests tell by themselves.
+pub fn places(folder: &Path) -> Places {
+    Places { runs: RUNS.into(), policies: "/policies".into(), ..Places::under(folder) }
+}
+
+/// A shot with `made` of 1000 attempts.
+pub fn proposal(table: &Table, layout: &Layout, cue: &str, way: Way, made: usize) -> Proposal {
+    let shot = Shot::new(table, layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
+    let pace = if shot.cue.speed < 2.5 { Pace::Soft } else { Pace::Hard };
+    Proposal {
+        shot: Arc::new(shot),
+        kind: Some(Kind { first_ball: 1, cushion_first: false, way, pace }),
+        made: Some(SuccessRate::new(made, 1000)),
+        next: Some(0.97),
+        is_early: false,
+    }
+}
+
+/// The coach's advice on the opening position.
+pub fn advice(job: &Job) -> Advice {
+    let proposal = |cue, way, made| proposal(&job.table, &job.layout, cue, way, made);
+    let best = proposal(SHOT, Way::OffCushion, 940);
+    let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, Way::AroundTheTable, made));
+    Advice { proposals: std::iter::once(best).chain(others).collect(), effort: None }
+}
+
+/// Where one begins.
+impl Player {
+    /// At the coach, with what is in `folder` on the disk; the settings' file shows no path of this machine.
+    pub fn in_folder(caps: Capabilities, folder: TempDir) -> Self {
+        let file = folder.path().join("config.toml");
+        let (settings, complaints) = Settings::load(&file);
+        let table = Table::default();
+        let app = App::new(table.clone(), Layout::opening(&table), caps, 7).unwrap();
+        let app = app.with_places(places(folder.path())).with_settings(&settings).with_complaints(&file, &complaints);
+        Self {
+            app: app.with_settings_file("/home/player/.config/carom/config.toml".into()),
+            asked: None,
+            study: None,
+            copied: Vec::new(),
+            effects: Vec::new(),
+            practice: PracticeWorker::default(),
+            settings: SettingsFile::default(),
+            folder,
+        }
+    }
+
+    pub fn with(caps: Capabilities) -> Self {
+        Self::in_folder(caps, tempfile::tempdir().unwrap())
+    }
+
+    /// At the coach.
+    pub fn new() -> Self {
+        Self::with(TRUE_COLOUR)
+    }
+
+    /// With this text in the settings' file.
+    pub fn with_settings(caps: Capabilities, text: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("config.toml"), text).unwrap();
+        Self::in_folder(caps, folder)
+    }
+
+    /// At the library, with these positions and sessions on the disk.
+    pub fn at_library(caps: Capabilities, positions: &[Exercise], sessions: &[Session]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(&places(folder.path()));
+        for position in positions {
+            store.save_position(position, false).unwrap();
+        }
+        for session in sessions {
+            store.save(session).unwrap();
+        }
+        Self::in_folder(caps, folder).press("d")
+    }
+
+    /// At the exercise from the opening.
+    pub fn practising(caps: Capabilities) -> Self {
+        Self::at_library(caps, &[exercise("opening", "From the opening")], &[]).press("Left Enter")
+    }
+
+    /// At the list of runs, of which nothing is known yet.
+    pub fn at_runs(caps: Capabilities) -> Self {
+        Self::with(caps).press("t")
+    }
+
+    /// At the list of three runs.
+    pub fn listing(caps: Capabilities) -> Self {
+        Self::at_runs(caps).report(Report::Runs(Ok(summaries().into())))
+    }
+
+    /// At a run that has played 1.2 of 5 million shots.
+    pub fn watching(caps: Capabilities) -> Self {
+        Self::listing(caps).press("Enter").has_policy(true).update(Slot::Main, NAME, known()).quiet()
+    }
+}
+
+/// What one does.
+impl Player {
+    /// Presses keys, see [`key`], between blanks; none of them may end the program.
+    pub fn press(mut self, keys: &str) -> Self {
+        for word in keys.split_whitespace() {
+            self.event(&key(word));
+            let last = self.effects.last();
+            assert!(!matches!(last, Some(Effect::Quit | Effect::Suspend)), "{word} gives {last:?}");
+        }
+        self
+    }
+
+    /// One key, whatever comes of it.
+    pub fn event(&mut self, event: &KeyEvent) {
+        if let Some(effect) = self.app.handle(event) {
+            self.take(effect);
+        }
+    }
+
+    /// Types words, blanks included.
+    pub fn type_in(self, text: &str) -> Self {
+        text.chars().fold(self, |player, letter| match letter {
+            ' ' => player.press("Space"),
+            letter => player.press(&letter.to_string()),
+        })
+    }
+
+    pub fn wait(mut self, seconds: f64) -> Self {
+        self.app.tick(seconds);
+        self
+    }
+
+    /// The replay has come to its end.
+    pub fn quiet(mut self) -> Self {
+        for _ in 0..2000 {
+            if self.app.frame_interval().is_none() {
+                break;
+            }
+            self.app.tick(0.1);
+        }
+        assert_eq!(self.app.frame_interval(), None, "it rests");
+        self
+    }
+}
+
+/// What becomes of it.
+impl Player {
+    fn take(&mut self, effect: Effect) {
+        match effect {
+            Effect::Recommend(job) => self.asked = Some(job),
+            Effect::Study(job) => self.study = Some(job),
+            Effect::Copy(text) => self.copied.push(text),
+            Effect::Drill(tasks) => self.run(tasks),
+            Effect::Settings(mut task) => {
+                task.path = self.path("config.toml");
+                let report = self.settings.run(&task);
+                self.app.receive_settings(report);
+            }
+            other => self.effects.push(other),
+        }
+    }
+
+    /// Does errands, and what comes of them.
+    pub fn run(&mut self, tasks: Vec<DrillTask>) {
+        for task in tasks {
+            let mut reports = Vec::new();
+            match task {
+                // What the coach finds depends on how fast the machine is.
+                DrillTask::Advise(position) if position.own.is_none() => {
+                    reports.push(DrillReport::AdviceState(position.id, Ok(None)));
+                }
+                task => self.practice.run(task, &mut |report| reports.push(report)),
+            }
+            for report in reports {
+                let more = self.app.receive_drill(report);
+                self.run(more);
+            }
+        }
+    }
+
+    pub fn tell(mut self, id: u64, news: CoachNews) -> Self {
+        if let Some(effect) = self.app.receive(Answer { id, news }) {
+            self.take(effect);
+        }
+        self
+    }
+
+    /// The coach answers with [`SHOT`] and [`OTHERS`].
+    pub fn answer(mut self) -> Self {
+        let job = self.asked.take().expect("the coach was asked");
+        let advice = advice(&job);
+        self.tell(job.id, CoachNews::Advice(advice))
+    }
+
+    /// The coach says that the shot with this cue is the best so far, with `made` of 1000 attempts.
+    pub fn better(self, cue: &str, made: usize) -> Self {
+        let job = self.asked.clone().expect("the coach was asked");
+        let so_far = proposal(&job.table, &job.layout, cue, Way::OffCushion, made);
+        self.tell(job.id, CoachNews::Better(Proposal { is_early: true, ..so_far }))
+    }
+
+    /// The closer look at the shot that is shown, by the real coach, but for the next shot, which is [`NEXT`].
+    pub fn studied(mut self) -> Self {
+        // Even if nobody waits for it any more.
+        let job = Job { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
+        let mut study = None;
+        CoachWorker::unhurried(1).answer(&job, |answer| {
+            if let CoachNews::Study(found) = answer.news {
+                study = Some(found);
+            }
+        });
+        let end = self.app.shot().unwrap().recording.final_layout();
+        let next = proposal(&job.table, &end, NEXT, Way::Direct, 1000);
+        self.tell(job.id, CoachNews::Study(study.unwrap()))
+            .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], effort: None })))
+    }
+
+    pub fn report(mut self, report: Report) -> Self {
+        self.app.receive_report(report);
+        self
+    }
+
+    /// News of a run, its shots recorded as the program does it.
+    pub fn update(self, slot: Slot, name: &str, mut update: Update) -> Self {
+        let folder = Path::new(RUNS).join(name);
+        let reel = update.examples.take().map(|examples| Reel::record(&examples, &Table::default()));
+        let player = self.report(Report::Followed(slot, folder.clone(), Box::new(update)));
+        match reel.filter(|_| slot == Slot::Main) {
+            Some(reel) => player.report(Report::Recorded(folder, reel)),
+            None => player,
+        }
+    }
+
+    pub fn condition(self, condition: Condition, reason: Option<&str>) -> Self {
+        let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
+        let standing = Standing { phase, reason: reason.map(str::to_owned), ..standing() };
+        let update = Update { condition: Some(condition), standing: Some(standing), ..Update::default() };
+        self.update(Slot::Main, NAME, update)
+    }
+
+    pub fn has_policy(self, has_policy: bool) -> Self {
+        self.report(Report::HasPolicy(Path::new(RUNS).join(NAME), has_policy))
+    }
+}
+
+/// What there is to see.
+impl Player {
+    pub fn picture(&self, width: u16, height: u16) -> Buffer {
+        self.draw(width, height).backend().buffer().clone()
+    }
+
+    pub fn text(&self, width: u16, height: u16) -> String {
+        self.draw(width, height).backend().to_string()
+    }
+
+    fn draw(&self, width: u16, height: u16) -> Terminal<TestBackend> {
+        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+        terminal.draw(|frame| self.app.draw(frame)).unwrap();
+        terminal
+    }
+
+    /// Whether a toast says `part`.
+    pub fn is_toast(&self, part: &str) -> bool {
+        self.app.toasts().shown().iter().any(|toast| toast.text.contains(part))
+    }
+
+    /// In a toast.
+    #[track_caller]
+    pub fn warns(&self, part: &str) {
+        assert!(self.is_toast(part), "{part}\n{}", self.text(120, 40));
+    }
+
+    /// On the screen, or in a toast, which breaks its lines as it needs.
+    #[track_caller]
+    pub fn says(&self, part: &str) -> &Self {
+        let text = self.text(120, 40);
+        assert!(text.contains(part) || self.is_toast(part), "{part}\n{text}");
+        self
+    }
+
+    #[track_caller]
+    pub fn is_silent_on(&self, part: &str) -> &Self {
+        let text = self.text(120, 40);
+        assert!(!text.contains(part), "{part}\n{text}");
+        self
+    }
+
+    pub fn store(&self) -> Store {
+        Store::new(&places(self.folder.path()))
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Attempts on the disk.
+    pub fn kept(&self) -> usize {
+        self.store().sessions().items.iter().map(|session| session.attempts.len()).sum()
+    }
+
+    /// The text of the settings' file.
+    pub fn settings_text(&self) -> String {
+        fs::read_to_string(self.path("config.toml")).unwrap_or_default()
+    }
+}
+
+/// Compares what is seen at both sizes with the pictures on file.
+pub fn check(name: &str, player: &Player) {
+    check_at(&SIZES, name, player);
+}
+
+pub fn check_at(sizes: &[(u16, u16)], name: &str, player: &Player) {
+    let screen = player.app.screen().title().to_lowercase();
+    for &(width, height) in sizes {
+        let name = format!("{screen}_{name}_{width}x{height}");
+        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!(name, without_moments(&player.text(width, height)));
+        });
+    }
+}
+
+/// The text with every moment of the form 20261120-143005 that is now replaced.
+fn without_moments(text: &str) -> String {
+    let mut text = text.to_owned();
+    let is_moment = |part: &[u8]| {
+        part.iter().enumerate().all(|(n, byte)| if n == 8 { *byte == b'-' } else { byte.is_ascii_digit() })
+    };
+    for start in 0..text.len().saturating_sub(15) {
+        let part = &text.as_bytes()[start..start + 15];
+        if is_moment(part) && !NAME.as_bytes().starts_with(part) && !OTHER.as_bytes().starts_with(part) {
+            text.replace_range(start..start + 15, "yyyymmdd-hhmmss");
+        }
+    }
+    text
+}

@@ -1,0 +1,39 @@
+//! Exercises to practise, and sessions that somebody has played.
+
+use carom::{
+    coach::Skill,
+    drills::{Attempt, Category, Exercise, Goal, Session, Venue},
+    game::Rule,
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+use super::player::SHOT;
+
+/// A position from the opening, with the shot that makes the point.
+pub fn exercise(name: &str, title: &str) -> Exercise {
+    Exercise {
+        name: name.to_owned(),
+        title: title.to_owned(),
+        category: Category::Own,
+        grade: 0,
+        rule: Rule::StraightRail,
+        table: "match".to_owned(),
+        layout: Layout::opening(&Table::default()),
+        point: "The first shot of every match. Hit yellow thin with left side and let the cushions do the rest."
+            .to_owned(),
+        tags: vec!["opening".to_owned()],
+        shot: Some(CueInputs::parse(SHOT).unwrap()),
+        par: None,
+    }
+}
+
+/// A session at a real table on a day of November 2026, an attempt a letter: `x` made, any other missed.
+pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
+    let mut session = Session::new(goal, Venue::Table, vec![exercise(name, "From the opening")], Skill::CLUB, 1);
+    session.id = format!("202611{number:02}-120000-0000000{number}");
+    session.started = 1_793_534_400 + number * 86_400;
+    session.attempts =
+        results.chars().map(|result| Attempt { at: session.started, ..Attempt::new(name, result == 'x') }).collect();
+    session
+}

@@ -1,0 +1,98 @@
+//! The table, the sight and the spin: what they show of a shot.
+
+use std::sync::Arc;
+
+use carom::{
+    physics::CueInputs,
+    terminal::{Advice, Capabilities, CoachNews, Glyphs, Proposal, Shot},
+};
+use ratatui::{buffer::Buffer, style::Color};
+
+use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check};
+
+const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
+
+/// A player to whom the coach has shown this shot.
+fn shown(caps: Capabilities, cue: &str) -> Player {
+    let mut player = Player::with(caps).press("Enter");
+    let job = player.asked.take().unwrap();
+    let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
+    let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
+    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], effort: None }))
+}
+
+/// How many cells of the table have this colour before them.
+fn count(picture: &Buffer, color: Color) -> usize {
+    picture.content()[..30 * 120].iter().filter(|cell| cell.fg == color && cell.symbol() != " ").count()
+}
+
+#[test]
+fn octants_are_drawn_only_where_they_were_asked_for() {
+    let is_octant = |text: &str| text.chars().any(|one| ('\u{1CD00}'..='\u{1CDE5}').contains(&one));
+    let asked = Player::with(OCTANTS).press("Enter").answer();
+    check("octants", &asked);
+    let round = asked.press("g g g");
+    assert!(!is_octant(&round.text(120, 40)));
+    assert!(is_octant(&round.press("g").text(120, 40)));
+    let mut player = Player::new().press("Enter").answer();
+    for _ in 0..4 {
+        player = player.press("g");
+        assert!(!is_octant(&player.text(120, 40)));
+    }
+}
+
+#[test]
+fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
+    // The yellow ball's path, the same half sunk into the cloth, and the ball itself.
+    let (path, past, ball) = (Color::Rgb(0xd8, 0xc0, 0x5a), Color::Rgb(0x79, 0x96, 0x6e), Color::Rgb(0xf6, 0xc3, 0x24));
+    let start = Player::new().press("Enter").answer();
+    let before = start.picture(120, 40);
+    assert_eq!(count(&before, past), 0);
+    let later = start.press("Space").wait(0.8).picture(120, 40);
+    assert!(count(&later, path) < count(&before, path));
+    assert!(count(&later, past) > 5, "{}", count(&later, past));
+    assert!(count(&later, ball) > count(&before, ball), "the trail has the ball's colour");
+}
+
+#[test]
+fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
+    for (name, caps) in [("spin", TRUE_COLOUR), ("spin_no_colour", NO_COLOUR), ("spin_ascii", ASCII)] {
+        let player = shown(caps, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
+        check(name, &player);
+        for (width, height) in SIZES {
+            let text = player.text(width, height);
+            assert!(text.contains("Spin") && text.contains("left") && !text.contains("Sight"), "{text}");
+        }
+        let text = player.press("End").text(80, 24);
+        assert!(text.contains("Sight") && !text.contains("Spin"), "{text}");
+    }
+}
+
+#[test]
+fn draw_is_told_from_follow_and_both_from_rolling() {
+    for (cue, wait, word) in [
+        ("0,-0.4,0,0,3", 0.11, "draw"),
+        ("0,0.49,0,0,8", 0.11, "follow"),
+        ("0,0,0,0,3", 0.11, "slides"),
+        ("0,0.4,0,0,1", 0.25, "rolls"),
+    ] {
+        let text = shown(TRUE_COLOUR, cue).press("Space").wait(wait).text(120, 40);
+        let ball = text.lines().find(|line| line.contains("● white")).unwrap();
+        assert!(ball.contains(word) && text.matches(word).count() >= 2, "{cue}: {word}\n{text}");
+    }
+}
+
+#[test]
+fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
+    let bank = shown(TRUE_COLOUR, "0,0,3,-173,4");
+    let contact = bank.app.shot().unwrap().contact;
+    assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
+    for (width, height) in SIZES {
+        let text = bank.text(width, height);
+        for words in ["left rail", "first, then", "yellow "] {
+            assert!(text.contains(words), "{words}\n{text}");
+        }
+    }
+    let nothing = shown(TRUE_COLOUR, "0,0,0,-45,0.2").text(120, 40);
+    assert!(nothing.contains("nothing"), "{nothing}");
+}

@@ -1,0 +1,104 @@
+//! Going from screen to screen: wherever one is, the same keys lead everywhere, and nothing is lost on the way.
+
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
+use carom::terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext};
+use ratatui::style::Modifier;
+
+fn first_row(text: &str) -> String {
+    text.lines().next().unwrap().trim_matches('"').to_owned()
+}
+
+#[test]
+fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
+    let mut rows = Vec::new();
+    for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 60)] {
+        let coach = Player::new().press("S S").press("Enter");
+        rows.push(first_row(&coach.text(width, height)));
+        rows.push(first_row(&coach.answer().press("R R R +").text(width, height)));
+        rows.push(first_row(&Player::new().press("Enter").answer().press("+ Space").wait(1.0).text(width, height)));
+        rows.push(first_row(&Player::new().press("R R S S S F5 F2").text(width, height)));
+        rows.push(first_row(&Player::at_library(TRUE_COLOUR, &[], &[]).text(width, height)));
+        rows.push(first_row(&Player::practising(TRUE_COLOUR).text(width, height)));
+        rows.push(first_row(&Player::watching(TRUE_COLOUR).text(width, height)));
+    }
+    rows.push(first_row(&Player::with(NO_COLOUR).press("Enter").answer().text(80, 24)));
+    rows.push(first_row(&Player::with(ASCII).press("Enter").answer().text(80, 24)));
+    insta::assert_snapshot!("tabs", rows.join("\n"));
+}
+
+#[test]
+fn the_open_tab_is_told_without_colours_too() {
+    for caps in [TRUE_COLOUR, NO_COLOUR] {
+        for (keys, screen) in [("F2", "Coach"), ("F3", "Drills"), ("F4", "Training"), ("F5", "Settings")] {
+            let picture = Player::with(caps).press(keys).picture(80, 24);
+            let reversed = |x: &u16| picture[(*x, 0)].modifier.contains(Modifier::REVERSED);
+            let open: String = (0..80).filter(reversed).map(|x| picture[(x, 0)].symbol().to_owned()).collect();
+            assert_eq!(open, format!(" {screen} "));
+        }
+    }
+}
+
+#[test]
+fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
+    let player = Player::new().press("Enter F4").wait(0.5);
+    assert_eq!(player.app.frame_interval(), None, "nobody looks at the spinner");
+    let player = player.answer().press("F2");
+    assert!(player.app.shot().is_some_and(|shot| shot.solved));
+    assert!(player.text(80, 24).contains("expert makes it 94 %"));
+    let playing = player.press("Space").wait(0.5).press("F3");
+    let time = playing.app.playback().time;
+    let back = playing.wait(1.0).press("F2");
+    assert!(back.app.playback().time == time && !back.app.playback().playing, "nothing plays unseen");
+}
+
+#[test]
+fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
+    let player = Player::practising(TRUE_COLOUR).press("S-Left k Space").wait(0.3);
+    let time = |player: &Player| player.app.drills().playback().unwrap().time;
+    let before = time(&player);
+    let player = player.press("F2 F5 F3");
+    assert_eq!((player.app.place(), time(&player)), (KeyContext::Drill(DrillContext::Exercise), before));
+    player.wait(60.0).says("your hand: ");
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Space Enter Enter F2 s");
+    exam.says("save the balls as");
+    let exam = exam.type_in("mine").press("Enter");
+    exam.says("saved as mine").says("exercise 2 of 20");
+    assert_eq!(exam.press("F2 s Esc").app.place(), KeyContext::Coach, "one has come from there");
+    let typing = Player::at_library(TRUE_COLOUR, &[], &[]).press("a").type_in("carom:half");
+    let typing = typing.press("F5 F3");
+    typing.says("carom:half_");
+    let form = Player::at_runs(TRUE_COLOUR).press("n Down Down Down 7 F2 t");
+    assert_eq!(form.app.place(), KeyContext::Training(TrainingContext::Form));
+    form.says("50,000,007");
+}
+
+#[test]
+fn palette_and_help_close_on_the_way() {
+    for keys in [": x F3", "? F3", "F6 F3"] {
+        let player = Player::new().press(keys);
+        assert_eq!((player.app.screen(), player.app.help()), (PageId::Drills, None), "{keys}");
+        assert!(player.app.command_palette().is_none());
+    }
+}
+
+#[test]
+fn help_and_messages_open_where_letters_are_typed_and_lead_back_there() {
+    let typing = Player::at_library(TRUE_COLOUR, &[], &[]).press("a x F1");
+    typing.says("The library");
+    let back = typing.press("Esc y F6");
+    back.says("Messages, the newest first");
+    back.press("Esc").says("the code of a position: xy_");
+}
+
+#[test]
+fn carom_watch_has_no_tabs() {
+    let caps: Capabilities = TRUE_COLOUR;
+    let mut app = App::watching(caps, None, None).unwrap();
+    let effect: Option<Effect> = app.handle(&super::keys::key("F2"));
+    assert!(effect.is_none() && app.screen() == PageId::Training);
+    assert!(app.toasts().shown()[0].text.contains("carom watch has no other screens"));
+    let mut terminal = ratatui::Terminal::new(ratatui::backend::TestBackend::new(80, 24)).unwrap();
+    terminal.draw(|frame| app.draw(frame)).unwrap();
+    let row = first_row(&terminal.backend().to_string());
+    assert!(row.starts_with(" carom  training runs") && !row.contains("Drills"), "{row}");
+}

@@ -1,0 +1,83 @@
+//! Toasts through the real app: where they stand, how long, and that they hide nothing that has to be answered.
+
+use std::path::Path;
+
+use super::{
+    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check},
+    runs::{NAME, RUNS},
+};
+use carom::terminal::{CoachNews, Failure, Report};
+use ratatui::style::Color;
+
+/// At the coach, who has refused with sentences of this many words.
+pub fn refused(mut player: Player, words: &[usize]) -> Player {
+    for count in words {
+        player = player.press("Enter");
+        let id = player.asked.take().unwrap().id;
+        let sentence = format!("the weights are damaged{}", ", and so is all else".repeat(*count));
+        player = player.tell(id, CoachNews::Refused(sentence));
+    }
+    player
+}
+
+#[test]
+fn they_stand_over_the_picture_and_long_ones_are_broken() {
+    let player = refused(Player::new(), &[0, 5]).press("u");
+    check("toasts", &player);
+    let picture = player.picture(80, 24);
+    let warning = Color::Rgb(0xff, 0x8a, 0x70);
+    assert!((0..24).any(|y| picture[(79, y)].fg == warning && picture[(79, y)].symbol() == "│"));
+    for (name, caps) in [("toasts_no_colour", NO_COLOUR), ("toasts_ascii", ASCII)] {
+        let player = refused(Player::with(caps), &[0, 5]).press("u");
+        check(name, &player);
+    }
+    assert!(refused(Player::with(ASCII), &[0, 5]).text(80, 24).is_ascii());
+    let long = refused(Player::new(), &[60]);
+    assert!(long.text(80, 24).contains("F6 shows all of it"));
+}
+
+#[test]
+fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
+    let player = Player::new().press("u");
+    player.warns("there is nothing to take back");
+    assert_eq!(player.app.frame_interval(), None, "nothing moves while it is read");
+    let time = player.app.toast_time().unwrap();
+    assert!((4.0..8.0).contains(&time), "{time}");
+    let gone = player.wait(time);
+    assert_eq!((gone.app.toast_time(), gone.app.toasts().shown().len()), (None, 0));
+    assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
+    let player = refused(gone.press("u"), &[0]).press("Left");
+    assert!(!player.is_toast("there is nothing to take back"));
+    player.warns("the weights are damaged");
+    assert!(player.press("Esc").app.toasts().shown().iter().all(|toast| !toast.text.contains("weights")));
+}
+
+#[test]
+fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
+    let mut player = Player::new().press("F5");
+    let failure = Failure { process: None, sentence: "the disk is full".to_owned() };
+    player.app.receive_report(Report::TrainerFailed(Path::new(RUNS).join(NAME), failure));
+    player.warns("the disk is full");
+    assert_eq!(player.app.take_unwritten().len(), 1, "it goes to the log, once");
+    assert!(player.app.take_unwritten().is_empty());
+    let player = player.wait(60.0).press("F6");
+    let text = player.text(120, 40);
+    assert!(text.contains("the disk is full") && text.contains("carom.log"), "{text}");
+    let closed = player.press("Esc");
+    assert!(closed.app.help().is_none() && !closed.text(120, 40).contains("the disk is full"));
+}
+
+#[test]
+fn questions_are_never_hidden() {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
+    player.app.paste(&"half a code ".repeat(40));
+    let player = player.press("Enter");
+    check("toasts_question", &player);
+    for (width, height) in SIZES {
+        let text = player.text(width, height);
+        assert!(text.contains("paste or type the code of a position") && text.contains("Enter take it"), "{text}");
+    }
+    let name = Player::watching(TRUE_COLOUR).press("k Backspace / Enter");
+    let text = name.text(80, 24);
+    assert!(text.contains("keep the weights under the name") && name.is_toast("is no name"), "{text}");
+}

@@ -1,0 +1,203 @@
+//! The stability table, row by row: stiff and extreme cases, random and adversarial shots.
+
+use std::{fs::File, io::Write};
+
+use carom::{
+    physics::CueInputs,
+    simulation::Recording,
+    study::stability::{Case, Plan, ProgressLine, Row, Shot, Stroke, Trace, cases, examine, markdown, rows},
+    table::{Layout, Table, TableError},
+};
+use glam::DVec2;
+
+/// Shots of each row on each of its tables, with the limits of the report.
+const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, seed: 1 };
+
+/// Rows of `docs/stability.md` in which shots fail, with the share of them that the document measures.
+const KNOWN: &[(&str, f64)] = &[
+    ("random shots, table \"thesis\"", 1.50e-03),
+    ("adversarial shots, table \"textbook\"", 3.00e-03),
+    ("adversarial shots, table \"thesis\"", 1.50e-02),
+    ("object ball exactly on a cushion", 5.00e-03),
+    ("object ball exactly in a corner", 1.00e-02),
+    ("two balls exactly touching", 1.00e-02),
+    ("three balls exactly touching", 1.00e-02),
+    ("three balls in line, touching or 1e-16 to 1e-6 m apart", 3.00e-02),
+    ("two balls 1e-16 to 1e-6 m apart", 5.00e-03),
+    ("two object balls hit at the same moment", 1.50e-02),
+    ("a ball resting on another", 7.33e-02),
+    ("a ball pressed between ball and cushion", 3.33e-02),
+    ("a ball spinning against another, e = 0.95", 1.50e-02),
+    ("a ball spinning against another, e = 0.99", 1.50e-02),
+    ("next to no friction", 3.50e-02),
+    ("friction of 10 and 1000 on the cloth, 0.99 in contacts", 1.00e-02),
+    ("no restitution, e = 0", 3.50e-02),
+    ("restitution e = 0.3", 1.50e-02),
+    ("the smallest table, six ball radii wide", 7.50e-02),
+    ("balls of one millimetre and of one metre", 7.50e-03),
+];
+
+/// Standard deviations by which the share of a known row may be above the measured one.
+const SPREAD: f64 = 4.0;
+
+/// Plays a row and fails with its first failing shot, as JSON that `carom simulate --batch` reads.
+fn hold(name: &str) {
+    let case: Case = cases().into_iter().find(|case| case.name == name).expect("the row is in the table");
+    let mut first = None;
+    let row = Row::of(&case, &PLAN, |_, finding| {
+        first = first.take().or_else(|| finding.cloned());
+        true
+    });
+    let rate = KNOWN.iter().find(|(row, _)| *row == name).map_or(0.0, |(_, rate)| *rate);
+    let expected = rate * row.figures.shots as f64;
+    if let Some(first) = first.filter(|_| row.failed as f64 > expected + SPREAD * expected.sqrt()) {
+        panic!(
+            "{} of {} fail: {}\n{}",
+            row.failed,
+            row.figures.shots,
+            first.what,
+            serde_json::to_string(&first).unwrap()
+        );
+    }
+    let tables = (case.tables)().len() as u64;
+    assert_eq!(row.figures.shots, tables * PLAN.shots(&case), "all shots are played");
+}
+
+macro_rules! rows_as_tests {
+    ($($test:ident => $name:literal,)*) => {
+        $(#[test] fn $test() { hold($name); })*
+        const NAMES: &[&str] = &[$($name),*];
+    };
+}
+
+rows_as_tests! {
+    random_shots_on_the_textbook_table => "random shots, table \"textbook\"",
+    random_shots_on_the_thesis_table => "random shots, table \"thesis\"",
+    adversarial_shots_on_the_textbook_table => "adversarial shots, table \"textbook\"",
+    adversarial_shots_on_the_thesis_table => "adversarial shots, table \"thesis\"",
+    grazing_contact => "grazing contact, relative depth 1e-15 to 1e-3",
+    object_ball_on_a_cushion => "object ball exactly on a cushion",
+    cue_ball_on_a_cushion => "cue ball exactly on a cushion",
+    object_ball_in_a_corner => "object ball exactly in a corner",
+    exact_corner_shots => "a shot exactly into a corner at 45°",
+    two_touching_balls => "two balls exactly touching",
+    three_touching_balls => "three balls exactly touching",
+    three_balls_in_line => "three balls in line, touching or 1e-16 to 1e-6 m apart",
+    tiny_gaps => "two balls 1e-16 to 1e-6 m apart",
+    two_balls_at_the_same_moment => "two object balls hit at the same moment",
+    ball_and_cushion_at_the_same_moment => "ball and cushion hit at the same moment",
+    resting_on_a_cushion => "a ball resting on a cushion",
+    resting_on_two_cushions => "a ball resting on two cushions",
+    resting_on_another_ball => "a ball resting on another",
+    pressed_between_ball_and_cushion => "a ball pressed between ball and cushion",
+    resting_on_a_smooth_cushion => "a ball resting on a smooth cushion",
+    lively_cushion => "a ball spinning against a cushion, e = 0.95",
+    livelier_cushion => "a ball spinning against a cushion, e = 0.99",
+    lively_ball => "a ball spinning against another, e = 0.95",
+    livelier_ball => "a ball spinning against another, e = 0.99",
+    resting_on_a_smooth_ball => "a ball resting on another, smooth ball",
+    pressed_between_smooth_things => "a ball pressed between a smooth ball and cushion",
+    next_to_no_slip => "next to no slip: relative 1e-16 to 1e-6",
+    tiny_spins => "spins of 1e-16 to 1e-9",
+    all_speeds => "speeds from 1e-6 to 60 m/s",
+    steep_masse => "massé at 89° to 89.999°",
+    tip_at_the_rim => "tip at the rim of the ball",
+    next_to_no_friction => "next to no friction",
+    large_friction => "friction of 10 and 1000 on the cloth, 0.99 in contacts",
+    no_restitution => "no restitution, e = 0",
+    little_restitution => "restitution e = 0.3",
+    full_restitution => "full restitution, e = 1",
+    lossless_contacts => "full restitution without friction in contacts",
+    smallest_table => "the smallest table, six ball radii wide",
+    huge_table => "a table of one kilometre",
+    tiny_and_huge_balls => "balls of one millimetre and of one metre",
+}
+
+#[test]
+fn every_row_of_the_table_is_a_test() {
+    assert_eq!(cases().iter().map(|case| case.name).collect::<Vec<_>>(), NAMES);
+}
+
+/// What is excused here is what the document says, row by row.
+#[test]
+fn every_known_row_is_in_the_document() {
+    let page = include_str!("../../docs/stability.md");
+    for name in NAMES {
+        let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let shots: f64 = cells[2].parse().unwrap();
+        let failed =
+            cells.iter().find_map(|cell| cell.split_once(" fail: ")).map_or(0.0, |(failed, _)| failed.parse().unwrap());
+        let rate = KNOWN.iter().find(|(row, _)| row == name).map_or(0.0, |(_, rate)| *rate);
+        assert!((rate - failed / shots).abs() <= 0.05 * rate + 1e-6, "{name}: {} in the document", failed / shots);
+    }
+}
+
+#[test]
+fn a_contact_that_another_ball_ends_holds_nobody() {
+    let table = Table::preset("thesis").unwrap();
+    let layout = "0.3554977378777134,0.1549044831937764 0.29738331918515715,0.17344401770836426 -0.7480378896521971,0.5069520010895157";
+    let layout = Layout::parse(layout, &table).unwrap();
+    let cue = CueInputs::parse("0,0.4,0,159.88175151009634,4.042894454326235").unwrap();
+    assert!(Recording::new(&table, &layout, &cue).unwrap().duration() > 1.0);
+}
+
+#[test]
+fn every_case_has_its_tables() {
+    for case in cases() {
+        assert!(!(case.tables)().is_empty(), "{} has no table", case.name);
+    }
+}
+
+#[test]
+fn a_cloth_without_friction_is_refused_with_a_sentence() {
+    let text = include_str!("../../src/table/textbook.toml");
+    for (key, line) in [("mu_r", "mu_r = 0.010"), ("mu_s", "mu_s = 0.2")] {
+        let error = Table::from_toml(&text.replace(line, &format!("{key} = 0"))).unwrap_err();
+        assert!(matches!(&error, TableError::Value { key: refused, .. } if *refused == key));
+        assert!(error.to_string().contains("accepted is 0.0001"), "{error}");
+    }
+}
+
+/// The checks themselves: a shot on a table that is smaller than the checker believes leaves it, balls that are placed
+/// inside each other overlap.
+#[test]
+fn the_checks_see_what_is_wrong() {
+    let table = Table::default();
+    let mut trace = Trace::new(&table);
+    let layout = Layout::new([DVec2::ZERO, DVec2::new(0.06, 0.0), DVec2::new(1.0, 0.5)]);
+    let shot = Shot { layout, cue: Stroke::centre(90.0, 1.0) };
+    let overlap = examine(&table, &shot, &mut trace).overlap.value;
+    assert!((overlap - (2.0 * table.radius - 0.06)).abs() < 1e-12, "{overlap:e}");
+    let small = Table { width: 1.0, ..table.clone() };
+    let layout = Layout::new([DVec2::ZERO, DVec2::new(1.0, 0.0), DVec2::new(1.0, 0.3)]);
+    let mut trace = Trace::new(&small);
+    let shot = Shot { layout, cue: Stroke::centre(90.0, 2.0) };
+    let outside = examine(&table, &shot, &mut trace).outside.value;
+    assert!((outside - (table.half_width() - small.half_width())).abs() < 1e-12, "{outside:e}");
+}
+
+/// The table of the report with a hundred times as many shots: ten million random and a million adversarial shots on each
+/// bundled table, and a hundred thousand of every case. Hours; findings go to the file in `CAROM_STABILITY_FINDINGS`, one
+/// JSON object a line. `CAROM_STABILITY_QUICK=1` takes as many as the report.
+///
+/// `cargo test --profile quick --test library stability::the_long_run -- --ignored --nocapture`
+#[test]
+#[ignore = "takes hours"]
+fn the_long_run() {
+    let Plan { random, adversarial, each_case, seed } = Plan::REPORT;
+    let times = if std::env::var_os("CAROM_STABILITY_QUICK").is_some() { 1 } else { 100 };
+    let plan = Plan { random: times * random, adversarial: times * adversarial, each_case: times * each_case, seed };
+    let mut file = std::env::var_os("CAROM_STABILITY_FINDINGS").map(|path| File::create(path).unwrap());
+    let mut line = ProgressLine::default();
+    let rows = rows(&plan, |name, progress, finding| {
+        line.show(name, progress);
+        if let (Some(file), Some(finding)) = (&mut file, finding) {
+            writeln!(file, "{}", serde_json::to_string(finding).unwrap()).unwrap();
+        }
+        true
+    });
+    line.clear();
+    println!("{}", markdown(&rows));
+    assert!(rows.iter().all(Row::passed));
+}
