@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::CommandBuilder;
 
-use crate::terminal::{OPENING, PATIENCE, Session, carom};
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
 
 #[test]
 fn signals_restore_the_terminal_and_still_end_the_program() {
@@ -115,6 +115,7 @@ fn every_screen_comes_back_after_it_was_stopped() {
             session.press(key);
         }
         session.wait_for(text);
+        session.settle(REST);
         let before = session.screen().contents();
         session.signal("TSTP");
         session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
