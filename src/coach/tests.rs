@@ -271,7 +271,7 @@ fn no_stroke_that_the_coach_names_goes_through_a_rail_or_a_ball() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release --lib no_stroke_on_ten_thousand -- --ignored --nocapture"]
+#[ignore = "takes minutes: cargo test --profile quick --lib no_stroke_on_ten_thousand -- --ignored --nocapture"]
 fn no_stroke_on_ten_thousand_layouts_goes_through_a_rail_or_a_ball() {
     let (bad, all) = strokes_without_room(10_000);
     println!("{bad} of {all} strokes on 10,000 layouts have no room");
@@ -293,7 +293,7 @@ fn a_frozen_cue_ball_gets_advice_all_the_same_and_a_table_without_limits_gets_wh
 
 /// The same searches on a table with the limits and on the same without, in pairs: how many times as long the former take.
 #[test]
-#[ignore = "a measurement: cargo test --release --lib what_the_cues_room_costs -- --ignored --nocapture"]
+#[ignore = "a measurement: cargo test --profile quick --lib what_the_cues_room_costs -- --ignored --nocapture"]
 fn what_the_cues_room_costs() {
     let free = Table { room: None, ..Table::default() };
     let coaches = [Some(Room::default()), None].map(|room| Coach::new(Table { room, ..free.clone() }).unwrap());

@@ -39,7 +39,7 @@ fn an_unknown_figure_is_refused_with_those_that_there_are() {
 #[test]
 fn an_interrupt_ends_it_with_the_number_of_figures_that_are_complete() {
     let folder = tempfile::tempdir().unwrap();
-    let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("carom"))
+    let child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("carom"))
         .envs(home())
         .args(["reproduce", "--figure", "29", "--episodes", "100000000", "--out"])
         .arg(folder.path())

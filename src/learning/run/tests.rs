@@ -1,4 +1,4 @@
-//! Runs that are stopped, go on, and meet trouble; kills of the whole program are in `tests/training.rs`.
+//! Runs that are stopped, go on, and meet trouble; kills of the whole program are in `tests/binary/training`.
 
 use std::{cell::Cell, fs};
 

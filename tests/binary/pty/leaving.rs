@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::CommandBuilder;
 
-use crate::terminal::{OPENING, PATIENCE, Session, carom};
+use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
 
 #[test]
 fn signals_restore_the_terminal_and_still_end_the_program() {
@@ -115,6 +115,7 @@ fn every_screen_comes_back_after_it_was_stopped() {
             session.press(key);
         }
         session.wait_for(text);
+        session.settle(REST);
         let before = session.screen().contents();
         session.signal("TSTP");
         session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
@@ -137,15 +138,15 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     let (start, before) = (Instant::now(), clock(session.screen()).unwrap());
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
-    let (played, stopped) = (start.elapsed(), Instant::now());
+    let (played, stopped) = (start.elapsed().as_secs_f64(), Instant::now());
     // The time in which the shot would run on.
     std::thread::sleep(Duration::from_secs(1));
-    let stood = stopped.elapsed();
+    let stood = stopped.elapsed().as_secs_f64();
     session.come_back_to("Events");
     session.wait_until("the clock", |screen| clock(screen).is_some());
     let passed = clock(session.screen()).unwrap() - before;
-    let running = played.as_secs_f64() + (stopped.elapsed() - stood).as_secs_f64();
-    assert!(passed < running + 0.5 * stood.as_secs_f64(), "the shot ran on: {passed} s in {running} s");
+    let running = played + stopped.elapsed().as_secs_f64() - stood;
+    assert!(passed < running + 0.5 * stood, "the shot ran on: {passed} s in {running} s");
 }
 
 /// Seconds since the stroke, as the first row tells them: "1.25 / 6.50 s", or "1.25/6.50" where there is less room.

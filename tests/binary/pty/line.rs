@@ -2,7 +2,10 @@
 
 use std::{fs, time::Duration};
 
-use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
+use crate::{
+    terminal::{OPENING, PATIENCE, REST, Session, carom},
+    training::common::{SHORT, done, folder},
+};
 
 /// Time in which a program without a terminal has to be gone; a loaded machine may take long.
 const SOON: Duration = Duration::from_secs(5);
@@ -49,7 +52,7 @@ fn without_a_signal_too_the_end_of_the_line_is_the_end() {
 #[test]
 fn on_a_slow_line_pictures_are_left_out_and_a_key_is_answered_as_soon_as_the_line_allows() {
     let mut session = begun(&["\r", " "]);
-    // Four seconds at 2 KB/s, of which playback could fill three times as many.
+    // At 2 KB/s, of which playback could fill three times as many.
     for _ in 0..40 {
         let start = std::time::Instant::now();
         let bytes = session.take(Duration::from_millis(100)).map_or(0, |bytes| bytes.len());
@@ -87,15 +90,9 @@ fn on_a_line_that_stands_still_the_program_can_be_ended_and_gives_the_terminal_b
 
 #[test]
 fn a_line_that_is_cut_while_a_run_is_watched_ends_the_watching() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let run = folder.path().join("run");
-    let trained = std::process::Command::new(env!("CARGO_BIN_EXE_carom"))
-        .envs(crate::program::home())
-        .args(["train", "--steps", "2000", "--run"])
-        .arg(&run)
-        .output()
-        .unwrap();
-    assert!(trained.status.success(), "{}", String::from_utf8_lossy(&trained.stderr));
+    done(folder.path(), &format!("{SHORT} --run run"));
     assert!(fs::exists(run.join("metrics.jsonl")).unwrap());
     let mut command = carom();
     command.arg("watch");

@@ -1,15 +1,16 @@
 //! Runs that train beside the program.
 
 use std::{
-    process::Command,
     thread,
     time::{Duration, Instant},
 };
 
 use carom::learning::run::list::{Stage, runs_in};
 
-use crate::program::{Kept, home};
-use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
+use crate::{
+    terminal::{OPENING, PATIENCE, REST, Session, carom},
+    training::common::{folder, start, wait_for},
+};
 
 #[test]
 fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
@@ -39,24 +40,11 @@ fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
 
 #[test]
 fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_has_ended() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let run = folder.path().join("run");
-    let settings = folder.path().join("small.toml");
-    let small = "actor_layers = [16]\ncritic_layers = [16]\nbatch = 32\nactor_batch = 8\nshots_per_update = 16\n";
-    std::fs::write(&settings, small).unwrap();
-    let training = Command::new(env!("CARGO_BIN_EXE_carom"))
-        .envs(home())
-        .args(["train", "--steps", "60000", "--evaluate-every", "10000", "--evaluation-layouts", "50", "--config"])
-        .args([&settings, &"--run".into(), &run])
-        .stderr(std::process::Stdio::null())
-        .stdout(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
-    let mut training = Kept(training);
-    while !run.join("metrics.jsonl").exists() {
-        assert!(training.try_wait().unwrap().is_none(), "the run ended by itself");
-        thread::sleep(Duration::from_millis(10));
-    }
+    let line = "train --config small.toml --steps 60000 --evaluate-every 10000 --evaluation-layouts 50 --run run";
+    let mut training = start(folder.path(), line);
+    wait_for(&run.join("metrics.jsonl"), &mut training);
     let watch = |width, height| {
         let mut command = carom();
         command.arg("watch");

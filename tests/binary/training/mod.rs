@@ -1,7 +1,7 @@
 //! `carom train` and `carom evaluate` as a user runs them.
 
 mod basics;
-mod common;
+pub mod common;
 mod kills;
 mod many;
 mod trouble;

@@ -79,7 +79,7 @@ fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> 
         Some(rest) => tree(rest, &path, found),
         None => {
             // After the last comma stands nothing.
-            if !name.is_empty() || rest.starts_with('*') {
+            if !name.is_empty() || !rest.starts_with('}') {
                 found.push(path);
             }
             rest

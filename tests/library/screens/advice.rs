@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, check_at, proposal};
+use super::player::{NEXT, OTHERS, Player, SHOT, advice, check, proposal};
 use carom::{
     coach::{Skill, Way},
     game::Rule,
@@ -32,7 +32,7 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
     let late = player.asked.clone();
     let mut player = player.press("Esc");
     assert!(late.as_ref().unwrap().cancel.load(Ordering::Relaxed));
-    check("so_far_taken", &player);
+    player.shows(&["the coach has stopped thinking; this is the best shot so far", "Events 0/26", "Space play"]);
     assert_eq!(player.study.as_ref().unwrap().shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
     player.asked = late;
     let player = player.better(SHOT, 940).answer();
@@ -88,7 +88,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     }
     let player = Player::new().press("Enter").answer();
     let player = player.press("R S");
-    check("other_question", &player);
+    player.shows(&["R 1-cushion S club P plan", "placing balls", "the player: club; Enter asks the coach"]);
     let cancelled = player.study.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S");
@@ -103,7 +103,7 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     check("chances", &player);
     let first = player.study.clone().unwrap();
     let player = player.press("]");
-    check("chances_second", &player);
+    player.shows(&["Chances · expert 89 % (87-91)", "▸2   89 % yellow, 3+ rails, hard", "shot 2 of 3: 89 % (87-91)"]);
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
     assert!(first.cancel.load(Ordering::Relaxed));
     let second = player.study.clone().unwrap();
@@ -130,7 +130,12 @@ fn margins_and_maps() {
     let player = Player::new().press("Enter").answer().press("v v");
     assert!(player.text(80, 24).contains("being worked out"));
     let player = player.studied();
-    check_at(&[(80, 24), (120, 40), (200, 60)], "margins", &player);
+    check("margins", &player);
+    let large = player.text(200, 60);
+    assert!(
+        large.contains("Margins") && large.contains("Aim: φ, V") && large.contains("tightest: errors leave it first"),
+        "{large}"
+    );
     let picture = player.picture(120, 40);
     let (point, tip) = (Color::Rgb(0x5c, 0xbd, 0x72), Color::Rgb(0x1f, 0x63, 0xc8));
     // The map of direction and speed from column 45 to 70: the stroke in its middle, and a point all around it.
@@ -150,7 +155,9 @@ fn the_plan_and_where_it_goes_on() {
     let player = Player::new().press("Enter").answer();
     let before = player.picture(120, 40);
     let player = player.press("v v v").studied();
-    check_at(&[(80, 24), (120, 40), (200, 60)], "plan", &player);
+    check("plan", &player);
+    let large = player.text(200, 60);
+    assert!(large.contains("Plan · the point after it 97 %") && large.contains("next 100 % yellow"), "{large}");
     assert_eq!(player.app.coach().view, View::Plan);
     // Ends of the balls are drawn around the places where they are meant to stop.
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
@@ -160,7 +167,12 @@ fn the_plan_and_where_it_goes_on() {
     let player = player.press("n");
     assert_eq!(*player.app.layout(), end);
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
-    check("went_on", &player);
+    player.shows(&[
+        "Plan · the point after it 97 %",
+        "now  100 % yellow, direct, hard",
+        "stop being tried",
+        "next being looked for",
+    ]);
     assert!(player.asked.is_none(), "nothing more was asked");
 }
 

@@ -40,11 +40,14 @@ fn played() -> Player {
 
 #[test]
 fn the_library_of_own_positions() {
-    check("library_none", &Player::at_library(TRUE_COLOUR, &[], &[]).press("Left"));
+    let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left");
+    none.shows(&["0: Your own", "You have saved no position yet.", "a position from a code"]);
     check("library_played", &played().press("Left"));
     let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
-    check("library_long", &long);
-    check("library_ascii", &Player::at_library(ASCII, &many(), &[]).press("Left End Up"));
+    long.shows(&["60: Your own", "▸ Position number 60 of a long", "you: not tried yet", "#opening"]);
+    assert!(!long.text(80, 24).contains("Position number 40 of"), "the list is scrolled");
+    let plain = Player::at_library(ASCII, &many(), &[]).press("Left End Up");
+    plain.is_plain().shows(&["> Position number 59 of a lo", "Position number 60 of a lo"]);
 }
 
 #[test]
@@ -88,12 +91,17 @@ fn a_stroke_is_set_with_keys() {
     for part in ["-84.41°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "2.3° up"] {
         set.says(part);
     }
-    check("aiming_set", &set);
     let full = set.press("Tab 0");
     full.says("-90.00°").says("side   middle");
-    check("aiming_no_colour", &Player::practising(NO_COLOUR).press("S-Left"));
-    check("aiming_ascii", &Player::practising(ASCII).press("S-Right S-Right"));
-    check_at(&[(200, 60)], "aiming", &Player::practising(TRUE_COLOUR));
+    let plain = Player::practising(NO_COLOUR).press("S-Left");
+    plain.is_plain().shows(&["yellow 74 % full, left side, 12 cm", "no attempt yet"]);
+    let plain = Player::practising(ASCII).press("S-Right S-Right");
+    check_at(&[(80, 24)], "aiming_ascii", &plain);
+    plain.is_plain();
+    let large = Player::practising(TRUE_COLOUR).text(200, 60);
+    for part in ["Your stroke", "Tip", "Sight", "Aim", "yellow 100 % full", "The first shot of every match."] {
+        assert!(large.contains(part), "{part}\n{large}");
+    }
     let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");
     far.says("further out the tip would slip off the ball");
 }
@@ -131,8 +139,9 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     check("played", &ended);
     ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
-    check("played_hint", &ended.press("v"));
-    check("played_no_colour", &Player::practising(NO_COLOUR).press("Right Space").wait(60.0));
+    ended.press("v").shows(&["taught: no change worth telling", "your hand: ", "v hint"]);
+    let plain = Player::practising(NO_COLOUR).press("Right Space").wait(60.0);
+    plain.is_plain().shows(&["your hand: ", "1 made", "Enter next"]);
 }
 
 #[test]
@@ -151,7 +160,7 @@ fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
 fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
     let player = Player::practising(TRUE_COLOUR).press("m m n m");
     player.says("Real table: free repetition").says("3 of 4 made").says("noted: made, 3 of 4 now");
-    check("noted", &player);
+    player.shows(&["3 of 4 made, 75 % (30-95)", "run 1, best 2, average 1.50", "noted: made, 3 of 4 now"]);
     let sessions = player.store().sessions().items;
     assert_eq!((sessions.len(), sessions[0].venue, sessions[0].attempts.len()), (1, Venue::Table, 4));
     assert!(sessions[0].attempts.iter().all(|attempt| attempt.advised.is_some() && attempt.played.is_none()));
@@ -220,13 +229,16 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 
 #[test]
 fn the_records() {
-    check("record_none", &Player::at_library(TRUE_COLOUR, &[], &[]).press("r"));
+    let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
+    none.shows(&["all exercises", "attempts  0", "there are 0 attempts at a real table", "nothing is played yet"]);
     let one = played().press("Left Enter r");
     check("record", &one);
     one.says("37").says("high run").says("7");
-    check("record_all", &played().press("r"));
-    check("record_ascii", &Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r"));
-    check_at(&[(200, 60)], "record", &played().press("r"));
+    let figures = ["attempts  37", "made      27, 73 % (57-85)", "average   2.25 an inning", "high run  7"];
+    played().press("r").shows(&figures).shows(&["all exercises", "session by session", "1.3 times an expert's"]);
+    Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r").is_plain().shows(&figures);
+    let large = played().press("r").text(200, 60);
+    assert!(figures.iter().all(|part| large.contains(part)), "{large}");
     // 37 attempts at one shot tell something of the player.
     one.says("times an expert's");
     let kept = one.press("w");
@@ -259,7 +271,7 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
 #[test]
 fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     let player = Player::new().press("Right s");
-    check("save", &player);
+    player.shows(&["save the balls as (a title, and #tags if you like): _", "Enter take it"]);
     assert_eq!(player.press("Esc").app.place(), KeyContext::Coach);
     let player = Player::new().press("Right s");
     let refused = player.type_in("??").press("Enter");
@@ -278,7 +290,8 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     assert!(gone.store().positions().items.is_empty());
     let mut adding = gone.press("a");
     adding.app.paste(&format!("  {}\n{}", &code[..20], &code[20..]));
-    check("add", &adding);
+    adding.shows(&["paste or type the code of a position: carom:", "Enter take it"]);
+    assert!(adding.text(120, 40).replace(char::is_whitespace, "").contains(&code[20..40]), "the two parts are one");
     let added = adding.press("Enter");
     added.says("saved as my-corner");
     assert_eq!(added.store().positions().items[0].layout, kept.layout);
@@ -296,7 +309,7 @@ fn a_code_that_was_cut_is_refused_and_can_be_mended() {
     let code = carom::drills::encode(&exercise("opening", "From the opening")).unwrap();
     player.app.paste(&code[..code.len() - 3]);
     let refused = player.press("Enter");
-    check("code_refused", &refused);
+    refused.shows(&["paste or type the code of a position:", "to its end", "Enter take it"]);
     assert_eq!(refused.app.place(), KeyContext::Drill(DrillContext::Text));
     let mended = refused.type_in(&code[code.len() - 3..]).press("Enter");
     mended.says("saved as opening");

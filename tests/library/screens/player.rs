@@ -25,7 +25,7 @@ use carom::{
     },
 };
 use crossterm::event::KeyEvent;
-use ratatui::{Terminal, backend::TestBackend, buffer::Buffer};
+use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, style::Color};
 use tempfile::TempDir;
 
 use super::{
@@ -337,6 +337,31 @@ impl Player {
         self
     }
 
+    /// On the screen, at both sizes.
+    #[track_caller]
+    pub fn shows(&self, parts: &[&str]) -> &Self {
+        for (width, height) in SIZES {
+            let text = self.text(width, height);
+            for part in parts {
+                assert!(text.contains(part), "{part}\n{text}");
+            }
+        }
+        self
+    }
+
+    /// With nothing but ASCII, and no colour at all, at both sizes and a large one.
+    #[track_caller]
+    pub fn is_plain(&self) -> &Self {
+        for (width, height) in SIZES.into_iter().chain([(200, 60)]) {
+            let text = self.text(width, height);
+            assert!(text.is_ascii() || self.app.caps().unicode, "{text}");
+            for cell in self.picture(width, height).content() {
+                assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}\n{text}");
+            }
+        }
+        self
+    }
+
     #[track_caller]
     pub fn is_silent_on(&self, part: &str) -> &Self {
         let text = self.text(120, 40);
@@ -371,11 +396,14 @@ pub fn check(name: &str, player: &Player) {
 pub fn check_at(sizes: &[(u16, u16)], name: &str, player: &Player) {
     let screen = player.app.screen().title().to_lowercase();
     for &(width, height) in sizes {
-        let name = format!("{screen}_{name}_{width}x{height}");
-        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
-            insta::assert_snapshot!(name, without_moments(&player.text(width, height)));
-        });
+        check_text(&format!("{screen}_{name}_{width}x{height}"), &without_moments(&player.text(width, height)));
     }
+}
+
+pub fn check_text(name: &str, text: &str) {
+    insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+        insta::assert_snapshot!(name, text);
+    });
 }
 
 /// The text with every moment of the form 20261120-143005 that is now replaced.

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check};
 use carom::{
     game::Rule,
     table::{Layout, Table},
@@ -24,17 +24,20 @@ fn new() -> Player {
 fn every_setting_is_listed_with_its_value_and_the_marked_one_in_words() {
     let player = with(TRUE_COLOUR, "skill = \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"\nspeed = 2.0\n");
     check("values", &player);
-    check("skill", &player.press("Down Down Down Down Down"));
-    check("no_colour", &with(NO_COLOUR, "speed = 2.0\n").press("End Up"));
-    check("ascii", &with(ASCII, "speed = 2.0\n"));
-    check_at(&[(200, 60)], "values", &new());
+    let skill = player.press("Down Down Down Down Down");
+    skill.shows(&["2 changed", "Who plays: the errors that the", "errors in mm, degrees and m/s"]);
+    let speed = with(NO_COLOUR, "speed = 2.0\n").press("End Up");
+    speed.is_plain().shows(&["1 changed", "How fast shots are played", "Accepted: 0.1, 0.25, 0.5, 1, 2, 4"]);
+    with(ASCII, "speed = 2.0\n").is_plain().shows(&["> theme", "Colours of the screen."]);
+    let large = new().text(200, 60);
+    assert!(
+        large.contains("Colours of the screen.") && large.contains("think_ms") && large.contains("mouse"),
+        "{large}"
+    );
     for keys in ["", "Tab", "Enter", "Tab Enter", "Tab Enter q", "?"] {
-        let text = with(ASCII, "plan = false\n").press(keys).text(120, 40);
-        assert!(text.is_ascii(), "{keys}\n{text}");
+        with(ASCII, "plan = false\n").press(keys).is_plain();
     }
-    for cell in with(NO_COLOUR, "plan = false\n").press("Tab").picture(120, 40).content() {
-        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset), "{cell:?}");
-    }
+    with(NO_COLOUR, "plan = false\n").press("Tab").is_plain();
 }
 
 #[test]
@@ -71,7 +74,7 @@ fn the_table_comes_back_with_a_step_back() {
 #[test]
 fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let player = new().press("Down Down Down Down Down Down Down Enter").type_in("5");
-    check("typing", &player);
+    player.shows(&["think_ms = 5_", "Accepted: 10 to 60000.", "Enter take it"]);
     assert_eq!(player.app.place(), KeyContext::Settings(SettingsContext::Typing));
     let player = player.press("Enter");
     player.says("think_ms = 5; accepted is 10 to 60000");
@@ -104,7 +107,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     player.says("has been changed by somebody else; it is read anew");
     assert_eq!(player.settings_text(), "theme = \"dark\"\nspeed = 4.0\n");
     assert_eq!(player.app.playback().speed(), 4.0);
-    check("changed_meanwhile", &player.wait(60.0));
+    player.wait(60.0).shows(&["1 changed", "theme      ◂ dark ▸", "speed     •  4.0"]);
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
     // Opened once more, the file is damaged.
@@ -128,7 +131,12 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     assert_eq!(player.settings_text(), text);
     // On from three cushions, around the end and once more; all else stays as it is.
     let player = player.press("Home Down Down Down Down");
-    check("session", &player);
+    player.shows(&[
+        "4 changed",
+        "rule      •◂ three-cushion ▸ now",
+        "Now \"three-cushion\"; the file has",
+        "keeps it.",
+    ]);
     let player = player.press("Right Right");
     assert_eq!(player.app.coach().query.rule, Rule::OneCushion);
     assert_eq!(player.settings_text(), "# mine\nrule = \"one-cushion\" # at home\n");
@@ -190,8 +198,11 @@ fn colours_and_characters_are_found_out_anew() {
 fn a_key_is_given_other_work_and_gets_its_own_back() {
     let player = new().press("Tab");
     check("keys", &player);
-    check("keys_no_colour", &with(NO_COLOUR, "[keys]\nx = \"Enter\"\n").press("Tab Down Down"));
-    check("keys_ascii", &with(ASCII, "[keys]\nx = \"Enter\"\n").press("Tab Right Right"));
+    let own = "[keys]\nx = \"Enter\"\n";
+    let plain = with(NO_COLOUR, own).press("Tab Down Down");
+    plain.is_plain().shows(&["Keys ◂ Coach ▸", "▸ ↓ j           move the ball down by one step"]);
+    let plain = with(ASCII, own).press("Tab Right Right");
+    plain.is_plain().shows(&["Keys < "]);
     // Behind the first command is the one that moves a ball to the left.
     let asked = player.press("Down Enter");
     assert_eq!(asked.app.place(), KeyContext::Settings(SettingsContext::Pressing));
@@ -206,7 +217,7 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     assert!(!kept.settings_text().contains("[keys]"));
     let player = kept.press("Enter a y");
     assert!(player.settings_text().contains("[keys]\na = \"Left\"\n"), "{}", player.settings_text());
-    check("keys_given", &player);
+    player.shows(&["▸ a ← h       • move the ball left by one step"]);
     let moved = player.press("F2 a");
     assert!((moved.app.layout().balls[0].x + 0.72).abs() < 1e-9);
     let again = moved.press("F5 Enter a");

@@ -8,7 +8,7 @@ use carom::{
 };
 use ratatui::{buffer::Buffer, style::Color};
 
-use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check};
+use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at};
 
 const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
 
@@ -30,7 +30,8 @@ fn count(picture: &Buffer, color: Color) -> usize {
 fn octants_are_drawn_only_where_they_were_asked_for() {
     let is_octant = |text: &str| text.chars().any(|one| ('\u{1CD00}'..='\u{1CDE5}').contains(&one));
     let asked = Player::with(OCTANTS).press("Enter").answer();
-    check("octants", &asked);
+    check_at(&[(120, 40)], "octants", &asked);
+    assert!(is_octant(&asked.text(80, 24)));
     let round = asked.press("g g g");
     assert!(!is_octant(&round.text(120, 40)));
     assert!(is_octant(&round.press("g").text(120, 40)));
@@ -56,9 +57,13 @@ fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
 
 #[test]
 fn the_sight_gives_way_to_the_spin_while_the_shot_plays() {
-    for (name, caps) in [("spin", TRUE_COLOUR), ("spin_no_colour", NO_COLOUR), ("spin_ascii", ASCII)] {
+    for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let player = shown(caps, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
-        check(name, &player);
+        if caps == TRUE_COLOUR {
+            check("spin", &player);
+        } else {
+            player.is_plain();
+        }
         for (width, height) in SIZES {
             let text = player.text(width, height);
             assert!(text.contains("Spin") && text.contains("left") && !text.contains("Sight"), "{text}");

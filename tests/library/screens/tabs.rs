@@ -1,6 +1,6 @@
 //! Going from screen to screen: wherever one is, the same keys lead everywhere, and nothing is lost on the way.
 
-use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text};
 use carom::terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext};
 use ratatui::style::Modifier;
 
@@ -23,7 +23,7 @@ fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
     }
     rows.push(first_row(&Player::with(NO_COLOUR).press("Enter").answer().text(80, 24)));
     rows.push(first_row(&Player::with(ASCII).press("Enter").answer().text(80, 24)));
-    insta::assert_snapshot!("tabs", rows.join("\n"));
+    check_text("tabs", &rows.join("\n"));
 }
 
 #[test]

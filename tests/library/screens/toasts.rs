@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{
-    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check},
+    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at},
     runs::{NAME, RUNS},
 };
 use carom::terminal::{CoachNews, Failure, Report};
@@ -27,11 +27,10 @@ fn they_stand_over_the_picture_and_long_ones_are_broken() {
     let picture = player.picture(80, 24);
     let warning = Color::Rgb(0xff, 0x8a, 0x70);
     assert!((0..24).any(|y| picture[(79, y)].fg == warning && picture[(79, y)].symbol() == "│"));
-    for (name, caps) in [("toasts_no_colour", NO_COLOUR), ("toasts_ascii", ASCII)] {
+    for caps in [NO_COLOUR, ASCII] {
         let player = refused(Player::with(caps), &[0, 5]).press("u");
-        check(name, &player);
+        player.is_plain().shows(&["the weights are damaged", "there is nothing to take back"]);
     }
-    assert!(refused(Player::with(ASCII), &[0, 5]).text(80, 24).is_ascii());
     let long = refused(Player::new(), &[60]);
     assert!(long.text(80, 24).contains("F6 shows all of it"));
 }
@@ -72,7 +71,7 @@ fn questions_are_never_hidden() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     player.app.paste(&"half a code ".repeat(40));
     let player = player.press("Enter");
-    check("toasts_question", &player);
+    check_at(&[(80, 24)], "toasts_question", &player);
     for (width, height) in SIZES {
         let text = player.text(width, height);
         assert!(text.contains("paste or type the code of a position") && text.contains("Enter take it"), "{text}");
