@@ -39,7 +39,8 @@ const FASTER: usize = 2;
 pub fn picture(look: Look) -> Result<String, Box<dyn Error>> {
     let table = Table::default();
     let layout = Layout::parse(LAYOUT, &table)?;
-    let mut film = Film { app: App::new(table, layout, look, 7)?, frames: Vec::new(), caption: ("", "place the balls") };
+    let mut film =
+        Film { app: App::new(table, layout, look, 7)?, frames: Vec::new(), caption: ("", "place the balls") };
     film.show(1.5)?;
     film.caption = ("3", "selects the red ball");
     film.press(Char('3'), KeyModifiers::NONE, 1.0)?;
@@ -100,7 +101,8 @@ impl Film {
 
     /// Plays the shot to its end.
     fn play(&mut self) -> Result<(), Box<dyn Error>> {
-        let duration = self.app.shot().filter(|shot| shot.solved).ok_or("the coach finds no point here")?.recording.duration();
+        let duration =
+            self.app.shot().filter(|shot| shot.solved).ok_or("the coach finds no point here")?.recording.duration();
         self.caption = ("Space", "plays the shot");
         self.app.handle(&Char(' ').into());
         let watched = (WATCHED.min(duration) / STEP).round() as usize;
