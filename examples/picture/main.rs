@@ -1,7 +1,8 @@
 //! Draws the pictures of the documentation, and writes its table of keys: plays the real program without a terminal and writes its screens as SVG.
 //!
 //! `cargo run --release --example picture -- docs/` writes the same bytes each time, but for the times of the training that
-//! it shows; another processor may round the networks' numbers otherwise and so find another shot.
+//! it shows; another processor may round the networks' numbers otherwise and so find another shot. File names behind the folder
+//! restrict it to these and those that are drawn with them.
 
 mod animation;
 mod moving;
