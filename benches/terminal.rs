@@ -1,5 +1,5 @@
 //! What the terminal program costs whoever looks at it over a slow link: bytes, frames, writes, processor time, and the time
-//! from a key to the picture that answers it. The tables go into `docs/measurements.md`.
+//! from a key to the picture that answers it. The tables go into `docs/performance.md`.
 //!
 //! `cargo bench --bench terminal` takes four minutes, on Linux: processor times, writes and memory come from `/proc`. The
 //! machine should have nothing else to do; the rows "beside two busy processes" see to that themselves.

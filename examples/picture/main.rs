@@ -1,8 +1,11 @@
 //! Draws the pictures of the documentation, and writes its table of keys: plays the real program without a terminal and writes its screens as SVG.
 //!
 //! `cargo run --release --example picture -- docs/` writes the same bytes each time, but for the times of the training that
-//! it shows; another processor may round the networks' numbers otherwise and so find another shot.
+//! it shows; another processor may round the networks' numbers otherwise and so find another shot. File names behind the folder
+//! restrict it to these and those that are drawn with them.
 
+mod animation;
+mod moving;
 mod svg;
 mod training;
 
@@ -26,10 +29,12 @@ const SIMULATIONS: u64 = 300_000;
 const AFTER_HIT: f64 = 0.06;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let directory = env::args().nth(1).ok_or("say where to write the pictures: picture docs/")?;
+    let mut arguments = env::args().skip(1);
+    let directory = arguments.next().ok_or("say where to write the pictures: picture docs/ [coach-moving.svg ...]")?;
     let directory = Path::new(&directory);
+    let names: Vec<String> = arguments.collect();
+    let wanted = |all: &[&str]| names.is_empty() || names.iter().any(|name| all.contains(&name.as_str()));
     fs::create_dir_all(directory)?;
-    fs::write(directory.join("keys.md"), keys_document())?;
     let write = |name: &str, app: &App, width, height, title| -> Result<(), Box<dyn Error>> {
         let mut terminal = Terminal::new(TestBackend::new(width, height))?;
         terminal.draw(|frame| app.draw(frame))?;
@@ -37,18 +42,29 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok(())
     };
 
-    let table = Table::default();
-    let layout = Layout::parse(LAYOUT, &table)?;
-    let mut app = App::new(table, layout, LOOK, 7)?;
-    ask(&mut app)?;
-    write("coach-80x24.svg", &app, 80, 24, "The coach recommends a shot, on a small terminal")?;
-    play_to_the_point(&mut app)?;
-    write("coach.svg", &app, 120, 40, "The coach plays the shot that it recommends")?;
-    press(&mut app, Char('?'));
-    write("help.svg", &app, 120, 40, "Every key of the coach")?;
-    let app = training::screen(LOOK)?;
-    write("training-80x24.svg", &app, 80, 24, "A run that trains, on a small terminal")?;
-    write("training.svg", &app, 120, 40, "A run that trains: its charts, its numbers and its latest shots")
+    if wanted(&["keys.md"]) {
+        fs::write(directory.join("keys.md"), keys_document())?;
+    }
+    if wanted(&["coach-moving.svg"]) {
+        fs::write(directory.join("coach-moving.svg"), moving::picture(LOOK)?)?;
+    }
+    if wanted(&["coach-80x24.svg", "coach.svg", "help.svg"]) {
+        let table = Table::default();
+        let layout = Layout::parse(LAYOUT, &table)?;
+        let mut app = App::new(table, layout, LOOK, 7)?;
+        ask(&mut app)?;
+        write("coach-80x24.svg", &app, 80, 24, "The coach recommends a shot, on a small terminal")?;
+        play_to_the_point(&mut app)?;
+        write("coach.svg", &app, 120, 40, "The coach plays the shot that it recommends")?;
+        press(&mut app, Char('?'));
+        write("help.svg", &app, 120, 40, "Every key of the coach")?;
+    }
+    if wanted(&["training-80x24.svg", "training.svg"]) {
+        let app = training::screen(LOOK)?;
+        write("training-80x24.svg", &app, 80, 24, "A run that trains, on a small terminal")?;
+        write("training.svg", &app, 120, 40, "A run that trains: its charts, its numbers and its latest shots")?;
+    }
+    Ok(())
 }
 
 fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
@@ -57,17 +73,23 @@ fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
 
 /// Asks the coach and shows what it says, but for what that has cost: no two runs take the same time.
 fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
+    let question = press(app, Enter);
+    answer(app, question, |_| {});
+    if app.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
+}
+
+/// Answers a question to the coach and all that follow from it; `heard` is called after every answer.
+fn answer(app: &mut App, mut question: Option<Effect>, mut heard: impl FnMut(&mut App)) {
     let mut worker = CoachWorker::unhurried(SIMULATIONS);
-    let mut question = press(app, Enter);
     while let Some(Effect::Recommend(job) | Effect::Study(job)) = question.take() {
         worker.answer(&job, |mut answer| {
             if let CoachNews::Advice(advice) = &mut answer.news {
                 advice.effort = None;
             }
             question = app.receive(answer).or(question.take());
+            heard(app);
         });
     }
-    if app.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
 }
 
 /// Plays to shortly after the cue ball has met both object balls.

@@ -33,52 +33,70 @@ struct Words {
 
 /// The picture of `screen`, which must be in 24-bit colours; `title` is what it shows.
 pub fn picture(screen: &Buffer, title: &str) -> String {
-    // The last cell is below all panels.
-    let page = screen.content.last().map_or(0, |cell| colours(cell).1);
-    let (mut backs, mut blocks, mut words) = (Shapes::new(), Shapes::new(), Vec::<Words>::new());
-    for row in 0..screen.area.height {
-        for column in 0..screen.area.width {
-            let cell = &screen[(column, row)];
-            let (front, back) = colours(cell);
-            let place = Rect::new(column * CELL.0, row * CELL.1, CELL.0, CELL.1);
-            if back != page {
-                backs.entry(back).or_default().push(place);
-            }
-            let symbol = cell.symbol().chars().next().unwrap_or(' ');
-            if let Some(parts) = parts(symbol) {
-                let parts = parts.into_iter().map(|part| Rect { x: place.x + part.x, y: place.y + part.y, ..part });
-                blocks.entry(front).or_default().extend(parts);
-            } else {
-                let bold = cell.modifier.contains(Modifier::BOLD);
-                add_symbol(&mut words, Words { column, row, color: front, bold, text: symbol.to_string() });
-            }
-        }
-    }
-    let (width, height) = (screen.area.width * CELL.0, screen.area.height * CELL.1);
-    let (full_width, full_height) = (width + 2 * MARGIN, height + 2 * MARGIN);
-    let frame = format!(r#"x="-{MARGIN}" y="-{MARGIN}" width="{full_width}" height="{full_height}" rx="{MARGIN}""#);
-    let mut svg = format!(
-        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-{MARGIN} -{MARGIN} {full_width} {full_height}" width="{full_width}" height="{full_height}" role="img">
-<title>{}</title>
-<rect {frame} fill="#{page:06x}"/>
-"##,
-        escaped(title)
-    );
-    push_shapes(&mut svg, backs);
-    push_shapes(&mut svg, blocks);
-    push_words(&mut svg, words);
-    svg.push_str("</svg>\n");
-    svg
+    let mut cells = String::new();
+    push_cells(&mut cells, screen, Some(page(screen)), |_| true);
+    document(screen, title, &cells)
 }
 
-/// Colour of a cell's symbol and that behind it.
-fn colours(cell: &Cell) -> (u32, u32) {
+/// An SVG document around what is drawn of a screen of this size and page colour.
+pub fn document(screen: &Buffer, title: &str, content: &str) -> String {
+    let (width, height) = (screen.area.width * CELL.0 + 2 * MARGIN, screen.area.height * CELL.1 + 2 * MARGIN);
+    let (title, page) = (escaped(title), page(screen));
+    format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-{MARGIN} -{MARGIN} {width} {height}" width="{width}" height="{height}" role="img">
+<title>{title}</title>
+<rect x="-{MARGIN}" y="-{MARGIN}" width="{width}" height="{height}" rx="{MARGIN}" fill="#{page:06x}"/>
+{content}</svg>
+"##
+    )
+}
+
+/// The colour behind everything: the last cell is below all panels.
+pub fn page(screen: &Buffer) -> u32 {
+    screen.content.last().map_or(0, |cell| style(cell).back)
+}
+
+/// Draws those cells of `screen` whose index is `drawn`. What is behind them is left out where it has the colour `page`.
+pub fn push_cells(svg: &mut String, screen: &Buffer, page: Option<u32>, drawn: impl Fn(usize) -> bool) {
+    let (mut backs, mut blocks, mut words) = (Shapes::new(), Shapes::new(), Vec::<Words>::new());
+    for (index, cell) in screen.content.iter().enumerate().filter(|&(index, _)| drawn(index)) {
+        let (column, row) = screen.pos_of(index);
+        let Style { front, back, bold } = style(cell);
+        let place = Rect::new(column * CELL.0, row * CELL.1, CELL.0, CELL.1);
+        if page != Some(back) {
+            backs.entry(back).or_default().push(place);
+        }
+        let symbol = cell.symbol().chars().next().unwrap_or(' ');
+        if let Some(parts) = parts(symbol) {
+            let parts = parts.into_iter().map(|part| Rect { x: place.x + part.x, y: place.y + part.y, ..part });
+            blocks.entry(front).or_default().extend(parts);
+        } else {
+            add_symbol(&mut words, Words { column, row, color: front, bold, text: symbol.to_string() });
+        }
+    }
+    push_shapes(svg, backs);
+    push_shapes(svg, blocks);
+    push_words(svg, words);
+}
+
+/// How a cell's symbol is drawn: its colour, the one behind it, both 0xRRGGBB, and its weight.
+#[derive(PartialEq)]
+pub struct Style {
+    front: u32,
+    back: u32,
+    bold: bool,
+}
+
+pub fn style(cell: &Cell) -> Style {
     let rgb = |color| match color {
         Color::Rgb(r, g, b) => u32::from_be_bytes([0, r, g, b]),
         other => unreachable!("{other} is no 24-bit colour"),
     };
-    let (front, back) = (rgb(cell.fg), rgb(cell.bg));
-    if cell.modifier.contains(Modifier::REVERSED) { (back, front) } else { (front, back) }
+    let (mut front, mut back) = (rgb(cell.fg), rgb(cell.bg));
+    if cell.modifier.contains(Modifier::REVERSED) {
+        (front, back) = (back, front);
+    }
+    Style { front, back, bold: cell.modifier.contains(Modifier::BOLD) }
 }
 
 /// The rectangles that `symbol` consists of, if it does.
@@ -134,8 +152,12 @@ fn merge(rects: &mut Vec<Rect>) {
 
 /// One path a colour, with crisp edges: smooth ones would leave seams between neighbours at most scales.
 fn push_shapes(svg: &mut String, shapes: Shapes) {
+    let shapes: Vec<_> = shapes.into_iter().filter(|(_, rects)| !rects.is_empty()).collect();
+    if shapes.is_empty() {
+        return;
+    }
     svg.push_str("<g shape-rendering=\"crispEdges\">\n");
-    for (color, mut rects) in shapes.into_iter().filter(|(_, rects)| !rects.is_empty()) {
+    for (color, mut rects) in shapes {
         merge(&mut rects);
         let _ = write!(svg, r##"<path fill="#{color:06x}" d=""##);
         for Rect { x, y, width, height } in rects {
@@ -147,6 +169,9 @@ fn push_shapes(svg: &mut String, shapes: Shapes) {
 }
 
 fn push_words(svg: &mut String, mut words: Vec<Words>) {
+    if words.is_empty() {
+        return;
+    }
     let _ = writeln!(svg, r#"<g font-family="{FONTS}" font-size="{FONT_SIZE}">"#);
     words.sort_by_key(|words| (words.color, words.bold));
     for group in words.chunk_by(|one, other| (one.color, one.bold) == (other.color, other.bold)) {

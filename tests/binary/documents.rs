@@ -1,4 +1,19 @@
-//! Tables, settings, shell completions and manual pages through the real binary.
+//! Tables, settings, shell completions and manual pages through the real binary; what `docs/` says of them; the moving picture.
+
+#[path = "../../examples/picture/animation.rs"]
+mod animation;
+#[path = "../../examples/picture/svg.rs"]
+#[allow(dead_code, reason = "still pictures are drawn by the example alone")]
+mod svg;
+
+use std::collections::BTreeSet;
+
+use animation::{Frame, moving_picture};
+use ratatui::{
+    buffer::Buffer,
+    layout::Rect,
+    style::{Color, Style},
+};
 
 use crate::program::asked as carom;
 
@@ -78,4 +93,161 @@ fn the_settings_that_are_shown_are_a_file_that_can_be_used_and_mistakes_are_name
     assert_eq!(checked.status.code(), Some(2));
     assert!(said.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{said}");
     assert!(String::from_utf8(config(&["config"]).stdout).unwrap().contains("theme = \"light\""));
+}
+
+#[test]
+fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
+    let home = tempfile::tempdir().unwrap();
+    let mut command = carom(&["config"]);
+    command.env("HOME", home.path()).env("XDG_CONFIG_HOME", home.path());
+    let shown = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    let mut table = "| key | what it means | accepted | default |\n|---|---|---|---|\n".to_owned();
+    let mut note = Vec::new();
+    for line in shown.lines().take_while(|&line| line != "[keys]") {
+        if let Some(words) = line.strip_prefix("# ") {
+            note.push(words);
+        } else if let Some((key, _)) = line.split_once(" = ") {
+            let said = note.join(" ");
+            let (meaning, values) = said.split_once(" Accepted: ").unwrap();
+            let (accepted, default) = values.trim_end_matches('.').split_once(". Default: ").unwrap();
+            table += &format!("| `{key}` | {meaning} | {accepted} | `{default}` |\n");
+            note.clear();
+        } else {
+            note.clear();
+        }
+    }
+    assert!(table.lines().count() > 10, "{table}");
+    assert!(include_str!("../../docs/settings.md").contains(&table), "docs/settings.md needs this table:\n{table}");
+}
+
+/// The subcommands of the program or of one of them, each with the first sentence of what it does.
+fn subcommands(help: &str) -> Vec<(&str, &str)> {
+    let list = help.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
+    list.lines()
+        .map(|line| line.trim().split_once(' ').unwrap())
+        .map(|(name, about)| (name, about.trim().split(". ").next().unwrap()))
+        .filter(|&(name, _)| name != "help")
+        .collect()
+}
+
+/// The long options in `words`: where they begin after a blank or a back-tick.
+fn options(words: &str) -> BTreeSet<&str> {
+    let ends =
+        |rest: &str| rest.find(|letter: char| !letter.is_ascii_lowercase() && letter != '-').unwrap_or(rest.len());
+    words
+        .match_indices("--")
+        .filter(|&(at, _)| {
+            words[..at].ends_with([' ', '`']) && words[at + 2..].starts_with(|letter: char| letter.is_ascii_lowercase())
+        })
+        .map(|(at, _)| &words[at..at + 2 + ends(&words[at + 2..])])
+        .collect()
+}
+
+#[test]
+fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
+    let page = include_str!("../../docs/command-line.md");
+    let help = text(&["--help"]);
+    let commands = subcommands(&help);
+    let table: String = commands.iter().map(|(name, about)| format!("| `carom {name}` | {about} |\n")).collect();
+    assert!(page.contains(&table), "docs/command-line.md needs this table:\n{table}");
+    for (name, _) in commands {
+        let (_, section) =
+            page.split_once(&format!("\n## carom {name}\n")).unwrap_or_else(|| panic!("{name} has no section"));
+        let section = section.split("\n## ").next().unwrap();
+        let mut help = text(&["help", name]);
+        if name == "drill" {
+            let all: Vec<String> = subcommands(&help).iter().map(|(drill, _)| text(&["help", name, drill])).collect();
+            help = all.concat();
+        }
+        let names = |line: &str| {
+            line.split(|letter: char| !letter.is_ascii_lowercase() && letter != '-').next().map(str::to_owned)
+        };
+        let listed = help.lines().map(str::trim_start).filter(|line| line.starts_with("--"));
+        let listed: BTreeSet<String> = listed.filter_map(names).collect();
+        let listed: BTreeSet<&str> = listed.iter().map(String::as_str).collect();
+        assert_eq!(options(section), listed, "section \"carom {name}\" of docs/command-line.md");
+    }
+}
+
+/// Panics unless every element of `document` is closed in its turn and every attribute is quoted.
+fn check_elements(document: &str) {
+    let mut open = Vec::new();
+    for rest in document.split('<').skip(1) {
+        let (tag, text) = rest.split_once('>').unwrap_or_else(|| panic!("no end: <{rest}"));
+        assert!(!text.contains('>'), "a bare >: {text}");
+        assert_eq!(tag.matches('"').count() % 2, 0, "<{tag}>");
+        let name = |tag: &str| tag.split([' ', '/']).next().unwrap().to_owned();
+        if let Some(closed) = tag.strip_prefix('/') {
+            assert_eq!(open.pop().as_deref(), Some(closed));
+        } else if !tag.ends_with('/') {
+            open.push(name(tag));
+        }
+    }
+    assert!(open.is_empty(), "never closed: {open:?}");
+}
+
+fn screen(rows: [&str; 2]) -> Buffer {
+    let mut screen = Buffer::empty(Rect::new(0, 0, 8, 2));
+    screen.set_style(screen.area, Style::new().fg(Color::Rgb(255, 255, 255)).bg(Color::Rgb(1, 2, 3)));
+    for (row, words) in (0..).zip(rows) {
+        screen.set_string(0, row, words, Style::new());
+    }
+    screen
+}
+
+#[test]
+fn a_moving_picture_paints_what_changes_when_it_changes() {
+    let frame = |rows, seconds| Frame { screen: screen(rows), seconds };
+    let frames =
+        [frame(["ab", "table"], 1.0), frame(["ab", "tab<e"], 0.5), frame(["ab", "tab<e"], 0.5), frame(["x", ""], 2.0)];
+    let picture = moving_picture(&frames, 1, "a title");
+    check_elements(&picture);
+    let layers: Vec<&str> = picture.split("<g id=\"f").collect();
+    assert_eq!(layers.len(), 4);
+    assert!(layers[0].contains(">ab<") && layers[0].contains(">table<"));
+    // The letters beside the changed one are painted with it, since letters may reach into each other's cells.
+    assert!(
+        layers[1].starts_with("1\">") && layers[1].contains(">b&lt;e<") && !layers[1].contains("ab"),
+        "{}",
+        layers[1]
+    );
+    assert!(layers[2].starts_with("2\" visibility=\"hidden\">") && !layers[2].contains("<text"), "{}", layers[2]);
+    assert!(layers[3].contains(">x<"), "{}", layers[3]);
+    for (layer, percent) in [(1, "25.000"), (2, "37.500"), (3, "50.000")] {
+        assert!(
+            picture.contains(&format!(
+                "@keyframes f{layer}{{0%{{visibility:hidden}}{percent}%,to{{visibility:visible}}}}"
+            ))
+        );
+        assert!(picture.contains(&format!("#f{layer}{{animation:f{layer} 4.000s step-end infinite}}")));
+    }
+}
+
+#[test]
+fn the_moving_picture_of_the_readme_is_small_and_needs_no_script() {
+    let picture = include_str!("../../docs/coach-moving.svg");
+    check_elements(picture);
+    assert!(picture.len() < 250_000, "{} bytes", picture.len());
+    for foreign in ["<script", "href", "url(", "@import", "<foreignObject"] {
+        assert!(!picture.contains(foreign), "{foreign}");
+    }
+    assert!(picture.contains("@media (prefers-reduced-motion:no-preference)"));
+    // What stands still is the coach's advice.
+    let still = picture.split(" visibility=\"hidden\"").next().unwrap();
+    assert!(still.contains("expert makes it") && !still.contains("plays the shot"));
+    assert!(picture.contains("the point is made"));
+    assert!(include_str!("../../README.md").contains("](docs/coach-moving.svg)"));
+}
+
+#[test]
+fn the_still_pictures_are_whole_documents() {
+    for picture in [
+        include_str!("../../docs/coach.svg"),
+        include_str!("../../docs/coach-80x24.svg"),
+        include_str!("../../docs/help.svg"),
+        include_str!("../../docs/training.svg"),
+        include_str!("../../docs/training-80x24.svg"),
+    ] {
+        check_elements(picture);
+    }
 }

@@ -1,0 +1,52 @@
+//! Screens as one moving SVG: CSS shows layer after layer, without a script. A layer paints the cells that have changed since the one below it.
+
+use std::fmt::Write;
+
+use ratatui::buffer::{Buffer, Cell};
+
+use super::svg;
+
+/// A screen, and how long it is shown, s.
+pub struct Frame {
+    pub screen: Buffer,
+    pub seconds: f64,
+}
+
+/// The moving picture of `frames`, which begins anew when it has ended. All have the size of the first and 24-bit colours.
+///
+/// Where nothing moves, because the viewer cannot or the reader does not want it, frame `still` is shown.
+pub fn moving_picture(frames: &[Frame], still: usize, title: &str) -> String {
+    let Some(first) = frames.first() else { return String::new() };
+    let length: f64 = frames.iter().map(|frame| frame.seconds).sum();
+    let page = svg::page(&first.screen);
+    let (mut begins, mut styles, mut layers) = (first.seconds, String::new(), String::new());
+    svg::push_cells(&mut layers, &first.screen, Some(page), |_| true);
+    for (number, pair) in frames.windows(2).enumerate().map(|(before, pair)| (before + 1, pair)) {
+        let changed = |index: usize| looks(&pair[0].screen.content[index]) != looks(&pair[1].screen.content[index]);
+        // Letters may reach a little into the cells beside them: these are painted too, or traces of the old text would stay.
+        let painted = |index: usize| {
+            let column = index % usize::from(first.screen.area.width);
+            changed(index)
+                || column > 0 && changed(index - 1)
+                || column + 1 < usize::from(first.screen.area.width) && changed(index + 1)
+        };
+        let hidden = if number > still { r#" visibility="hidden""# } else { "" };
+        let _ = writeln!(layers, r#"<g id="f{number}"{hidden}>"#);
+        svg::push_cells(&mut layers, &pair[1].screen, None, painted);
+        layers.push_str("</g>\n");
+        let percent = 100.0 * begins / length;
+        let _ = writeln!(
+            styles,
+            "@keyframes f{number}{{0%{{visibility:hidden}}{percent:.3}%,to{{visibility:visible}}}}\n\
+             #f{number}{{animation:f{number} {length:.3}s step-end infinite}}"
+        );
+        begins += pair[1].seconds;
+    }
+    let style = format!("<style>@media (prefers-reduced-motion:no-preference){{\n{styles}}}</style>\n");
+    svg::document(&first.screen, title, &(style + &layers))
+}
+
+/// All of a cell that is painted.
+fn looks(cell: &Cell) -> (&str, svg::Style) {
+    (cell.symbol(), svg::style(cell))
+}
