@@ -43,7 +43,7 @@ pub struct SaveArgs {
 /// Print an exercise as one line that can be pasted into a chat.
 #[derive(Debug, clap::Args)]
 pub struct ShareArgs {
-    /// The exercise.
+    /// The exercise: its name, its title, or the beginning of either.
     name: String,
 }
 
@@ -66,7 +66,7 @@ pub struct AddArgs {
 /// What was practised on it stays in the history.
 #[derive(Debug, clap::Args)]
 pub struct RemoveArgs {
-    /// The position.
+    /// The position: its name or its title.
     name: String,
 }
 
@@ -102,11 +102,13 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
     let workspace = Workspace::open()?;
-    if workspace.library.is_bundled(&args.name) {
-        return Err(Failure::failed(format_args!("\"{}\" is bundled and cannot be removed", args.name)));
+    // One that cannot be read is not in the library; its file is removed by its name.
+    let name = workspace.library.titled(&args.name).map_or(&args.name, |exercise| &exercise.name);
+    if workspace.library.is_bundled(name) {
+        return Err(Failure::failed(format_args!("\"{name}\" is bundled and cannot be removed")));
     }
-    workspace.store.remove_position(&args.name).map_err(Failure::failed)?;
-    line(format_args!("removed {}", args.name))
+    workspace.store.remove_position(name).map_err(Failure::failed)?;
+    line(format_args!("removed {name}"))
 }
 
 fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {

@@ -74,9 +74,9 @@ pub struct Args {
     /// With --self-play, points after which an inning is broken off.
     #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     most_points: u32,
-    /// With --self-play, minutes after which play is broken off.
-    #[arg(long, requires = "self_play", value_parser = clap::value_parser!(u64).range(1..=100_000))]
-    minutes: Option<u64>,
+    /// With --self-play, minutes after which play is broken off; fractions are accepted.
+    #[arg(long, requires = "self_play", allow_negative_numbers = true)]
+    minutes: Option<f64>,
     /// Rank shots by the probability of this point and the next.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     plan: bool,

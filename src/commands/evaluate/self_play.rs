@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::{Args, request};
 use crate::{
     coach::{Inning, Skill, inning},
-    commands::{Failure, output::tell, recommend::coach_for},
+    commands::{Failure, input::minutes, output::tell, recommend::coach_for},
     learning::evaluation::{SuccessRate, held_out_layouts},
     printing,
     table::{Layout, Table},
@@ -53,11 +53,12 @@ struct Report {
 }
 
 pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
+    let limit = args.minutes.map_or(Ok(NO_LIMIT), minutes)?;
     let coach = coach_for(table, &args.policy)?;
     let skill = args.skill.unwrap_or(Skill::EXPERT);
     let request = request(args, skill);
     let start = Instant::now();
-    let until = start + args.minutes.map_or(NO_LIMIT, |minutes| Duration::from_secs(60 * minutes));
+    let until = start + limit.min(NO_LIMIT);
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(!args.seed);
     let mut innings = Vec::new();
     for layout in held_out_layouts(coach.table(), args.layouts as usize, args.seed) {

@@ -252,7 +252,7 @@ impl From<Recommendation> for Answer {
 
 /// The recommendation for people to read.
 fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -> io::Result<()> {
-    let CueInputs { a, b, theta, phi, speed } = answer.cue;
+    let CueInputs { a, b, theta, speed, .. } = answer.cue;
     let side = match a {
         a if a > 0.0 => " (left of centre)",
         a if a < 0.0 => " (right of centre)",
@@ -261,7 +261,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
     writeln!(out, "a      {a:>8.3} R{side}")?;
     writeln!(out, "b      {b:>8.3} R")?;
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
-    writeln!(out, "phi    {:>8.3} degrees", phi.to_degrees())?;
+    writeln!(out, "phi    {:>8} degrees", answer.cue.phi_text(3))?;
     writeln!(out, "V      {speed:>8.3} m/s")?;
     writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
     match answer.solved {
@@ -276,9 +276,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
         write!(out, "{margins}")?;
     }
     for Alternative { cue, chance, sort, .. } in &answer.alternatives {
-        let CueInputs { a, b, theta, phi, speed } = *cue;
-        let (theta, phi) = (theta.to_degrees(), phi.to_degrees());
-        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi:.3},{speed:.3}: {}", words(sort, chance, args))?;
+        let CueInputs { a, b, theta, speed, .. } = *cue;
+        let (theta, phi) = (theta.to_degrees(), cue.phi_text(3));
+        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {}", words(sort, chance, args))?;
     }
     writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
 }

@@ -23,7 +23,7 @@ use signal_hook::{
 
 use self::screen::Screen;
 pub(super) use self::{listing::print as print_runs, screen::line};
-use super::{Failure, named::run_named, output::tell};
+use super::{Failure, input::minutes, named::run_named, output::tell};
 use crate::{
     game::Reward,
     learning::{
@@ -217,14 +217,6 @@ fn how_to_go_on(folder: &Path) -> String {
     format!("stopped early; go on with: carom train --resume \"{}\"", folder.display())
 }
 
-fn minutes(value: f64) -> Result<Duration, Failure> {
-    let accepted = value > 0.0;
-    let duration = Duration::try_from_secs_f64(60.0 * value).ok().filter(|_| accepted);
-    duration.ok_or_else(|| {
-        Failure::wrong_input(format_args!("--minutes {value} is no time to train; accepted is a number above 0"))
-    })
-}
-
 fn failure(error: RunError) -> Failure {
     match error {
         RunError::Occupied(_)
@@ -233,18 +225,5 @@ fn failure(error: RunError) -> Failure {
         | RunError::Origin { .. }
         | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),
         _ => Failure::failed(error),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_time_is_refused_and_named() {
-        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
-        }
-        assert_eq!(minutes(0.5).unwrap(), Duration::from_secs(30));
     }
 }
