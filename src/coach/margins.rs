@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
-    simulation::{Event, Observer, Patience, watch},
+    simulation::{Event, Observer, StepBudget, watch},
     table::{Layout, Table},
 };
 
@@ -204,7 +204,7 @@ pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
     if !is_stroke(table, layout, cue) {
         return Outcome::NoStroke;
     }
-    let mut patient = Patient { referee: Referee::default(), patience: Patience(PATIENCE) };
+    let mut patient = Patient { referee: Referee::default(), patience: StepBudget(PATIENCE) };
     watch(table, layout, &strike(table, cue), &mut patient);
     let Tally { met: [one, other], .. } = patient.referee.tally;
     match (one, other) {
@@ -225,7 +225,7 @@ fn is_stroke(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
 /// A referee who gives up in the end.
 struct Patient {
     referee: Referee,
-    patience: Patience,
+    patience: StepBudget,
 }
 
 impl Observer for Patient {

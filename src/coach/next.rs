@@ -6,7 +6,7 @@ use super::{Ease, errors::Errors, trial::Task};
 use crate::{
     game::Tally,
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, Patience, simulate},
+    simulation::{Event, Observer, StepBudget, simulate},
     table::Layout,
 };
 
@@ -62,7 +62,7 @@ pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
     if stroke.is_miscue(task.table) {
         return None;
     }
-    let mut whole = Whole { tally: Tally::default(), patience: Patience(task.patience), task, given_up: false };
+    let mut whole = Whole { tally: Tally::default(), patience: StepBudget(task.patience), task, given_up: false };
     let end = simulate(task.table, task.layout, &strike(task.table, stroke), &mut whole);
     (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout())
 }
@@ -70,7 +70,7 @@ pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
 /// Watches a shot to its end, or until it takes too long.
 struct Whole<'a> {
     tally: Tally,
-    patience: Patience,
+    patience: StepBudget,
     task: &'a Task<'a>,
     given_up: bool,
 }

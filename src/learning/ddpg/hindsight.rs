@@ -10,7 +10,7 @@ use super::{action::Action, replay::Experience, stroke::playable, view::View};
 use crate::{
     game::Reward,
     physics::strike,
-    simulation::{Event, EventKind, Observer, Patience, Segment, watch},
+    simulation::{Event, EventKind, Observer, Segment, StepBudget, watch},
     table::{Layout, Table},
 };
 
@@ -25,7 +25,7 @@ pub fn relabel(
     rng: &mut (impl Rng + ?Sized),
 ) -> Option<Experience> {
     let cue = playable(table, layout, view, action).ok()?;
-    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: Patience(patience) };
+    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: StepBudget(patience) };
     watch(table, layout, &strike(table, &cue), &mut way);
     let (first, begin) = way.met?;
     // The ball that was not met is the one to move; the view must call it the second.
@@ -57,7 +57,7 @@ struct Way {
     last: f64,
     /// Pieces of the way and when they end, s.
     segments: Vec<(Segment, f64)>,
-    patience: Patience,
+    patience: StepBudget,
 }
 
 impl Observer for Way {
