@@ -15,14 +15,14 @@ const ATTEMPTS: usize = 12;
 
 /// The probability of the next point after a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Prospect {
+pub enum NextValue {
     /// An estimate, from where the shot leaves the balls.
     Known(f64),
     /// Nobody has looked; it counts as this until somebody does.
     Supposed(f64),
 }
 
-impl Prospect {
+impl NextValue {
     /// What it counts as.
     pub const fn value(self) -> f64 {
         match self {
@@ -41,7 +41,7 @@ impl Prospect {
 
 /// The mean probability of the next point over the layouts that `cue` leaves under the first of these errors, those that
 /// make a point; nought where none does. `None` where time ran out.
-pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
+pub fn next_value(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0u32);
     for errors in errors.iter().take(ATTEMPTS) {
         if task.clock.is_past(task.until) {

@@ -40,7 +40,7 @@ pub struct Task<'a> {
 }
 
 /// Steps of resting contacts after which a shot that is one of many is given up as a miss.
-pub const PATIENCE: u32 = 100;
+pub const CONTACT_STEPS: u32 = 100;
 
 /// A patience that follows every contact to its end.
 pub const ENDLESS: u32 = u32::MAX;

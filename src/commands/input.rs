@@ -46,7 +46,7 @@ pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
 
 /// The table and the balls of a single shot; a batch brings its own.
 #[derive(Debug, clap::Args)]
-pub struct Scene {
+pub struct PositionArgs {
     /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match", conflicts_with = "batch")]
     table: String,
@@ -57,7 +57,7 @@ pub struct Scene {
     layout: Option<String>,
 }
 
-impl Scene {
+impl PositionArgs {
     /// What is described; the layout is checked.
     pub fn read(&self) -> Result<(Table, Layout), Failure> {
         let table = table_named(&self.table)?;

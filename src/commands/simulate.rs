@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure, bounded,
-    input::{ByTable, Keys, Scene, answer_lines},
+    input::{ByTable, Keys, PositionArgs, answer_lines},
     output::{impulse_words, tell},
 };
 use crate::{
@@ -30,7 +30,7 @@ const DEFAULT_STEP: f64 = 0.01;
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
-    scene: Scene,
+    position: PositionArgs,
     /// What counts as a point: straight, one-cushion or three-cushion. In a batch, of lines that name no `rule`.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
@@ -65,7 +65,7 @@ enum Method {
 
 /// One line of a batch.
 #[derive(Deserialize)]
-struct Question {
+struct BatchLine {
     preset: String,
     layout: Layout,
     cue: Option<CueInputs>,
@@ -73,7 +73,7 @@ struct Question {
     rule: Option<Rule>,
 }
 
-impl Keys for Question {
+impl Keys for BatchLine {
     const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse", "rule"];
 }
 
@@ -102,20 +102,20 @@ impl GivenImpulse {
     }
 }
 
-impl Question {
-    fn answer(&self, table: &Table, rule: Rule, steps: Option<Steps>) -> Result<Answer, Failure> {
+impl BatchLine {
+    fn answer(&self, table: &Table, rule: Rule, steps: Option<Steps>) -> Result<SimulateAnswer, Failure> {
         let outcome = |(recording, _): &Played| Outcome::of(self.rule.unwrap_or(rule), table, &self.layout, recording);
         match (&self.cue, &self.impulse) {
             (Some(cue), None) => {
                 let played = play(table, &self.layout, cue, steps)?;
-                Ok(Answer::of(&played, &outcome(&played), CueRoom::of(table, &self.layout, cue)))
+                Ok(SimulateAnswer::of(&played, &outcome(&played), CueRoom::of(table, &self.layout, cue)))
             }
             (None, Some(_)) if steps.is_some() => {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
             }
             (None, Some(given)) => {
                 let played = (bounded::play_impulse(table, &self.layout, &given.impulse()?)?, None);
-                Ok(Answer::of(&played, &outcome(&played), None))
+                Ok(SimulateAnswer::of(&played, &outcome(&played), None))
             }
             _ => Err(Failure::wrong_input("a line needs either cue or impulse")),
         }
@@ -166,7 +166,7 @@ impl fmt::Display for Outcome {
 
 /// The answer in JSON.
 #[derive(Serialize)]
-struct Answer {
+struct SimulateAnswer {
     rule: Rule,
     /// Whether the shot makes the point.
     point: bool,
@@ -228,7 +228,7 @@ struct StepsAnswer {
     at_rest: bool,
 }
 
-impl Answer {
+impl SimulateAnswer {
     fn of((recording, stepped): &Played, outcome: &Outcome, cue_room: Option<CueRoom>) -> Self {
         Self {
             rule: outcome.point.rule,
@@ -261,12 +261,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
-        return answer_lines(file, |question: Question| {
+        return answer_lines(file, |question: BatchLine| {
             let table = tables.get(&question.preset)?;
             question.answer(table, args.rule, steps)
         });
     }
-    let (table, layout) = args.scene.read()?;
+    let (table, layout) = args.position.read()?;
     // clap demands a shot where there is no batch.
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
     let played = play(&table, &layout, &cue, steps)?;
@@ -285,7 +285,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let outcome = Outcome::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout();
     if args.json {
-        printing::json(&mut out, &Answer::of(&played, &outcome, cue_room))?;
+        printing::json(&mut out, &SimulateAnswer::of(&played, &outcome, cue_room))?;
         writeln!(out)?;
     } else {
         describe(&mut out, &played, &outcome)?;

@@ -13,7 +13,7 @@ use carom::{
             follow::{Condition, Update},
             list::{Listing, Stage},
             request::Request,
-            standing::Phase,
+            status::Phase,
         },
     },
     table::Table,

@@ -9,7 +9,7 @@ use carom::{
         follow::{Condition, Update},
         list::{Stage, Summary},
         metrics::Record,
-        standing::{Phase, Standing},
+        status::{Phase, RunStatus},
     },
     physics::CueInputs,
     storage::Places,
@@ -79,7 +79,7 @@ impl Player {
 
     pub fn condition(self, condition: Condition, reason: Option<&str>) -> Self {
         let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
-        let standing = Standing { phase, reason: reason.map(str::to_owned), ..standing() };
+        let standing = RunStatus { phase, reason: reason.map(str::to_owned), ..standing() };
         self.update(
             Slot::Main,
             NAME,
@@ -156,8 +156,8 @@ pub fn config(reward: &str) -> Config {
     .unwrap()
 }
 
-pub fn standing() -> Standing {
-    Standing {
+pub fn standing() -> RunStatus {
+    RunStatus {
         phase: Phase::Training,
         shots: 1_200_000,
         updates: 93_750,

@@ -2,7 +2,7 @@
 
 use super::{
     PlayOptions, Workspace,
-    options::Stroke,
+    options::StrokeInput,
     strokes::{Strokes, play},
 };
 use crate::{
@@ -72,7 +72,7 @@ pub struct ExamArgs {
 }
 
 pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
-    let stroke: Stroke = args.shot.parse()?;
+    let stroke: StrokeInput = args.shot.parse()?;
     let workspace = Workspace::open()?;
     let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()]);
     session.shifted = args.shifted;

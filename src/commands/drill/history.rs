@@ -62,7 +62,7 @@ impl Subject {
 }
 
 #[derive(Serialize)]
-struct Row {
+struct ExerciseRow {
     name: String,
     #[serde(flatten)]
     score: Score,
@@ -120,7 +120,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         let record = subject.record(sessions);
         let Some(last) = record.last else { continue };
         if json {
-            json_line(&Row { name: subject.name(), score: record.into() })?;
+            json_line(&ExerciseRow { name: subject.name(), score: record.into() })?;
         }
         rows.push([
             subject.name(),

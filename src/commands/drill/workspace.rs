@@ -2,7 +2,7 @@
 
 use crate::{
     coach::Skill,
-    commands::{Failure, named::own_skill, output::tell},
+    commands::{Failure, lookup::own_skill, output::tell},
     drills::{Exercise, Library, Session, Store},
     printing::OneLine,
     storage::{self, Places},

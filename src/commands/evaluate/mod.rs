@@ -17,7 +17,7 @@ use self::robustness::Robustness;
 use super::{
     Failure,
     input::{note_doubts, table_named},
-    named::{policy_called, skill_called},
+    lookup::{policy_called, skill_called},
     recommend::coach_for,
 };
 use crate::{
@@ -90,7 +90,7 @@ pub struct Args {
 
 /// What is printed.
 #[derive(Debug, Serialize)]
-struct Report {
+struct EvaluationReport {
     player: &'static str,
     /// Of players that have one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -192,7 +192,7 @@ fn measure(
     name: &'static str,
     reward: Reward,
     player: &mut dyn FnMut(&Layout) -> CueInputs,
-) -> Report {
+) -> EvaluationReport {
     let (mut total, mut successes, mut seconds, mut slowest) = (0.0, 0, 0.0, 0.0_f64);
     let mut chances = Vec::new();
     for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
@@ -209,7 +209,7 @@ fn measure(
         }
     }
     let count = args.layouts as usize;
-    Report {
+    EvaluationReport {
         player: name,
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         table: table.name.clone(),
@@ -224,8 +224,8 @@ fn measure(
     }
 }
 
-fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result<()> {
-    let Report { player, policy, table, measure, .. } = report;
+fn print(out: &mut impl Write, report: &EvaluationReport, layouts: u32) -> std::io::Result<()> {
+    let EvaluationReport { player, policy, table, measure, .. } = report;
     let policy = policy.as_ref().map_or_else(String::new, |policy| format!(" {policy}"));
     match report.success {
         Some(SuccessRate { rate, low, high, .. }) => writeln!(

@@ -26,7 +26,7 @@ const PROGRESS: u32 = 100;
 
 /// What is printed.
 #[derive(Debug, Serialize)]
-struct Report {
+struct SelfPlayReport {
     player: &'static str,
     table: String,
     rule: &'static str,
@@ -91,13 +91,13 @@ pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
     Ok(())
 }
 
-fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: Duration) -> Report {
+fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: Duration) -> SelfPlayReport {
     let points: u32 = innings.iter().map(|inning| inning.points).sum();
     let misses = innings.iter().filter(|inning| inning.missed).count() as u32;
     let turns = f64::from((points + misses).max(1));
     let missed = SuccessRate::new(misses as usize, (points + misses) as usize);
     let average = |miss: f64| (miss > 0.0).then(|| (1.0 - miss) / miss);
-    Report {
+    SelfPlayReport {
         player: "recommender",
         table: table.to_owned(),
         rule: args.rule.name(),
@@ -120,7 +120,7 @@ fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: D
     }
 }
 
-fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
+fn print(out: &mut impl Write, report: &SelfPlayReport) -> std::io::Result<()> {
     let end = |end: Option<f64>| end.map_or_else(|| "no limit".to_owned(), |end| format!("{end:.1}"));
     let [low, high] = report.average_interval.map(end);
     writeln!(

@@ -11,7 +11,7 @@ use crate::{
     learning::run::{
         POLICY,
         follow::{Condition, Followed, Update},
-        standing::Phase,
+        status::Phase,
     },
     table::Table,
 };

@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use crate::{
-    learning::run::{follow::Condition, standing::Phase},
+    learning::run::{follow::Condition, status::Phase},
     terminal::{
         app::App,
         training::Watch,

@@ -11,7 +11,7 @@ use ratatui::{
 use crate::{
     learning::{
         evaluation::SuccessRate,
-        run::{follow::Condition, standing::Phase},
+        run::{follow::Condition, status::Phase},
     },
     terminal::{
         app::App,

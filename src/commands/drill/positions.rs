@@ -1,6 +1,6 @@
 //! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
 
-use super::{Workspace, options::Stroke};
+use super::{Workspace, options::StrokeInput};
 use crate::{
     commands::{Failure, output::line},
     drills::{Exercise, check, decode, encode, store::StoreError},
@@ -74,8 +74,8 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
     let shot = match args.shot.as_deref().map(str::parse).transpose()? {
         None => None,
-        Some(Stroke::Own(cue)) => Some(cue),
-        Some(Stroke::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
+        Some(StrokeInput::Own(cue)) => Some(cue),
+        Some(StrokeInput::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
     };
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
