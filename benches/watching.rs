@@ -12,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use carom::learning::run::standing::Standing;
+use carom::learning::run::status::RunStatus;
 
 use pty::{CAROM, Terminal, frames, part, seconds_of};
 
@@ -75,7 +75,7 @@ fn train(run: &Path) -> Child {
     let mut command = Command::new(CAROM);
     command.args(["train", "--steps", "5000000", "--run"]).arg(run).stdout(Stdio::null()).stderr(Stdio::null());
     let child = command.spawn().expect("carom train starts");
-    while Standing::read(run).is_ok_and(|standing| standing.updates < 100) || !run.join("metrics.jsonl").exists() {
+    while RunStatus::read(run).is_ok_and(|standing| standing.updates < 100) || !run.join("metrics.jsonl").exists() {
         thread::sleep(Duration::from_millis(100));
     }
     child
@@ -84,9 +84,9 @@ fn train(run: &Path) -> Child {
 /// The training's processor time a shot with a watcher, in terms of that without, in two stretches one after the other.
 fn ratio(run: &Path, training: u32) -> Option<f64> {
     let a_shot = || {
-        let before = (seconds_of(training)?, Standing::read(run).ok()?.shots);
+        let before = (seconds_of(training)?, RunStatus::read(run).ok()?.shots);
         thread::sleep(STRETCH);
-        let after = (seconds_of(training)?, Standing::read(run).ok()?.shots);
+        let after = (seconds_of(training)?, RunStatus::read(run).ok()?.shots);
         Some((after.0 - before.0) / (after.1 - before.1) as f64)
     };
     let alone = a_shot()?;

@@ -9,7 +9,7 @@ use carom::{
     game::Reward,
     learning::{
         agents::AGENTS,
-        learner::Plan,
+        learner::TrainingPlan,
         run::{Limits, Run, Schedule, Watcher, follow::Follower, list::runs_in, metrics::Record},
     },
     storage::Places,
@@ -29,14 +29,14 @@ pub fn screen(caps: Capabilities) -> Result<App, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let runs = folder.path().join("runs");
     let place = runs.join("first-steps");
-    let plan = Plan { reward: Reward::R3, seed: 1, shots: PLANNED };
+    let plan = TrainingPlan { reward: Reward::R3, seed: 1, shots: PLANNED };
     let learner = (AGENTS[0].start)(plan, Table::default(), serde_json::json!({}))?;
     let mut run = Run::create(&place, learner, Schedule::new(10_000, 1_000), None)?;
     let mut camera = Camera { runs, place, caps, app: None };
     let is_taken = std::cell::Cell::new(false);
     // The run stops at the first turn after the picture, which is taken while it trains.
     let limits = Limits { time: None, stop: &|| is_taken.get() };
-    run.practise(&limits, &mut Watching { camera: &mut camera, is_taken: &is_taken })?;
+    run.train(&limits, &mut Watching { camera: &mut camera, is_taken: &is_taken })?;
     camera.app.ok_or("the run ended before the picture")?
 }
 

@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 use super::{
     Alternative, Ease, Improvement, Kind, Recommendation, Request, Skill,
     clock::Clock,
-    crew, errors,
+    errors,
     first::{Attempt, Found},
-    next::Prospect,
+    next::NextValue,
+    parallel,
     pool::Candidate,
     search::Search,
-    trial::{ENDLESS, PATIENCE, Task},
+    trial::{CONTACT_STEPS, ENDLESS, Task},
 };
 use crate::{
     game::{Reward, Rule, scores},
@@ -114,7 +115,7 @@ impl Coach {
             skill: request.skill,
             clock: &clock,
             until: clock.moment(1.0),
-            patience: PATIENCE,
+            patience: CONTACT_STEPS,
         };
         let policy = self.policy(request.rule);
         let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout));
@@ -159,13 +160,13 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             attempts[..count].chunks(PIECE).map(move |piece| (index, piece))
         })
         .collect();
-    let made = crew::map(request.threads, &pieces, |(index, piece)| task.attempts(&pool[*index].shot.cue, piece));
+    let made = parallel::map(request.threads, &pieces, |(index, piece)| task.attempts(&pool[*index].shot.cue, piece));
     let probability = |candidate: usize| {
         let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
         let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
-    let told_next = |next: Prospect| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
+    let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
     let best_rate = probability(0).map_or(0.0, |rate| rate.rate);
     let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
     Recommendation {

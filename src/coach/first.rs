@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{TIP_SHARE, anything, variation},
-    trial::{Course, ENDLESS, PATIENCE, Task},
+    trial::{CONTACT_STEPS, Course, ENDLESS, Task},
 };
 use crate::{
     game::{Rule, Tally},
@@ -99,7 +99,7 @@ impl<'a> Attempt<'a> {
         let Some(cue) = self.task.playable(&cue) else { return };
         let patience = match source {
             Source::Policy => ENDLESS,
-            _ if self.task.clock.simulations().is_multiple_of(FOLLOWED) => PATIENCE,
+            _ if self.task.clock.simulations().is_multiple_of(FOLLOWED) => CONTACT_STEPS,
             _ => HASTE,
         };
         // A shot that took too long has at least been thought of.

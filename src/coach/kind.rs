@@ -5,7 +5,10 @@ use std::fmt;
 use serde::Serialize;
 
 use super::trial::Course;
-use crate::physics::CueInputs;
+use crate::{
+    physics::CueInputs,
+    table::{BALL_NAMES, BALLS},
+};
 
 /// Strokes from this speed on are called hard, m/s. A ball struck so in its middle runs 7.3 to 8.4 m along a
 /// `match` table, between two and a half and three lengths.
@@ -85,10 +88,14 @@ impl fmt::Display for Pace {
     }
 }
 
+/// For who plays with white.
 impl fmt::Display for Kind {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { first_ball, cushion_first, way, pace } = self;
         let start = if *cushion_first { "cushion first to" } else { "first" };
-        formatter.pad(&format!("{start} ball {first_ball}, {way}, {pace}"))
+        match first_ball {
+            0 => formatter.pad(&format!("meets no ball, {pace}")),
+            _ => formatter.pad(&format!("{start} {}, {way}, {pace}", BALL_NAMES[(*first_ball).min(BALLS - 1)])),
+        }
     }
 }

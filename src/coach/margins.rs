@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
-    simulation::{Event, Observer, Patience, watch},
+    simulation::{Event, Observer, StepBudget, watch},
     table::{Layout, Table},
 };
 
@@ -192,7 +192,7 @@ pub fn map(
         (0..=2 * half).map(|index| span * (index as f64 - half as f64) / half as f64).collect()
     };
     let (columns, rows) = (line(width), line(height));
-    let outcomes = super::crew::map(super::crew::cores(), &rows, |&y| {
+    let outcomes = super::parallel::map(super::parallel::cores(), &rows, |&y| {
         let row = up.shifted(table, cue, y);
         columns.iter().map(|&x| outcome(rule, table, layout, &across.shifted(table, &row, x))).collect()
     });
@@ -204,7 +204,7 @@ pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
     if !is_stroke(table, layout, cue) {
         return Outcome::NoStroke;
     }
-    let mut patient = Patient { referee: Referee::default(), patience: Patience(PATIENCE) };
+    let mut patient = Patient { referee: Referee::default(), patience: StepBudget(CONTACT_STEPS) };
     watch(table, layout, &strike(table, cue), &mut patient);
     let Tally { met: [one, other], .. } = patient.referee.tally;
     match (one, other) {
@@ -216,7 +216,7 @@ pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> O
 }
 
 /// Steps of resting contacts that are followed: a map has a thousand shots, and one of them can take seconds.
-const PATIENCE: u32 = 200;
+const CONTACT_STEPS: u32 = 200;
 
 fn is_stroke(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     cue.validate().is_ok() && cue.validate_tip(table.miscue_limit).is_ok() && has_room(table, layout, cue)
@@ -225,7 +225,7 @@ fn is_stroke(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
 /// A referee who gives up in the end.
 struct Patient {
     referee: Referee,
-    patience: Patience,
+    patience: StepBudget,
 }
 
 impl Observer for Patient {

@@ -6,13 +6,13 @@ mod candidates;
 mod clock;
 #[expect(clippy::module_inception, reason = "`coach::Coach` is what a reader expects")]
 mod coach;
-mod crew;
 mod ease;
 pub mod errors;
 mod first;
 mod kind;
 mod margins;
 mod next;
+mod parallel;
 mod pool;
 mod request;
 mod scatter;

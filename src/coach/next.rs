@@ -6,7 +6,7 @@ use super::{Ease, errors::Errors, trial::Task};
 use crate::{
     game::Tally,
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, Patience, simulate},
+    simulation::{Event, Observer, StepBudget, simulate},
     table::Layout,
 };
 
@@ -15,14 +15,14 @@ const ATTEMPTS: usize = 12;
 
 /// The probability of the next point after a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Prospect {
+pub enum NextValue {
     /// An estimate, from where the shot leaves the balls.
     Known(f64),
     /// Nobody has looked; it counts as this until somebody does.
     Supposed(f64),
 }
 
-impl Prospect {
+impl NextValue {
     /// What it counts as.
     pub const fn value(self) -> f64 {
         match self {
@@ -41,7 +41,7 @@ impl Prospect {
 
 /// The mean probability of the next point over the layouts that `cue` leaves under the first of these errors, those that
 /// make a point; nought where none does. `None` where time ran out.
-pub fn prospect(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
+pub fn next_value(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0u32);
     for errors in errors.iter().take(ATTEMPTS) {
         if task.clock.is_past(task.until) {
@@ -62,7 +62,7 @@ pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
     if stroke.is_miscue(task.table) {
         return None;
     }
-    let mut whole = Whole { tally: Tally::default(), patience: Patience(task.patience), task, given_up: false };
+    let mut whole = Whole { tally: Tally::default(), patience: StepBudget(task.patience), task, given_up: false };
     let end = simulate(task.table, task.layout, &strike(task.table, stroke), &mut whole);
     (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout())
 }
@@ -70,7 +70,7 @@ pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
 /// Watches a shot to its end, or until it takes too long.
 struct Whole<'a> {
     tally: Tally,
-    patience: Patience,
+    patience: StepBudget,
     task: &'a Task<'a>,
     given_up: bool,
 }

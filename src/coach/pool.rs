@@ -4,7 +4,7 @@ use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED},
     errors::{Errors, spread},
-    next::{Prospect, prospect},
+    next::{NextValue, next_value},
     trial::{Course, Task},
 };
 use crate::physics::CueInputs;
@@ -18,12 +18,12 @@ const WORTH_OF_WIDE: f64 = 0.3;
 
 /// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
 #[derive(Debug)]
-pub struct Contest {
+pub struct Race {
     own: Vec<Errors>,
     larger: Vec<Errors>,
 }
 
-impl Contest {
+impl Race {
     /// With so many errors at most, a multiple of four.
     pub fn new(count: usize, seed: u64) -> Self {
         let mut larger = spread(count / 4, !seed);
@@ -35,7 +35,7 @@ impl Contest {
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
     pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
-        let next = Prospect::Known(prospect(task, &candidate.shot.cue, &self.own)?);
+        let next = NextValue::Known(next_value(task, &candidate.shot.cue, &self.own)?);
         Some(Candidate { next, ..*candidate })
     }
 
@@ -56,7 +56,7 @@ impl Contest {
     }
 }
 
-/// A shot that makes the point when it is played as meant, and how it does in the contest.
+/// A shot that makes the point when it is played as meant, and how it does in the race.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
     /// The shot.
@@ -70,9 +70,9 @@ pub struct Candidate {
     /// Points under the larger errors.
     pub wide: usize,
     /// Probability of the next point; supposed to be 1 until candidates are looked at for it.
-    pub next: Prospect,
+    pub next: NextValue,
     /// What is taken off for a stroke that is hard to play, whatever its errors.
-    pub burden: f64,
+    pub effort_penalty: f64,
 }
 
 impl Candidate {
@@ -94,8 +94,8 @@ impl Candidate {
             tried: 0,
             made: 0,
             wide: 0,
-            next: Prospect::Supposed(1.0),
-            burden: weight * (cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED),
+            next: NextValue::Supposed(1.0),
+            effort_penalty: weight * (cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED),
         }
     }
 
@@ -118,7 +118,7 @@ impl Candidate {
     pub fn score(&self) -> f64 {
         let wide = self.tried / 4;
         let share = if wide == 0 { self.rate() } else { self.wide as f64 / wide as f64 };
-        (self.rate() + WORTH_OF_WIDE * share) * self.next.value() - self.burden
+        (self.rate() + WORTH_OF_WIDE * share) * self.next.value() - self.effort_penalty
     }
 }
 
@@ -127,7 +127,7 @@ impl Candidate {
 pub fn suppose_the_worst(candidates: &mut [Candidate]) {
     let worst = candidates.iter().filter_map(|candidate| candidate.next.known()).fold(1.0, f64::min);
     for candidate in candidates.iter_mut().filter(|candidate| candidate.next.known().is_none()) {
-        candidate.next = Prospect::Supposed(worst);
+        candidate.next = NextValue::Supposed(worst);
     }
 }
 
@@ -164,9 +164,9 @@ mod tests {
             made,
             wide: 8,
             next,
-            burden: 0.0,
+            effort_penalty: 0.0,
         };
-        let (good, bad, unseen) = (Prospect::Known(0.9), Prospect::Known(0.6), Prospect::Supposed(1.0));
+        let (good, bad, unseen) = (NextValue::Known(0.9), NextValue::Known(0.6), NextValue::Supposed(1.0));
         let mut pool = vec![candidate(24, unseen), candidate(24, bad), candidate(22, good)];
         suppose_the_worst(&mut pool);
         keep(&mut pool, 3, 1);

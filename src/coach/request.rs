@@ -39,7 +39,7 @@ impl Default for Request {
             plan: false,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,
-            threads: super::crew::cores(),
+            threads: super::parallel::cores(),
             seed: 0,
             cancel: Arc::default(),
         }

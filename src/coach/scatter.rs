@@ -7,10 +7,10 @@ use glam::DVec2;
 use super::{
     Skill,
     clock::Clock,
-    crew,
     errors::{self, Errors},
     next::end_of,
-    trial::{PATIENCE, Task},
+    parallel,
+    trial::{CONTACT_STEPS, Task},
 };
 use crate::{
     game::Rule,
@@ -52,11 +52,11 @@ pub fn scatter(
     cancel: &AtomicBool,
 ) -> Scatter {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: PATIENCE };
+    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: CONTACT_STEPS };
     let attempt = |errors: &Errors| {
         if clock.is_cancelled() { None } else { end_of(&task, &skill.stroke(table.radius, cue, errors)) }
     };
-    let ends = crew::map(crew::cores(), &errors::independent(attempts, seed), attempt);
+    let ends = parallel::map(parallel::cores(), &errors::independent(attempts, seed), attempt);
     let ends: Vec<Layout> = ends.into_iter().flatten().collect();
     let made = SuccessRate::new(ends.len(), attempts);
     Scatter { ends, made }

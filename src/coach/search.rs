@@ -1,4 +1,4 @@
-//! The search for the shot that a player makes most often: a wide net, a contest on common errors, refinement.
+//! The search for the shot that a player is most likely to make: sampling widely, a race on common random numbers, refinement.
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -6,9 +6,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{neighbour, stratified, variation},
-    crew,
-    next::Prospect,
-    pool::{Candidate, Contest, keep, suppose_the_worst},
+    next::NextValue,
+    parallel,
+    pool::{Candidate, Race, keep, suppose_the_worst},
     trial::{Course, Task},
 };
 use crate::physics::CueInputs;
@@ -26,17 +26,17 @@ const MOST_ERRORS: usize = LOOKS[4];
 /// each leader that are tried in a round.
 const STAGES: [(usize, f64, usize); 3] = [(THIRD_LOOK, 0.0, 10), (FOURTH_LOOK, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
 
-/// Shares of what is left of the budget when the search begins, after which the net is hauled in and the refinement ends. The
+/// Shares of what is left of the budget when the search begins, after which the sampling and the refinement end. The
 /// rest is for judging the answer.
-const NET_ENDS: f64 = 0.3;
+const SAMPLING_ENDS: f64 = 0.3;
 const REFINEMENT_ENDS: f64 = 0.88;
 
-/// Shots of the net's first round; each later one has twice as many, up to [`LARGEST_CAST`].
-const FIRST_CAST: usize = 512;
-const LARGEST_CAST: usize = 4096;
+/// Shots of the first round of sampling; each later one has twice as many, up to [`LARGEST_BATCH`].
+const FIRST_BATCH: usize = 512;
+const LARGEST_BATCH: usize = 4096;
 
-/// Shots that leave the net, and then the contest, besides the best of each kind.
-const HAUL: usize = 128;
+/// Shots that leave the sampling, and then the race, besides the best of each kind.
+const SHORTLIST: usize = 128;
 const LEADERS: usize = 10;
 
 /// Shots of each kind that stay in, however they stand.
@@ -45,8 +45,8 @@ const OF_EACH_KIND: usize = 3;
 /// What the hardest stroke costs against the softest in a shot's score, and what the steepest cue costs: a player is not to
 /// strike with all force and a raised cue for the last percent. In a plan it only decides between equals: where runs of
 /// hundreds of points are at stake, layouts differ by less than a thousandth.
-const BURDEN: f64 = 0.01;
-const BURDEN_IN_A_PLAN: f64 = 0.0001;
+const EFFORT_PENALTY: f64 = 0.01;
+const EFFORT_PENALTY_IN_A_PLAN: f64 = 0.0001;
 
 /// Shots of one piece of work: enough that handing it out costs nothing.
 const PIECE: usize = 32;
@@ -56,11 +56,11 @@ pub struct Search<'a> {
     task: Task<'a>,
     threads: usize,
     /// The two moments as shares of the whole budget.
-    net_ends: f64,
+    sampling_ends: f64,
     refinement_ends: f64,
     rng: Xoshiro256PlusPlus,
     plan: bool,
-    contest: Contest,
+    race: Race,
     pool: Vec<Candidate>,
 }
 
@@ -69,10 +69,11 @@ impl<'a> Search<'a> {
     /// now.
     pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let contest = Contest::new(MOST_ERRORS, rng.random());
+        let race = Race::new(MOST_ERRORS, rng.random());
         let begins = task.clock.used().min(1.0);
-        let [net_ends, refinement_ends] = [NET_ENDS, REFINEMENT_ENDS].map(|share| begins + share * (1.0 - begins));
-        Self { task, threads, net_ends, refinement_ends, rng, plan, contest, pool: Vec::new() }
+        let [sampling_ends, refinement_ends] =
+            [SAMPLING_ENDS, REFINEMENT_ENDS].map(|share| begins + share * (1.0 - begins));
+        Self { task, threads, sampling_ends, refinement_ends, rng, plan, race, pool: Vec::new() }
     }
 
     /// Looks for shots, starting from those that were `found` to make the point and from variations of `proposals`; the best
@@ -83,18 +84,18 @@ impl<'a> Search<'a> {
         found: &[(Suggestion, Course)],
         tell: &mut dyn FnMut(&Candidate),
     ) -> Vec<Candidate> {
-        self.task.until = self.task.clock.moment(self.net_ends);
+        self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
         let found: Vec<_> = found.iter().map(|(shot, course)| Candidate::of(*shot, course, weight)).collect();
-        self.pool = self.contested(&found, SECOND_LOOK);
-        self.cast_nets(proposals, tell);
+        self.pool = self.raced(&found, SECOND_LOOK);
+        self.sample(proposals, tell);
         self.task.until = self.task.clock.moment(self.refinement_ends);
         self.narrow_down(tell);
         self.refine(tell);
         self.pool
     }
 
-    fn cast_nets(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
+    fn sample(&mut self, proposals: &[CueInputs], tell: &mut dyn FnMut(&Candidate)) {
         let table = self.task.table;
         let mut shots = Vec::new();
         for cue in proposals.iter().take(4) {
@@ -102,15 +103,15 @@ impl<'a> Search<'a> {
                 (0..16).map(|_| Suggestion { cue: variation(table, cue, &mut self.rng), source: Source::Variation });
             shots.extend(varied);
         }
-        let (mut drawn, mut cast) = (0, FIRST_CAST);
-        while self.task.clock.used() < self.net_ends || drawn == 0 {
-            shots.extend((0..cast as u64).map(|n| Suggestion {
+        let (mut drawn, mut batch) = (0, FIRST_BATCH);
+        while self.task.clock.used() < self.sampling_ends || drawn == 0 {
+            shots.extend((0..batch as u64).map(|n| Suggestion {
                 cue: stratified(table, self.task.layout, drawn + n, &mut self.rng),
                 source: Source::Search,
             }));
-            drawn += cast as u64;
-            cast = (2 * cast).min(LARGEST_CAST);
-            self.haul(&shots);
+            drawn += batch as u64;
+            batch = (2 * batch).min(LARGEST_BATCH);
+            self.sample_batch(&shots);
             shots.clear();
             self.tell(tell);
         }
@@ -118,22 +119,22 @@ impl<'a> Search<'a> {
 
     /// What the hardest stroke and the steepest cue cost.
     const fn weight(&self) -> f64 {
-        if self.plan { BURDEN_IN_A_PLAN } else { BURDEN }
+        if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }
 
     /// Judges the net's catch.
-    fn haul(&mut self, shots: &[Suggestion]) {
-        keep(&mut self.pool, HAUL, OF_EACH_KIND);
+    fn sample_batch(&mut self, shots: &[Suggestion]) {
+        keep(&mut self.pool, SHORTLIST, OF_EACH_KIND);
         // Who does not come near those who stay in is not looked at twice.
-        let bar = self.pool.get(HAUL / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
-        let (task, contest, weight) = (&self.task, &self.contest, self.weight());
+        let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
+        let (task, race, weight) = (&self.task, &self.race, self.weight());
         let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
         let judge = |shot: &Suggestion| {
             let candidate = Candidate::new(task, shot.cue, shot.source, weight)?;
-            let candidate = contest.go_on(task, &candidate, FIRST_LOOK)?;
-            if candidate.score() < bar { Some(candidate) } else { contest.go_on(task, &candidate, SECOND_LOOK) }
+            let candidate = race.go_on(task, &candidate, FIRST_LOOK)?;
+            if candidate.score() < bar { Some(candidate) } else { race.go_on(task, &candidate, SECOND_LOOK) }
         };
-        let found = crew::map(self.threads, &pieces, |piece| {
+        let found = parallel::map(self.threads, &pieces, |piece| {
             piece.iter().take_while(|_| !task.clock.is_past(task.until)).filter_map(judge).collect::<Vec<_>>()
         });
         self.pool.extend(found.into_iter().flatten());
@@ -143,7 +144,7 @@ impl<'a> Search<'a> {
     fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
         for (errors, best) in [(SECOND_LOOK, 64), (THIRD_LOOK, LEADERS)] {
             keep(&mut self.pool, 2 * best, OF_EACH_KIND);
-            self.pool = self.contested(&self.pool, errors);
+            self.pool = self.raced(&self.pool, errors);
             if self.plan && errors == SECOND_LOOK {
                 self.look_ahead();
             }
@@ -154,16 +155,16 @@ impl<'a> Search<'a> {
 
     /// Finds out how easy the next point is after each of the pool.
     fn look_ahead(&mut self) {
-        self.pool = crew::map(self.threads, &self.pool, |candidate| {
-            self.contest.look_ahead(&self.task, candidate).unwrap_or(*candidate)
+        self.pool = parallel::map(self.threads, &self.pool, |candidate| {
+            self.race.look_ahead(&self.task, candidate).unwrap_or(*candidate)
         });
         suppose_the_worst(&mut self.pool);
     }
 
     /// The candidates tried at so many errors; those that time did not suffice for are left as they are.
-    fn contested(&self, candidates: &[Candidate], errors: usize) -> Vec<Candidate> {
-        crew::map(self.threads, candidates, |candidate| {
-            self.contest.go_on(&self.task, candidate, errors).unwrap_or(*candidate)
+    fn raced(&self, candidates: &[Candidate], errors: usize) -> Vec<Candidate> {
+        parallel::map(self.threads, candidates, |candidate| {
+            self.race.go_on(&self.task, candidate, errors).unwrap_or(*candidate)
         })
     }
 
@@ -175,7 +176,7 @@ impl<'a> Search<'a> {
             if used >= self.refinement_ends || self.pool.is_empty() {
                 break;
             }
-            let progress = (used - self.net_ends) / (self.refinement_ends - self.net_ends);
+            let progress = (used - self.sampling_ends) / (self.refinement_ends - self.sampling_ends);
             if self.pool[0].is_flawless() && self.pool[0].tried >= STAGES[stage].0 {
                 // There is nothing to improve that these errors could show.
                 if stage + 1 == STAGES.len() && !self.plan {
@@ -185,7 +186,7 @@ impl<'a> Search<'a> {
             }
             stage = STAGES.iter().rposition(|(_, begins, _)| progress >= *begins).unwrap_or(0).max(stage);
             let (errors, _, neighbours) = STAGES[stage];
-            self.pool = self.contested(&self.pool, errors);
+            self.pool = self.raced(&self.pool, errors);
             keep(&mut self.pool, LEADERS, 1);
             let scale = 1.0 - 0.8 * progress.max(0.0);
             let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
@@ -194,7 +195,7 @@ impl<'a> Search<'a> {
                     tries.push((*parent, neighbour(self.task.table, &parent.shot.cue, scale, &mut self.rng)));
                 }
             }
-            let found = crew::map(self.threads, &tries, |(parent, cue)| self.beside(parent, *cue, errors));
+            let found = parallel::map(self.threads, &tries, |(parent, cue)| self.beside(parent, *cue, errors));
             self.pool.extend(found.into_iter().flatten());
             keep(&mut self.pool, LEADERS, 1);
             self.tell(tell);
@@ -203,21 +204,21 @@ impl<'a> Search<'a> {
 
     /// A neighbour of a leader, tried at so many errors; `None` where it falls behind, or time runs out.
     fn beside(&self, parent: &Candidate, cue: CueInputs, errors: usize) -> Option<Candidate> {
-        let Self { task, contest, .. } = self;
+        let Self { task, race, .. } = self;
         if task.clock.is_past(task.until) {
             return None;
         }
         let source = if parent.shot.source == Source::Search { Source::Search } else { Source::Variation };
         // Until it is known, what comes next is what comes after the parent.
-        let next = Prospect::Supposed(parent.next.value());
+        let next = NextValue::Supposed(parent.next.value());
         let mut candidate = Candidate { next, ..Candidate::new(task, cue, source, self.weight())? };
         for look in LOOKS.into_iter().take_while(|look| *look <= errors) {
             if candidate.tried > 0 && candidate.score() < parent.score() - slack(candidate.tried) {
                 return None;
             }
-            candidate = contest.go_on(task, &candidate, look)?;
+            candidate = race.go_on(task, &candidate, look)?;
             if self.plan && look == SECOND_LOOK {
-                candidate = contest.look_ahead(task, &candidate)?;
+                candidate = race.look_ahead(task, &candidate)?;
             }
         }
         (candidate.tried == errors).then_some(candidate)
@@ -240,7 +241,7 @@ fn slack(tried: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        coach::{Skill, clock::Clock, first::Attempt, trial::PATIENCE},
+        coach::{Skill, clock::Clock, first::Attempt, trial::CONTACT_STEPS},
         game::Rule,
         table::{Layout, Table},
     };
@@ -258,7 +259,7 @@ mod tests {
             skill: Skill::EXPERT,
             clock: &clock,
             until: clock.moment(1.0),
-            patience: PATIENCE,
+            patience: CONTACT_STEPS,
         };
         let found = Attempt::new(task).run(&[], 1);
         // As if the first shot had been hard to find.

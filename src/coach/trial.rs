@@ -6,7 +6,7 @@ use super::{Skill, candidates::MAX_ELEVATION, clock::Clock, errors::Errors};
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike, with_room},
-    simulation::{Event, EventKind, Observer, Patience, watch},
+    simulation::{Event, EventKind, Observer, StepBudget, watch},
     table::{Layout, Table},
 };
 
@@ -40,7 +40,7 @@ pub struct Task<'a> {
 }
 
 /// Steps of resting contacts after which a shot that is one of many is given up as a miss.
-pub const PATIENCE: u32 = 100;
+pub const CONTACT_STEPS: u32 = 100;
 
 /// A patience that follows every contact to its end.
 pub const ENDLESS: u32 = u32::MAX;
@@ -66,7 +66,7 @@ impl Task<'_> {
         let mut hurried = Hurried {
             referee: Referee::default(),
             first: None,
-            patience: Patience(self.patience),
+            patience: StepBudget(self.patience),
             late: false,
             task: self,
         };
@@ -110,7 +110,7 @@ impl Task<'_> {
 struct Hurried<'a> {
     referee: Referee,
     first: Option<usize>,
-    patience: Patience,
+    patience: StepBudget,
     late: bool,
     task: &'a Task<'a>,
 }

@@ -24,7 +24,7 @@ pub struct Args {
 
 /// What is printed as JSON.
 #[derive(Serialize)]
-struct Report<'a> {
+struct BenchReport<'a> {
     version: &'static str,
     machine: &'a Machine,
     seconds: f64,
@@ -57,8 +57,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     .map_err(Failure::failed)?;
     written?;
     if args.json {
-        let report =
-            Report { version: env!("CARGO_PKG_VERSION"), machine: &machine, seconds: args.seconds, figures: &figures };
+        let report = BenchReport {
+            version: env!("CARGO_PKG_VERSION"),
+            machine: &machine,
+            seconds: args.seconds,
+            figures: &figures,
+        };
         printing::json(&mut out, &report)?;
         writeln!(out)?;
     }

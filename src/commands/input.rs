@@ -5,6 +5,7 @@ use std::{
     fs::File,
     io::{self, BufRead, BufReader, Read, Write},
     path::Path,
+    time::Duration,
 };
 
 use serde::{
@@ -45,17 +46,18 @@ pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
 
 /// The table and the balls of a single shot; a batch brings its own.
 #[derive(Debug, clap::Args)]
-pub struct Scene {
+pub struct PositionArgs {
     /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match", conflicts_with = "batch")]
     table: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
-    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
+    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position. In what is printed white is the cue ball, yellow the opponent's
+    /// ball, and red the third: 0, 1 and 2 in JSON.
     #[arg(long, allow_hyphen_values = true, conflicts_with = "batch")]
     layout: Option<String>,
 }
 
-impl Scene {
+impl PositionArgs {
     /// What is described; the layout is checked.
     pub fn read(&self) -> Result<(Table, Layout), Failure> {
         let table = table_named(&self.table)?;
@@ -66,6 +68,18 @@ impl Scene {
         layout.validate(&table).map_err(Failure::wrong_input)?;
         Ok((table, layout))
     }
+}
+
+/// The time that `--minutes` gives, fractions of a minute too.
+///
+/// # Errors
+/// What is no number above 0, or beyond all clocks.
+pub fn minutes(value: f64) -> Result<Duration, Failure> {
+    let accepted = value > 0.0;
+    let duration = Duration::try_from_secs_f64(60.0 * value).ok().filter(|_| accepted);
+    duration.ok_or_else(|| {
+        Failure::wrong_input(format_args!("--minutes {value} is not a time; accepted is a number above 0"))
+    })
 }
 
 /// What a line that is refused gets instead of an answer.
@@ -175,5 +189,18 @@ impl<T, F: Fn(Table) -> Result<T, Failure>> ByTable<T, F> {
             self.made.insert(name.to_owned(), made);
         }
         Ok(&self.made[name])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_time_is_refused_and_named() {
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
+        }
+        assert_eq!(minutes(0.5).unwrap(), Duration::from_secs(30));
     }
 }

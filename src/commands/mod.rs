@@ -9,7 +9,7 @@ mod drill;
 mod evaluate;
 mod failure;
 mod input;
-mod named;
+mod lookup;
 mod output;
 mod play;
 mod recommend;

@@ -5,6 +5,7 @@ use std::{
     io::{self, IsTerminal, Write},
 };
 
+use ratatui::text::Span;
 use serde::Serialize;
 
 use super::Failure;
@@ -47,16 +48,30 @@ pub fn json_line(value: &impl Serialize) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Rows of cells as lines, whatever the cells hold; the columns in `numbers` stand to the right.
+/// Rows of cells as lines, as wide as a terminal shows them, whatever the cells hold; the columns in `numbers` stand to the right.
 pub fn columns<const COLUMNS: usize>(rows: &[[String; COLUMNS]], numbers: &[usize]) -> Vec<String> {
     let rows: Vec<_> = rows.iter().map(|row| row.each_ref().map(|cell| OneLine(cell).to_string())).collect();
+    let width = |cell: &str| Span::raw(cell).width();
     let widths: [usize; COLUMNS] =
-        std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+        std::array::from_fn(|column| rows.iter().map(|row| width(&row[column])).max().unwrap_or(0));
     let line = |row: &[String; COLUMNS]| {
-        let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, width))| {
-            if numbers.contains(&column) { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+        let cells = row.iter().zip(widths).enumerate().map(|(column, (cell, widest))| {
+            let blanks = " ".repeat(widest - width(cell));
+            if numbers.contains(&column) { blanks + cell } else { cell.clone() + &blanks }
         });
         cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
     rows.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_as_wide_as_a_terminal_shows_them() {
+        let rows = [["name", "shots", "of"], ["日本", "5", "5000000"], ["e\u{301}", "1000000", "5"]];
+        let lines = columns(&rows.map(|row| row.map(str::to_owned)), &[1, 2]);
+        assert_eq!(lines, ["name    shots       of", "日本        5  5000000", "e\u{301}     1000000        5"]);
+    }
 }

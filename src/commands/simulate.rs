@@ -1,21 +1,26 @@
 //! `carom simulate`: one shot as a list of events, or a file of shots.
 
-use std::io::{self, Write};
+use std::{
+    fmt,
+    io::{self, Write},
+};
 
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{
     Failure, bounded,
-    input::{ByTable, Keys, Scene, answer_lines},
+    input::{ByTable, Keys, PositionArgs, answer_lines},
     output::{impulse_words, tell},
 };
 use crate::{
+    drills::{cushions, missing},
+    game::{Point, Rule, Tally},
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
     printing,
     simulation::{Event, Recording},
     study::{Stepped, Steps},
-    table::{Layout, Table},
+    table::{BALL_NAMES, CueBall, Layout, Table},
 };
 
 /// The time step that is taken where none is given, s: some hundred pictures a second.
@@ -25,7 +30,10 @@ const DEFAULT_STEP: f64 = 0.01;
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
-    scene: Scene,
+    position: PositionArgs,
+    /// What counts as a point: straight, one-cushion or three-cushion. In a batch, of lines that name no `rule`.
+    #[arg(long, default_value_t = Rule::StraightRail)]
+    rule: Rule,
     /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s.
     #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
     shot: Option<String>,
@@ -57,15 +65,16 @@ enum Method {
 
 /// One line of a batch.
 #[derive(Deserialize)]
-struct Question {
+struct BatchLine {
     preset: String,
     layout: Layout,
     cue: Option<CueInputs>,
     impulse: Option<GivenImpulse>,
+    rule: Option<Rule>,
 }
 
-impl Keys for Question {
-    const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse"];
+impl Keys for BatchLine {
+    const KEYS: &'static [&'static str] = &["preset", "layout", "cue", "impulse", "rule"];
 }
 
 /// A motion of the cue ball in the place of a stroke, as a film shows it.
@@ -93,17 +102,20 @@ impl GivenImpulse {
     }
 }
 
-impl Question {
-    fn answer(&self, table: &Table, steps: Option<Steps>) -> Result<Answer, Failure> {
+impl BatchLine {
+    fn answer(&self, table: &Table, rule: Rule, steps: Option<Steps>) -> Result<SimulateAnswer, Failure> {
+        let outcome = |(recording, _): &Played| Outcome::of(self.rule.unwrap_or(rule), table, &self.layout, recording);
         match (&self.cue, &self.impulse) {
             (Some(cue), None) => {
-                Ok(Answer::of(&play(table, &self.layout, cue, steps)?, CueRoom::of(table, &self.layout, cue)))
+                let played = play(table, &self.layout, cue, steps)?;
+                Ok(SimulateAnswer::of(&played, &outcome(&played), CueRoom::of(table, &self.layout, cue)))
             }
             (None, Some(_)) if steps.is_some() => {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
             }
             (None, Some(given)) => {
-                Ok(Answer::of(&(bounded::play_impulse(table, &self.layout, &given.impulse()?)?, None), None))
+                let played = (bounded::play_impulse(table, &self.layout, &given.impulse()?)?, None);
+                Ok(SimulateAnswer::of(&played, &outcome(&played), None))
             }
             _ => Err(Failure::wrong_input("a line needs either cue or impulse")),
         }
@@ -119,9 +131,48 @@ struct PlacedEvent {
     at: Option<DVec2>,
 }
 
+/// What a shot comes to under a rule.
+struct Outcome {
+    point: Point,
+    tally: Tally,
+}
+
+impl Outcome {
+    fn of(rule: Rule, table: &Table, layout: &Layout, recording: &Recording) -> Self {
+        let mut tally = Tally::default();
+        recording.events().iter().for_each(|event| tally.note(event));
+        Self { point: Point::of(rule, table, layout), tally }
+    }
+
+    /// Cushions before the second object ball, where the cue ball meets it.
+    fn cushions(&self) -> Option<u32> {
+        self.tally.met_both().then_some(self.tally.cushions_before_second)
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { point, tally } = self;
+        let made = if point.is_made(tally) { "a point" } else { "no point" };
+        let missing = missing(*point, tally, CueBall::White);
+        let cushions = self
+            .cushions()
+            .filter(|_| tally.is_point(point.rule))
+            .map(|count| format!("{} before the second ball", cushions(count)));
+        let words: Vec<String> = [missing, cushions].into_iter().flatten().collect();
+        write!(formatter, "{made} ({}): {}", point.rule, words.join("; "))
+    }
+}
+
 /// The answer in JSON.
 #[derive(Serialize)]
-struct Answer {
+struct SimulateAnswer {
+    rule: Rule,
+    /// Whether the shot makes the point.
+    point: bool,
+    /// Cushions that the cue ball met before the second object ball; absent where it does not meet both.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cushions_before_second: Option<u32>,
     events: Vec<PlacedEvent>,
     #[serde(rename = "final")]
     end: Layout,
@@ -177,9 +228,12 @@ struct StepsAnswer {
     at_rest: bool,
 }
 
-impl Answer {
-    fn of((recording, stepped): &Played, cue_room: Option<CueRoom>) -> Self {
+impl SimulateAnswer {
+    fn of((recording, stepped): &Played, outcome: &Outcome, cue_room: Option<CueRoom>) -> Self {
         Self {
+            rule: outcome.point.rule,
+            point: outcome.point.is_made(&outcome.tally),
+            cushions_before_second: outcome.cushions(),
             cue_room,
             events: recording
                 .events()
@@ -207,12 +261,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
-        return answer_lines(file, |question: Question| {
+        return answer_lines(file, |question: BatchLine| {
             let table = tables.get(&question.preset)?;
-            question.answer(table, steps)
+            question.answer(table, args.rule, steps)
         });
     }
-    let (table, layout) = args.scene.read()?;
+    let (table, layout) = args.position.read()?;
     // clap demands a shot where there is no batch.
     let cue = CueInputs::parse(args.shot.as_deref().unwrap_or_default()).map_err(Failure::wrong_input)?;
     let played = play(&table, &layout, &cue, steps)?;
@@ -228,12 +282,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
         tell(format_args!("note: {note}"));
     }
+    let outcome = Outcome::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout();
     if args.json {
-        printing::json(&mut out, &Answer::of(&played, cue_room))?;
+        printing::json(&mut out, &SimulateAnswer::of(&played, &outcome, cue_room))?;
         writeln!(out)?;
     } else {
-        describe(&mut out, &played)?;
+        describe(&mut out, &played, &outcome)?;
     }
     Ok(())
 }
@@ -262,17 +317,18 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -
 }
 
 /// The shot for people to read.
-fn describe(out: &mut impl Write, (recording, stepped): &Played) -> io::Result<()> {
+fn describe(out: &mut impl Write, (recording, stepped): &Played, outcome: &Outcome) -> io::Result<()> {
     writeln!(out, "{}", impulse_words(recording.impulse()))?;
-    writeln!(out, "{:>12}  {:<18}  {:<5}  {:<6}  cue ball", "t, s", "event", "balls", "rail")?;
+    writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
     for event in recording.events() {
         let (first, second) = event.kind.balls();
-        let balls = second.map_or_else(|| first.to_string(), |second| format!("{first} {second}"));
+        let first = BALL_NAMES[first];
+        let balls = second.map_or_else(|| first.to_owned(), |second| format!("{first} {}", BALL_NAMES[second]));
         let rail = event.kind.rail().map_or("", crate::simulation::Rail::name);
         let cue_ball = recording.state(0, event.time);
         writeln!(
             out,
-            "{:>12.9}  {:<18}  {balls:<5}  {rail:<6}  ({:.4}, {:.4}) m at {:.3} m/s",
+            "{:>12.9}  {:<18}  {balls:<13}  {rail:<6}  ({:.4}, {:.4}) m at {:.3} m/s",
             event.time,
             event.kind.name(),
             cue_ball.position.x,
@@ -285,11 +341,11 @@ fn describe(out: &mut impl Write, (recording, stepped): &Played) -> io::Result<(
     } else {
         writeln!(out, "all still after {:.6} s:", recording.duration())?;
     }
-    for (ball, position) in recording.final_layout().balls.iter().enumerate() {
-        writeln!(out, "  ball {ball} at ({:.6}, {:.6}) m", position.x, position.y)?;
+    for (ball, position) in BALL_NAMES.iter().zip(recording.final_layout().balls) {
+        writeln!(out, "  {ball} at ({:.6}, {:.6}) m", position.x, position.y)?;
     }
     if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
         writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;
     }
-    Ok(())
+    writeln!(out, "{outcome}")
 }

@@ -18,7 +18,7 @@ use signal_hook::{
 
 use super::{
     Failure,
-    named::run_to_watch,
+    lookup::run_to_watch,
     output::tell,
     train::{line, print_runs},
 };
@@ -27,7 +27,7 @@ use crate::{
         follow::{Condition, Followed, Follower},
         holds_checkpoints,
         metrics::Record,
-        standing::Phase,
+        status::Phase,
     },
     printing::{self, OneLine},
     terminal,

@@ -150,7 +150,7 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
                 continue;
             };
             // The exercise's own shot is for its own layout; the coach's says something only where the player saw it.
-            let own = exercise.taught().filter(|_| attempt.layout.is_none());
+            let own = exercise.model_shot().filter(|_| attempt.layout.is_none());
             let shown = attempt.advised.filter(|_| attempt.helped);
             let layout = attempt.layout.unwrap_or(exercise.layout);
             let Some(cue) = shown.or(own).filter(|_| layout.validate(&table).is_ok()) else {

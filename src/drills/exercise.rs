@@ -197,8 +197,8 @@ impl Exercise {
         Ok(table)
     }
 
-    /// The shot that it teaches; `None` where it has none, or the cue has no room for it.
-    pub fn taught(&self) -> Option<CueInputs> {
+    /// Its model shot; `None` where it has none, or the cue has no room for it.
+    pub fn model_shot(&self) -> Option<CueInputs> {
         let table = self.table().ok()?;
         self.shot.filter(|shot| has_room(&table, &self.layout, shot))
     }

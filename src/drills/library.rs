@@ -19,9 +19,29 @@ pub enum LibraryError {
     /// There is none of this name.
     #[error("there is no exercise \"{0}\"; carom drill list shows all names")]
     Unknown(String),
+    /// There are several that may be meant.
+    #[error("\"{text}\" may be {}; give more of the name or the title", listed(names))]
+    Ambiguous {
+        /// What was given.
+        text: String,
+        /// The names of those that it may mean, with their titles.
+        names: Vec<String>,
+    },
     /// There is another of this name.
     #[error("there is an exercise \"{0}\" already; give this one another name")]
     Taken(String),
+}
+
+/// Most exercises that are listed in a sentence.
+const MOST_LISTED: usize = 8;
+
+/// Names in a sentence: a, b and c.
+fn listed(names: &[String]) -> String {
+    let (shown, rest) = names.split_at(names.len().min(MOST_LISTED));
+    let more = (!rest.is_empty()).then(|| format!("{} others", rest.len()));
+    let mut shown: Vec<String> = shown.iter().cloned().chain(more).collect();
+    let last = shown.pop().unwrap_or_default();
+    if shown.is_empty() { last } else { format!("{} and {last}", shown.join(", ")) }
 }
 
 /// Exercises with names of their own, the bundled ones first, by category.
@@ -76,6 +96,44 @@ impl Library {
         named.ok_or_else(|| LibraryError::Unknown(name.to_owned()))
     }
 
+    /// The exercise that a player means by `text`: its name, or its name or title in capitals or not, or the beginning of
+    /// either where no other begins so.
+    ///
+    /// # Errors
+    /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
+    pub fn called(&self, text: &str) -> Result<&Exercise, LibraryError> {
+        self.titled(text).or_else(|error| {
+            let wanted = text.to_lowercase();
+            match self.that(|words| !wanted.is_empty() && words.starts_with(&wanted))[..] {
+                [] => Err(error),
+                [exercise] => Ok(exercise),
+                ref several => Err(ambiguous(text, several)),
+            }
+        })
+    }
+
+    /// The exercise of this name, or of this name or title in capitals or not.
+    ///
+    /// # Errors
+    /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
+    pub fn titled(&self, text: &str) -> Result<&Exercise, LibraryError> {
+        self.get(text).or_else(|error| {
+            let wanted = text.to_lowercase();
+            match self.that(|words| words == wanted)[..] {
+                [] => Err(error),
+                [exercise] => Ok(exercise),
+                ref several => Err(ambiguous(text, several)),
+            }
+        })
+    }
+
+    /// Those whose name or title in small letters is so.
+    fn that(&self, is_so: impl Fn(&str) -> bool) -> Vec<&Exercise> {
+        let either =
+            |exercise: &&Exercise| [&exercise.name, &exercise.title].iter().any(|words| is_so(&words.to_lowercase()));
+        self.exercises.iter().filter(either).collect()
+    }
+
     /// All of them.
     pub fn exercises(&self) -> &[Exercise] {
         &self.exercises
@@ -90,6 +148,11 @@ impl Library {
     pub fn find(&self, filter: &Filter) -> impl Iterator<Item = &Exercise> {
         self.exercises.iter().filter(|exercise| filter.accepts(exercise))
     }
+}
+
+fn ambiguous(text: &str, several: &[&Exercise]) -> LibraryError {
+    let names = several.iter().map(|exercise| format!("{} ({})", exercise.name, exercise.title));
+    LibraryError::Ambiguous { text: text.to_owned(), names: names.collect() }
 }
 
 /// Which exercises are looked for; what is `None` does not matter.
@@ -134,6 +197,35 @@ mod tests {
         assert_eq!(library.get("mine"), Ok(&own));
         assert!(library.is_bundled(&taken.name) && !library.is_bundled("mine"));
         assert_eq!(library.get("yours"), Err(LibraryError::Unknown("yours".to_owned())));
+    }
+
+    #[test]
+    fn an_exercise_is_found_by_name_title_and_the_beginning_of_either() {
+        let exercise = |name: &str, title: &str| Exercise {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            ..crate::drills::session::tests::exercise(name)
+        };
+        let mut library = Library::default();
+        for (name, title) in
+            [("draw", "Back"), ("draw-long", "Back from afar"), ("one", "Ärger"), ("two", "twice"), ("twice", "Two")]
+        {
+            library.add(exercise(name, title)).unwrap();
+        }
+        let name =
+            |text| library.called(text).map(|exercise| exercise.name.as_str()).map_err(|error| error.to_string());
+        assert_eq!(
+            ["draw", "DRAW", "back", "draw-", "back f", "ÄRG", "two"].map(name),
+            ["draw", "draw", "draw", "draw-long", "draw-long", "one", "two"].map(Ok)
+        );
+        assert_eq!(
+            name("bac"),
+            Err("\"bac\" may be draw (Back) and draw-long (Back from afar); give more of the name or the title"
+                .to_owned())
+        );
+        assert!(name("TWO").unwrap_err().contains("two (twice) and twice (Two)"));
+        assert!(name("three").unwrap_err().contains("carom drill list") && name("").unwrap_err().contains("\"\""));
+        assert!(library.titled("BACK").is_ok() && library.titled("bac").is_err(), "a beginning is no title");
     }
 
     #[test]

@@ -29,4 +29,4 @@ pub use shift::shifted;
 pub use store::Store;
 pub use technique::{GATHERED, PATTERNS, Pattern, Technique, flaws};
 pub use validity::SessionError;
-pub use verdict::{changes, verdict};
+pub use verdict::{changes, cushions, missing, verdict};

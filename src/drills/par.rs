@@ -21,7 +21,7 @@ impl Par {
     pub fn measure(exercise: &Exercise) -> Result<Option<Self>, ExerciseError> {
         exercise.validate()?;
         let table = exercise.table()?;
-        let Some(shot) = exercise.taught() else { return Ok(None) };
+        let Some(shot) = exercise.model_shot() else { return Ok(None) };
         let share = |skill| {
             let made = make_probability(skill, exercise.rule, &table, &exercise.layout, &shot, ATTEMPTS, SEED);
             (made.rate * 1e3).round() / 1e3

@@ -12,7 +12,8 @@ const SEEN: (f64, f64, f64, f64) = (0.05, 0.5, 1.0, 0.1);
 /// Degrees of aim beyond which it is another shot altogether.
 const ANOTHER_SHOT: f64 = 12.0;
 
-fn cushions(count: u32) -> String {
+/// A number of cushions in words.
+pub fn cushions(count: u32) -> String {
     match count {
         0 => "no cushion".to_owned(),
         1 => "1 cushion".to_owned(),
@@ -20,10 +21,10 @@ fn cushions(count: u32) -> String {
     }
 }
 
-/// Whether a shot made the point, and what was missing if it did not, for who plays with `cue_ball`.
-pub fn verdict(point: Point, tally: &Tally, cue_ball: CueBall) -> String {
+/// What a shot lacks that makes no point, for who plays with `cue_ball`; `None` where it makes one.
+pub fn missing(point: Point, tally: &Tally, cue_ball: CueBall) -> Option<String> {
     let (rule, names) = (point.rule, cue_ball.names());
-    let missing = match tally.met {
+    Some(match tally.met {
         [false, false] => "no ball was met".to_owned(),
         [met, _] if !tally.met_both() => {
             let [met, missed] = if met { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
@@ -34,10 +35,17 @@ pub fn verdict(point: Point, tally: &Tally, cue_ball: CueBall) -> String {
             format!("{} before the second ball, {wanted} needed", cushions(made))
         }
         _ if !point.is_made(tally) => format!("{} was met first, a game opens with {}", names[1], names[2]),
-        _ if rule == Rule::StraightRail => return "made".to_owned(),
-        _ => return format!("made, after {}", cushions(tally.cushions_before_second)),
-    };
-    format!("missed: {missing}")
+        _ => return None,
+    })
+}
+
+/// Whether a shot made the point, and what was missing if it did not, for who plays with `cue_ball`.
+pub fn verdict(point: Point, tally: &Tally, cue_ball: CueBall) -> String {
+    match missing(point, tally, cue_ball) {
+        Some(missing) => format!("missed: {missing}"),
+        None if point.rule == Rule::StraightRail => "made".to_owned(),
+        None => format!("made, after {}", cushions(tally.cushions_before_second)),
+    }
 }
 
 impl Played {

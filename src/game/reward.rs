@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Rule, Tally};
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, Patience, simulate, watch},
+    simulation::{Event, Observer, StepBudget, simulate, watch},
     table::{Layout, Table},
 };
 
@@ -167,12 +167,12 @@ fn distance_reward(table: &Table, layout: &Layout) -> f64 {
 /// it counts where the balls come to rest.
 struct Meetings<const ENOUGH: u8> {
     tally: Tally,
-    patience: Patience,
+    patience: StepBudget,
 }
 
 impl<const ENOUGH: u8> Meetings<ENOUGH> {
     fn new(steps: u32) -> Self {
-        Self { tally: Tally::default(), patience: Patience(steps) }
+        Self { tally: Tally::default(), patience: StepBudget(steps) }
     }
 }
 

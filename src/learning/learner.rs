@@ -15,20 +15,20 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Makes a beginner.
-pub type Start = fn(Plan, Table, Value) -> Result<Box<dyn Learner>, StartError>;
+/// Creates an untrained agent from a plan, a table and settings.
+pub type Start = fn(TrainingPlan, Table, Value) -> Result<Box<dyn Learner>, StartError>;
 
 /// Takes up a learner from a file.
 pub type Restore = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
 
-/// A kind of agent: how to make a beginner of it, and how to take up one that was put aside.
+/// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
 pub struct Agent {
     /// Name on the command line and in files.
     pub name: &'static str,
     /// What it is, in one line for people.
     pub title: &'static str,
-    /// A beginner for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
+    /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
     pub start: Start,
     /// The learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: Restore,
@@ -47,7 +47,7 @@ pub enum StartError {
 
 /// What is to be learnt, and how long; the same for every agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Plan {
+pub struct TrainingPlan {
     /// What earns a reward.
     pub reward: Reward,
     /// Seed of everything random.
@@ -56,28 +56,28 @@ pub struct Plan {
     pub shots: u64,
 }
 
-/// What one turn of learning did.
+/// What one iteration, rollout and update, did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn {
+pub struct Iteration {
     /// Mean reward of the shots played, exploration included.
     pub mean_reward: f64,
     /// Mean value that the agent gives its own choices, in the units in which it learns: the critic's mean of the
     /// actor's actions, or the mean of the largest Q.
     pub q_value: f64,
-    /// Loss of whatever judges actions; 0 where the turn made no update.
+    /// Loss of whatever judges actions; 0 where the iteration made no update.
     pub critic_loss: f64,
     /// Loss of the actor, for agents that have one.
     pub actor_loss: Option<f64>,
 }
 
-/// An agent at practice. It can be put aside between any two turns and goes on bit for bit as if it had not been: what
-/// it does depends on nothing but its own state.
+/// An agent that trains. It can be saved between any two iterations and goes on bit for bit as if it had not been: what it
+/// does depends on nothing but its own state.
 pub trait Learner: Debug + Send {
     /// Its [`Agent::name`].
     fn agent(&self) -> &'static str;
 
     /// What it learns.
-    fn plan(&self) -> Plan;
+    fn plan(&self) -> TrainingPlan;
 
     /// Where it plays.
     fn table(&self) -> &Table;
@@ -98,8 +98,8 @@ pub trait Learner: Debug + Send {
     /// noise to each, the noise's standard deviation in units of half an action's range.
     fn exploration(&self) -> f64;
 
-    /// Share of its memory of shots that is filled, where it has one.
-    fn memory(&self) -> Option<f64>;
+    /// Share of its replay buffer that is filled, where it has one.
+    fn replay_fill(&self) -> Option<f64>;
 
     /// Whether all shots of the plan have been played.
     fn is_finished(&self) -> bool {
@@ -110,7 +110,7 @@ pub trait Learner: Debug + Send {
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
-    fn turn(&mut self) -> candle_core::Result<Turn>;
+    fn iterate(&mut self) -> candle_core::Result<Iteration>;
 
     /// Plays one shot on every layout as well as it can, without exploration. Its own state, the random numbers to come
     /// included, stays as it is.
@@ -143,7 +143,7 @@ pub trait Learner: Debug + Send {
     ///
     /// # Errors
     /// Where the file has no such weights, or some of other sizes: the learner is then unchanged.
-    fn adopt(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError>;
+    fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError>;
 }
 
 /// What serde makes of `note`, its numbers written as shortly as they are in a file (`f32` as well as `f64`).

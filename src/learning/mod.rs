@@ -1,9 +1,8 @@
 //! Agents that learn to play: what they see, what they do, and how they get better.
 //!
 //! [`ddpg`] is the agent that coaches, with its way of seeing the table; [`thesis`] holds the thesis' own three; both learn
-//! with what [`network`] has. A [`run`] on disk drives any [`learner`] of the
-//! [`agents`]. What comes out is a [`policy`], which
-//! [`evaluation`] measures.
+//! with what [`network`] has. A [`run`] on disk drives any [`learner`] of the [`agents`]. What comes out is a [`policy`]; how
+//! good it is [`evaluation`] tells.
 
 pub mod agents;
 mod calendar;
@@ -12,11 +11,10 @@ pub mod evaluation;
 pub mod learner;
 pub mod network;
 mod normal;
-pub mod policy;
 pub mod run;
 pub mod settings;
 pub mod thesis;
 
 pub use calendar::{moment, timestamp};
+pub use ddpg::policy::{self, Policy, Proposal, file::PolicyError};
 pub use normal::normal_pair;
-pub use policy::{Policy, Proposal, file::PolicyError};

@@ -146,6 +146,16 @@ impl CueInputs {
         self.a * self.a + self.b * self.b
     }
 
+    /// The direction in degrees as people read it: from 0 to below 360, with so many decimals. Strokes are accepted and
+    /// computed with any number of turns.
+    pub fn phi_text(&self, decimals: usize) -> String {
+        let text = |degrees: f64| format!("{degrees:.decimals$}");
+        // Adding zero takes the sign from minus zero.
+        let degrees = text(self.phi.to_degrees().rem_euclid(360.0) + 0.0);
+        // What is rounded up to a whole turn is none.
+        if degrees == text(360.0) { text(0.0) } else { degrees }
+    }
+
     /// Reads `"a,b,theta,phi,V"`: radii, degrees, m/s. The values are not checked: see [`CueInputs::validate`].
     ///
     /// # Errors
@@ -300,6 +310,15 @@ mod tests {
         let cue = CueInputs { a: 0.5, b: 0.0, theta: 0.0, phi: 1.0, speed: 2.0 };
         assert!((strike(&table, &cue).velocity.to_angle() - (1.0 + angle)).abs() < 1e-14);
         assert_eq!(squirt(&Table::preset("thesis").unwrap(), 0.5), 0.0);
+    }
+
+    #[test]
+    fn directions_are_told_from_nought_to_below_a_whole_turn() {
+        let told = |degrees: f64| {
+            CueInputs { phi: degrees.to_radians(), ..CueInputs::parse("0,0,0,0,1").unwrap() }.phi_text(2)
+        };
+        let directions = [-27.0, 333.0, 0.0, -0.001, 359.999, 720.5, -0.0].map(told);
+        assert_eq!(directions, ["333.00", "333.00", "0.00", "0.00", "0.00", "0.50", "0.00"]);
     }
 
     #[test]

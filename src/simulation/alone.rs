@@ -9,11 +9,11 @@ use std::ops::ControlFlow;
 
 use super::{
     EventKind, Observer, Rail, Segment,
+    ball_ball::Triangle,
     contact_mode::ContactMode,
+    contacts::PAIRS_OF,
     cushions::cushion_ahead,
     engine::{Ball, Engine},
-    foresight::PAIRS_OF,
-    meetings::Triangle,
     predict::Ahead,
     savings::Savings,
 };

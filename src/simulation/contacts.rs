@@ -1,10 +1,16 @@
 //! Which balls touch cushions or each other.
 
 use super::{Constants, Rail, extrapolation::State};
-use crate::physics::{Contact, Contacts};
+use crate::{
+    physics::{Contact, Contacts},
+    table::BALLS,
+};
 
 /// Pairs of balls, in the order used everywhere.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+/// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
+pub const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
 
 /// All contacts of the balls whose opening speed, m/s, is `wanted`.
 pub fn touching(constants: &Constants, balls: &State, wanted: impl Fn(f64) -> bool) -> Contacts {

@@ -6,10 +6,10 @@ use glam::DVec2;
 
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
+    ball_ball::Triangle,
     chatter::Chatters,
     contact_mode::ContactMode,
-    foresight::PAIRS_OF,
-    meetings::Triangle,
+    contacts::PAIRS_OF,
     resting::Resting,
     savings::{All, Savings},
 };

@@ -85,9 +85,9 @@ impl Serialize for Event {
 
 /// Steps of resting contacts that an observer is ready to follow: a stiff contact takes thousands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Patience(pub u32);
+pub struct StepBudget(pub u32);
 
-impl Patience {
+impl StepBudget {
     /// Takes one step's worth of it, for [`Observer::contact_step`]; `Break` where none is left.
     pub const fn step(&mut self) -> ControlFlow<()> {
         match self.0.checked_sub(1) {

@@ -1,6 +1,8 @@
 //! When things happen: event prediction, the engine, and playback of what it recorded.
 
+mod active_set;
 mod alone;
+mod ball_ball;
 mod chatter;
 mod constants;
 mod contact_mode;
@@ -9,16 +11,14 @@ mod cushions;
 mod engine;
 mod events;
 mod extrapolation;
-mod foresight;
 mod impacts;
-mod meetings;
 mod playback;
 mod predict;
 mod pressing;
-mod regime;
 mod resting;
 mod roots;
 mod savings;
+mod scheduler;
 mod segment;
 mod tolerance;
 
@@ -28,7 +28,7 @@ mod tests;
 pub use crate::table::Rail;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
-pub use events::{Event, EventKind, Observer, Patience};
+pub use events::{Event, EventKind, Observer, StepBudget};
 pub use playback::{Recorder, Recording, ShotError};
 pub use savings::{All, Savings};
 pub use segment::{Curve, Segment};

@@ -1,6 +1,6 @@
-//! What predictions have in common: when something counts as touching, and meetings of balls in a resting contact.
+//! What predictions have in common: when something counts as touching, and collisions of balls in a resting contact.
 //!
-//! It is the duty of this file, `cushions` and `meetings` that nothing is missed and nothing is found twice: a ball that
+//! It is the duty of this file, `cushions` and `ball_ball` that nothing is missed and nothing is found twice: a ball that
 //! already touches what it has just hit meets it again only when it really comes back.
 
 use glam::DVec2;

@@ -1,7 +1,7 @@
 //! Resting contacts in time: adaptive integration of balls pressed against cushions or each other.
 //!
 //! The equations have no closed form, since the slip turns under the friction of cloth and cushion together. They are
-//! integrated with an estimated error of at most [`Tolerance::step`] a step, from one change of regime to
+//! integrated with an estimated error of at most [`Tolerance::step`] a step, from one change of the active set to
 //! the next. Where a slip ends its direction is singular in time; with time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip
 //! ends like an exponential and everything stays smooth.
 
@@ -9,9 +9,9 @@ use glam::DVec2;
 
 use super::{
     Constants, Rail,
+    active_set::{lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    regime::{lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     segment::Curve,
     tolerance::Tolerance,
 };
@@ -37,14 +37,14 @@ const LONGEST_CURVE: f64 = 0.04;
 const SHORTEST_QUINTIC: f64 = 1e-4;
 
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
-const PATIENCE: f64 = 4.0;
+const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
-/// The slip that ends first, which sets the pace of the rescaled time.
+/// The slip that ends first, which sets the scale of the rescaled time.
 #[derive(Clone, Copy, Debug)]
-enum Pace {
+enum TimeScale {
     /// None ends soon: time as it is.
     Time,
     /// A ball's on the cloth, its speed, or that of a contact (by index), which is this large at the start, m/s.
@@ -68,7 +68,7 @@ pub struct Resting {
     pub end: State,
     pub(super) contacts: Contacts,
     pub(super) set: ActiveSet,
-    pace: Pace,
+    time_scale: TimeScale,
     first: Forces,
     pub(super) last: Forces,
     shared: bool,
@@ -81,7 +81,7 @@ pub struct Resting {
     constants: Constants,
 }
 
-/// What is reached after a `span` of rescaled time, and the forces there in the regime of the step's beginning.
+/// What is reached after a `span` of rescaled time, and the forces there with the active set of the step's beginning.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
     span: f64,
@@ -123,7 +123,7 @@ impl Resting {
             begin,
             contacts,
             set,
-            pace: Pace::Time,
+            time_scale: TimeScale::Time,
             first: forces,
             last: forces,
             shared,
@@ -213,13 +213,13 @@ impl Resting {
         (error <= tolerance.negligible && soonest * self.constants.sliding <= tolerance.yielding).then_some(soonest)
     }
 
-    /// Hands over every slip of this regime and its rate.
+    /// Hands over every slip of this active set and its rate.
     fn slips(
         &self,
         radius: f64,
         balls: &State,
         forces: &Forces,
-        mut each: impl FnMut(fn(usize, f64) -> Pace, usize, DVec2, DVec2),
+        mut each: impl FnMut(fn(usize, f64) -> TimeScale, usize, DVec2, DVec2),
     ) {
         let rates: State = std::array::from_fn(|ball| BallState {
             position: balls[ball].position,
@@ -231,14 +231,14 @@ impl Resting {
             let (state, rate) = (&balls[ball], &rates[ball]);
             let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
             if slips(self.set.cloth[ball]) {
-                each(Pace::Cloth, ball, slip(state), slip(rate));
+                each(TimeScale::Cloth, ball, slip(state), slip(rate));
             } else if slips(self.set.roll[ball]) {
-                each(Pace::Roll, ball, state.velocity, rate.velocity);
+                each(TimeScale::Roll, ball, state.velocity, rate.velocity);
             }
         }
         for (index, contact) in self.contacts.as_slice().iter().enumerate() {
             if slips(self.set.contact[index]) {
-                each(Pace::Contact, index, contact.slip(radius, balls), contact.slip(radius, &rates));
+                each(TimeScale::Contact, index, contact.slip(radius, balls), contact.slip(radius, &rates));
             }
         }
     }
@@ -257,7 +257,7 @@ impl Resting {
         Trial { span, step, forces: self.forces(table, &step.end.balls, &from.forces) }
     }
 
-    /// Shortens a step at whose end a law of its regime is broken to just after the moment when that happened.
+    /// Shortens a step at whose end a law of its active set is broken to just after the moment when that happened.
     fn until_a_law_breaks(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         if whole.forces.slack < -self.constants.tolerance.slack {
             let shorter = self.until_the_slack_ends(table, begin, whole);
@@ -328,13 +328,13 @@ impl Resting {
         )
     }
 
-    /// Longest step whose course a polynomial can follow, in rescaled time; sets the pace.
+    /// Longest step whose course a polynomial can follow, in rescaled time; sets the scale.
     fn longest_step(&mut self, radius: f64) -> f64 {
-        self.pace = Pace::Time;
+        self.time_scale = TimeScale::Time;
         let sliding = self.constants.sliding;
         let mut longest = LONGEST_CURVE / sliding;
-        let (mut soonest, mut pace) = (f64::INFINITY, Pace::Time);
-        self.slips(radius, &self.begin, &self.first, |paced, index, slip, rate| {
+        let (mut soonest, mut time_scale) = (f64::INFINITY, TimeScale::Time);
+        self.slips(radius, &self.begin, &self.first, |scaled, index, slip, rate| {
             let length = slip.length();
             if length <= self.constants.tolerance.slip {
                 return;
@@ -343,7 +343,7 @@ impl Resting {
             longest = longest.min((2000.0 * STRAY / sliding * turn.powi(4)).powf(1.0 / 6.0));
             let falls = -length * length / rate.dot(slip);
             if falls > 0.0 && falls < soonest {
-                (soonest, pace) = (falls, paced(index, length));
+                (soonest, time_scale) = (falls, scaled(index, length));
             }
         });
         // Two balls turn about each other, and the forces between them with them.
@@ -356,18 +356,18 @@ impl Resting {
         if longest < 0.1 * soonest {
             return longest;
         }
-        self.pace = pace;
+        self.time_scale = time_scale;
         let share = 1.0 - longest / soonest;
         if share > 0.0 { soonest * FALL.min(-share.ln()) } else { FALL * soonest }
     }
 
     /// How fast time runs in rescaled time.
     fn time_rate(&self, radius: f64, balls: &State) -> f64 {
-        match self.pace {
-            Pace::Time => 1.0,
-            Pace::Cloth(ball, from) => slip(radius, balls[ball].velocity, balls[ball].spin).length() / from,
-            Pace::Roll(ball, from) => balls[ball].velocity.length() / from,
-            Pace::Contact(index, from) => self.contacts.as_slice()[index].slip(radius, balls).length() / from,
+        match self.time_scale {
+            TimeScale::Time => 1.0,
+            TimeScale::Cloth(ball, from) => slip(radius, balls[ball].velocity, balls[ball].spin).length() / from,
+            TimeScale::Roll(ball, from) => balls[ball].velocity.length() / from,
+            TimeScale::Contact(index, from) => self.contacts.as_slice()[index].slip(radius, balls).length() / from,
         }
     }
 
@@ -387,7 +387,7 @@ impl Resting {
         (self.end, self.goes_on) = (self.settled(table, trial.step.end.balls), false);
         if time > 0.0 {
             // What comes next is likely to be interrupted as soon.
-            self.next_step = PATIENCE * time;
+            self.next_step = GROWTH_AFTER_INTERRUPTION * time;
         }
     }
 
@@ -396,7 +396,7 @@ impl Resting {
         let begin = Phase { balls: self.begin, time: 0.0 };
         let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
         let mut trial = self.attempt(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
-        if !matches!(self.pace, Pace::Time) {
+        if !matches!(self.time_scale, TimeScale::Time) {
             // Newton's steps: how fast time runs is known.
             for _ in 0..MAX_GUESSES {
                 let late = time - trial.step.end.time;
@@ -418,7 +418,7 @@ impl Resting {
         balls
     }
 
-    /// The forces in this step's regime; they have to be sought from `near` ones on where a friction yields.
+    /// The forces in this step's active set; they have to be sought from `near` ones on where a friction yields.
     fn forces(&self, table: &Table, state: &State, near: &Forces) -> Forces {
         let contacts = self.contacts.as_slice();
         if self.set.yields() {

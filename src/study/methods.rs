@@ -3,7 +3,7 @@
 use std::{fmt, ops::ControlFlow};
 
 use super::{
-    plain::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
+    reference_engine::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
     shots::StudyShot,
     stability::{Trace, account},
     steps::Steps,
@@ -18,13 +18,13 @@ use crate::{
 pub enum Method {
     /// The program's own engine.
     Engine,
-    /// The plain engine, by roots between extrema.
+    /// The reference engine, by roots between extrema.
     Plain,
-    /// The plain engine with Ferrari's closed form.
+    /// The reference engine with Ferrari's closed form.
     ClosedForm,
-    /// The plain engine with Algorithm 1010.
+    /// The reference engine with Algorithm 1010.
     Algorithm1010,
-    /// The plain engine in single precision.
+    /// The reference engine in single precision.
     Single,
     /// The intuitive method.
     Steps(Steps),

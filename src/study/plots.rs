@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use super::{
     chart::{Chart, Mark, Panel, Series, Spot, decades},
-    plain::Real,
     precision::{Row, Study},
+    reference_engine::Real,
 };
 
 /// Size of a panel.

@@ -6,7 +6,7 @@ use super::{
     clock::timed,
     errors::Errors,
     methods::{Method, Run},
-    plain::Unjudged,
+    reference_engine::Unjudged,
     shots::StudyShot,
     statistics::{Share, Spread},
     truth::Truth,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{
-    plain::{DoubleDouble, Real},
+    reference_engine::{DoubleDouble, Real},
     shots::{Reference, ReferenceEvent, references},
     statistics::{Share, Spread},
     truth::Truth,

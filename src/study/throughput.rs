@@ -145,8 +145,8 @@ fn rate_on<T: Sync, R>(threads: usize, time: Duration, items: &[T], work: impl F
     let work = &work;
     thread::scope(|scope| {
         let own = |thread: usize| items.split_at(thread * items.len() / threads).1;
-        let crew: Vec<_> = (0..threads).map(|thread| scope.spawn(move || rate(time, own(thread), work))).collect();
-        crew.into_iter().map(|thread| thread.join().unwrap_or(0.0)).sum()
+        let workers: Vec<_> = (0..threads).map(|thread| scope.spawn(move || rate(time, own(thread), work))).collect();
+        workers.into_iter().map(|thread| thread.join().unwrap_or(0.0)).sum()
     })
 }
 

@@ -1,7 +1,7 @@
-//! What really becomes of a shot: the plain engine in double-double, and how much the shot amplifies a change.
+//! What really becomes of a shot: the reference engine in double-double, and how much the shot amplifies a change.
 
 use super::{
-    plain::{DoubleDouble, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
+    reference_engine::{DoubleDouble, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
     shots::{Reference, StudyShot},
 };
 use crate::{
@@ -105,4 +105,47 @@ fn chatters(events: &[(f64, EventKind)]) -> bool {
 /// Whether two bodies collide in an event.
 pub fn is_collision(kind: EventKind) -> bool {
     matches!(kind, EventKind::BallBall(..) | EventKind::BallRail(..))
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_xoshiro::Xoshiro256PlusPlus;
+
+    use super::*;
+    use crate::{
+        physics,
+        study::{shots::random_shots, stability::adversarial},
+    };
+
+    fn judges_all(random: usize, adversarial_shots: usize) {
+        let judge = |table: &Table, shot: &StudyShot| {
+            let vector = |x, y, z| Vector::new(DoubleDouble::of(x), DoubleDouble::of(y), DoubleDouble::of(z));
+            let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
+            let (velocity, spin) = (vector(v.x, v.y, 0.0), vector(w.x, w.y, w.z));
+            play(&Numbers::of(table), places(&shot.layout), velocity, spin, by_extrema).unwrap();
+        };
+        for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
+            for shot in random_shots(&table, random, 1) {
+                judge(&table, &shot);
+            }
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+            for _ in 0..adversarial_shots {
+                let shot = adversarial::shot(&table, &mut rng);
+                let cue = shot.cue.inputs();
+                judge(&table, &StudyShot { layout: shot.layout, cue, impulse: physics::strike(&table, &cue) });
+            }
+        }
+    }
+
+    #[test]
+    fn every_shot_is_judged() {
+        judges_all(50, 50);
+    }
+
+    #[test]
+    #[ignore = "takes some minutes"]
+    fn every_shot_of_a_long_run_is_judged() {
+        judges_all(1000, 300);
+    }
 }

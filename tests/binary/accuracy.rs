@@ -42,7 +42,7 @@ fn the_study_finds_what_it_must() {
         let steps = [1e-2, 1e-3, 1e-4].map(|dt| median(row("steps", Some(dt))));
         assert!(median(engine) < 1e-8 * steps[2], "{engine}");
         assert!(steps[0] > steps[1] && steps[1] > steps[2], "{steps:?}");
-        // The plain engine shares no line with the engine: both are right or both are wrong in the same way.
+        // The reference engine shares no line with the engine: both are right or both are wrong in the same way.
         assert!(number(&row("plain, roots between extrema", None)["rest_units"]["median"]) < 10.0);
         assert!(median(row("plain, f32", None)) > 1e6 * median(engine));
         assert!(number(&engine["rest_units"]["median"]) <= 2.0, "{engine}");

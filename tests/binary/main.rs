@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod command_faults;
 mod commands;
 mod cue_room;
 mod documents;

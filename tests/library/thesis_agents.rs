@@ -3,7 +3,7 @@
 use carom::{
     game::Reward,
     learning::{
-        learner::{Agent as Line, Learner, Plan},
+        learner::{Agent as Line, Learner, TrainingPlan},
         network::weights::{Reader, Writer},
         thesis::{
             agent::{Agent, Progress},
@@ -103,7 +103,7 @@ fn the_deterministic_policy_gradient_finds_the_optimum() {
 }
 
 fn start(agent: &str, settings: Value) -> Box<dyn Learner> {
-    let plan = Plan { reward: Reward::R1, seed: 4, shots: 650 };
+    let plan = TrainingPlan { reward: Reward::R1, seed: 4, shots: 650 };
     (Line::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
 }
 
@@ -133,7 +133,7 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
             let mut parts = start(agent, settings);
             while !whole.is_finished() {
                 parts = taken_up(agent, &put_aside(parts.as_ref()));
-                assert_eq!(whole.turn().unwrap(), parts.turn().unwrap(), "{agent}");
+                assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap(), "{agent}");
             }
             assert_eq!(parts.shots(), 650);
             assert!(parts.updates() >= 500);
@@ -143,30 +143,33 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
 }
 
 #[test]
-fn weights_are_adopted_and_those_of_another_agent_or_size_are_refused() {
+fn weights_are_loaded_and_those_of_another_agent_or_size_are_refused() {
     for agent in AGENTS {
         let mut teacher = start(agent, json!({}));
         for _ in 0..6 {
-            teacher.turn().unwrap();
+            teacher.iterate().unwrap();
         }
         let bytes = put_aside(teacher.as_ref());
         let mut pupil = start(agent, json!({}));
         let layouts = carom::learning::evaluation::held_out_layouts(pupil.table(), 300, 1);
-        pupil.adopt(&Reader::new(&bytes).unwrap()).unwrap();
+        pupil.load_weights(&Reader::new(&bytes).unwrap()).unwrap();
         assert_eq!(pupil.score(&layouts).unwrap(), teacher.score(&layouts).unwrap(), "{agent}");
         assert_eq!(pupil.shots(), 0);
         for other in AGENTS.into_iter().filter(|other| *other != agent) {
-            assert!(start(other, json!({})).adopt(&Reader::new(&bytes).unwrap()).is_err(), "{agent} for {other}");
+            assert!(
+                start(other, json!({})).load_weights(&Reader::new(&bytes).unwrap()).is_err(),
+                "{agent} for {other}"
+            );
         }
     }
     let bytes = put_aside(start("thesis-ddpg", json!({ "actor_layers": [8] })).as_ref());
-    let refused = start("thesis-ddpg", json!({})).adopt(&Reader::new(&bytes).unwrap()).unwrap_err().to_string();
+    let refused = start("thesis-ddpg", json!({})).load_weights(&Reader::new(&bytes).unwrap()).unwrap_err().to_string();
     assert!(refused.contains("16, 16, 16"), "{refused}");
 }
 
 #[test]
 fn wrong_settings_are_named() {
-    let plan = Plan { reward: Reward::R1, seed: 1, shots: 10 };
+    let plan = TrainingPlan { reward: Reward::R1, seed: 1, shots: 10 };
     for (agent, settings, word) in [
         ("q-learning", json!({ "learning_rate": 1.5 }), "learning_rate = 1.5"),
         ("q-learning", json!({ "alpha": 0.1 }), "alpha"),

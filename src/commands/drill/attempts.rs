@@ -2,7 +2,7 @@
 
 use super::{
     PlayOptions, Workspace,
-    options::Stroke,
+    options::StrokeInput,
     strokes::{Strokes, play},
 };
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
 /// Every attempt is logged.
 #[derive(Debug, clap::Args)]
 pub struct TryArgs {
-    /// The exercise.
+    /// The exercise: its name, its title, or the beginning of either.
     name: String,
     /// The stroke that is meant: "a,b,theta,phi,V" in radii, degrees and m/s, or "coach".
     #[arg(long, allow_hyphen_values = true)]
@@ -38,7 +38,7 @@ pub struct TryArgs {
 /// Strokes are read line by line from the standard input: "a,b,theta,phi,V", or the word coach.
 #[derive(Debug, clap::Args)]
 pub struct RunArgs {
-    /// The exercise.
+    /// The exercise: its name, its title, or the beginning of either.
     name: String,
     /// Points in a row that end the session.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -72,7 +72,7 @@ pub struct ExamArgs {
 }
 
 pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
-    let stroke: Stroke = args.shot.parse()?;
+    let stroke: StrokeInput = args.shot.parse()?;
     let workspace = Workspace::open()?;
     let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()]);
     session.shifted = args.shifted;

@@ -18,7 +18,7 @@ use crate::{
 /// Show the records of all exercises and games, or the sessions of one.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// An exercise, whose sessions are shown; one that is not in the library any more has its history still.
+    /// An exercise by its name or title, whose sessions are shown; one that is not in the library any more has its history still.
     name: Option<String>,
     /// The games under this rule instead: straight, one-cushion or three-cushion.
     #[arg(long, conflicts_with = "name")]
@@ -62,7 +62,7 @@ impl Subject {
 }
 
 #[derive(Serialize)]
-struct Row {
+struct ExerciseRow {
     name: String,
     #[serde(flatten)]
     score: Score,
@@ -83,10 +83,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let sessions = workspace.sessions();
     match (&args.name, args.games) {
         (Some(name), _) => {
-            let subject = Subject::Exercise(name.clone());
+            let mut subject = Subject::Exercise(name.clone());
             // A name that nobody knows is a mistake; one that was never tried is none.
             if subject.record(&sessions).tried == 0 {
-                workspace.exercise(name)?;
+                subject = Subject::Exercise(workspace.exercise(name)?.name.clone());
             }
             one(&subject, &sessions, args.json)
         }
@@ -120,7 +120,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         let record = subject.record(sessions);
         let Some(last) = record.last else { continue };
         if json {
-            json_line(&Row { name: subject.name(), score: record.into() })?;
+            json_line(&ExerciseRow { name: subject.name(), score: record.into() })?;
         }
         rows.push([
             subject.name(),

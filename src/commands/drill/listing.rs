@@ -35,7 +35,7 @@ pub struct ListArgs {
 /// Show an exercise: balls, what is to be learnt, the shot, its share code and the player's record.
 #[derive(Debug, clap::Args)]
 pub struct ShowArgs {
-    /// The exercise.
+    /// The exercise: its name, its title, or the beginning of either.
     name: String,
     /// Print one JSON object.
     #[arg(long)]

@@ -21,7 +21,7 @@ use crate::{
 /// Log makes and misses at a real table.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The exercise.
+    /// The exercise: its name, its title, or the beginning of either.
     name: String,
     /// What came of each attempt, in order: make or miss; "undo" takes the last one back, be it of an earlier call. Without
     /// any, they are read from the standard input, a word a line, and each is safe on the disk when it is answered.
@@ -65,8 +65,9 @@ impl Word {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let workspace = Workspace::open()?;
     let exercise = workspace.exercise(&args.name)?.clone();
+    let name = exercise.name.clone();
     let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
-    let mut log = Log { workspace, session, name: args.name.clone(), json: args.json, lock: None };
+    let mut log = Log { workspace, session, name, json: args.json, lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
             return Err(Failure::wrong_input(format_args!(

@@ -5,7 +5,7 @@ mod history;
 mod listing;
 mod log;
 mod options;
-mod own;
+mod positions;
 mod score;
 mod skill;
 mod stroke_by_stroke;
@@ -40,10 +40,10 @@ enum Drill {
     Log(log::Args),
     History(history::Args),
     Skill(skill::Args),
-    Save(own::SaveArgs),
-    Share(own::ShareArgs),
-    Add(own::AddArgs),
-    Remove(own::RemoveArgs),
+    Save(positions::SaveArgs),
+    Share(positions::ShareArgs),
+    Add(positions::AddArgs),
+    Remove(positions::RemoveArgs),
     Export(transfer::ExportArgs),
     Import(transfer::ImportArgs),
 }
@@ -58,10 +58,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Drill::Log(args) => log::run(args),
         Drill::History(args) => history::run(args),
         Drill::Skill(args) => skill::run(args),
-        Drill::Save(args) => own::save(args),
-        Drill::Share(args) => own::share(args),
-        Drill::Add(args) => own::add(args),
-        Drill::Remove(args) => own::remove(args),
+        Drill::Save(args) => positions::save(args),
+        Drill::Share(args) => positions::share(args),
+        Drill::Add(args) => positions::add(args),
+        Drill::Remove(args) => positions::remove(args),
         Drill::Export(args) => transfer::export(args),
         Drill::Import(args) => transfer::import(args),
     }

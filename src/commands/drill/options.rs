@@ -3,7 +3,7 @@
 use super::workspace::player;
 use crate::{
     coach::Skill,
-    commands::{Failure, named::skill_called},
+    commands::{Failure, lookup::skill_called},
     drills::{Exercise, Goal, Session, Venue},
     physics::CueInputs,
 };
@@ -39,14 +39,14 @@ impl PlayOptions {
 
 /// A stroke that is wanted.
 #[derive(Clone, Copy, Debug)]
-pub enum Stroke {
+pub enum StrokeInput {
     /// The player's.
     Own(CueInputs),
     /// The coach's.
     Coach,
 }
 
-impl std::str::FromStr for Stroke {
+impl std::str::FromStr for StrokeInput {
     type Err = Failure;
 
     fn from_str(text: &str) -> Result<Self, Failure> {

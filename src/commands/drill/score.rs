@@ -73,8 +73,8 @@ pub fn time(seconds: u64) -> String {
 
 /// A shot as the command line takes it.
 pub fn shot_text(cue: &CueInputs) -> String {
-    let CueInputs { a, b, theta, phi, speed } = *cue;
-    format!("{a:.4},{b:.4},{:.3},{:.3},{speed:.3}", theta.to_degrees(), phi.to_degrees())
+    let CueInputs { a, b, theta, speed, .. } = *cue;
+    format!("{a:.4},{b:.4},{:.3},{},{speed:.3}", theta.to_degrees(), cue.phi_text(3))
 }
 
 /// A layout as the command line takes it, to 0.1 mm.

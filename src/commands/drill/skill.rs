@@ -31,7 +31,7 @@ pub struct Args {
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct SkillAnswer {
     /// Absent where there is a bound alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     skill: Option<Skill>,
@@ -55,7 +55,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         let interval = [low, high];
         let kept = args.keep;
-        return Ok(json_line(&Answer { skill, scale, interval, attempts, made, shots, left_out, kept })?);
+        return Ok(json_line(&SkillAnswer { skill, scale, interval, attempts, made, shots, left_out, kept })?);
     }
     line(format_args!("errors {} (95 % interval); club is 2, beginner 4", estimate.words(2)))?;
     line(format_args!("from {made} of {attempts} made at {shots} shots"))?;

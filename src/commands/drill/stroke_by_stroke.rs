@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::{
-    options::{PlayOptions, Stroke},
+    options::{PlayOptions, StrokeInput},
     score::{Score, layout_text, plural, shot_text, words},
 };
 use crate::{
@@ -58,7 +58,7 @@ struct Position<'a> {
 
 /// What came of a stroke.
 #[derive(Serialize)]
-struct Turn<'a> {
+struct AttemptLine<'a> {
     kind: &'static str,
     number: usize,
     exercise: &'a str,
@@ -169,11 +169,11 @@ impl<'a> StrokeByStroke<'a> {
     }
 
     /// Plays one stroke; when its result is told, it is safe on the disk. `false` where the coach is to play and finds no point.
-    pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: Stroke) -> Result<bool, Failure> {
+    pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
-        let helped = matches!(stroke, Stroke::Coach);
+        let helped = matches!(stroke, StrokeInput::Coach);
         let cue_ball = self.session.cue_ball_now();
-        if let Stroke::Own(cue) = &stroke {
+        if let StrokeInput::Own(cue) = &stroke {
             check(table, cue).map_err(Failure::wrong_input)?;
         }
         let own = if helped { None } else { self.own(layout) };
@@ -185,9 +185,9 @@ impl<'a> StrokeByStroke<'a> {
             _ => None,
         };
         let meant = match (stroke, advice) {
-            (Stroke::Own(cue), _) => cue,
-            (Stroke::Coach, Some(advice)) => advice.cue,
-            (Stroke::Coach, None) => return Ok(false),
+            (StrokeInput::Own(cue), _) => cue,
+            (StrokeInput::Coach, Some(advice)) => advice.cue,
+            (StrokeInput::Coach, None) => return Ok(false),
         };
         let played = self.session.play(meant, helped).map_err(Failure::wrong_input)?;
         let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
@@ -211,7 +211,7 @@ impl<'a> StrokeByStroke<'a> {
         let (verdict, run) = (played.verdict(cue_ball), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
         if self.options.json {
-            let turn = Turn {
+            let turn = AttemptLine {
                 kind: "attempt",
                 number,
                 exercise: self.session.attempts.last().map_or("", |attempt| &attempt.exercise),
@@ -262,7 +262,7 @@ impl<'a> StrokeByStroke<'a> {
     /// The shot that the exercise teaches, where the balls lie for it.
     fn own(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
-        exercise.taught().filter(|_| !self.session.is_game())
+        exercise.model_shot().filter(|_| !self.session.is_game())
     }
 
     fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {

@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, IsTerminal};
 
 use super::{
-    options::{PlayOptions, Stroke},
+    options::{PlayOptions, StrokeInput},
     score::plural,
     stroke_by_stroke::StrokeByStroke,
 };
@@ -22,7 +22,7 @@ pub enum Strokes {
     /// The standard input for the side that begins a match, the coach for the other.
     AgainstCoach,
     /// One that is repeated.
-    Same(Stroke),
+    Same(StrokeInput),
 }
 
 /// Plays a session until it is over, its input has ended, or it has `most` attempts.
@@ -47,7 +47,7 @@ pub fn play(
         };
         let stroke = match strokes {
             Strokes::Same(stroke) => Ok(stroke),
-            _ if !is_line => Ok(Stroke::Coach),
+            _ if !is_line => Ok(StrokeInput::Coach),
             _ => {
                 prompt("shot a,b,theta,phi,V or coach: ");
                 let Some(line) = input.next() else { break };

@@ -2,7 +2,7 @@
 
 use crate::{
     coach::Skill,
-    commands::{Failure, named::own_skill, output::tell},
+    commands::{Failure, lookup::own_skill, output::tell},
     drills::{Exercise, Library, Session, Store},
     printing::OneLine,
     storage::{self, Places},
@@ -26,9 +26,9 @@ impl Workspace {
         Ok(Self { store, library })
     }
 
-    /// The exercise called `name`.
-    pub fn exercise(&self, name: &str) -> Result<&Exercise, Failure> {
-        self.library.get(name).map_err(Failure::failed)
+    /// The exercise that is meant by `text`: a name, a title, or the beginning of one.
+    pub fn exercise(&self, text: &str) -> Result<&Exercise, Failure> {
+        self.library.called(text).map_err(Failure::failed)
     }
 
     /// All sessions; files that cannot be read are told on the standard error.

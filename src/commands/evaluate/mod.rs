@@ -17,7 +17,7 @@ use self::robustness::Robustness;
 use super::{
     Failure,
     input::{note_doubts, table_named},
-    named::{policy_called, skill_called},
+    lookup::{policy_called, skill_called},
     recommend::coach_for,
 };
 use crate::{
@@ -74,9 +74,9 @@ pub struct Args {
     /// With --self-play, points after which an inning is broken off.
     #[arg(long, requires = "self_play", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     most_points: u32,
-    /// With --self-play, minutes after which play is broken off.
-    #[arg(long, requires = "self_play", value_parser = clap::value_parser!(u64).range(1..=100_000))]
-    minutes: Option<u64>,
+    /// With --self-play, minutes after which play is broken off; fractions are accepted.
+    #[arg(long, requires = "self_play", allow_negative_numbers = true)]
+    minutes: Option<f64>,
     /// Rank shots by the probability of this point and the next.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     plan: bool,
@@ -90,7 +90,7 @@ pub struct Args {
 
 /// What is printed.
 #[derive(Debug, Serialize)]
-struct Report {
+struct EvaluationReport {
     player: &'static str,
     /// Of players that have one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -192,7 +192,7 @@ fn measure(
     name: &'static str,
     reward: Reward,
     player: &mut dyn FnMut(&Layout) -> CueInputs,
-) -> Report {
+) -> EvaluationReport {
     let (mut total, mut successes, mut seconds, mut slowest) = (0.0, 0, 0.0, 0.0_f64);
     let mut chances = Vec::new();
     for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
@@ -209,7 +209,7 @@ fn measure(
         }
     }
     let count = args.layouts as usize;
-    Report {
+    EvaluationReport {
         player: name,
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         table: table.name.clone(),
@@ -224,8 +224,8 @@ fn measure(
     }
 }
 
-fn print(out: &mut impl Write, report: &Report, layouts: u32) -> std::io::Result<()> {
-    let Report { player, policy, table, measure, .. } = report;
+fn print(out: &mut impl Write, report: &EvaluationReport, layouts: u32) -> std::io::Result<()> {
+    let EvaluationReport { player, policy, table, measure, .. } = report;
     let policy = policy.as_ref().map_or_else(String::new, |policy| format!(" {policy}"));
     match report.success {
         Some(SuccessRate { rate, low, high, .. }) => writeln!(

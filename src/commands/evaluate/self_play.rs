@@ -12,7 +12,7 @@ use serde::Serialize;
 use super::{Args, request};
 use crate::{
     coach::{Inning, Skill, inning},
-    commands::{Failure, output::tell, recommend::coach_for},
+    commands::{Failure, input::minutes, output::tell, recommend::coach_for},
     learning::evaluation::{SuccessRate, held_out_layouts},
     printing,
     table::{Layout, Table},
@@ -26,7 +26,7 @@ const PROGRESS: u32 = 100;
 
 /// What is printed.
 #[derive(Debug, Serialize)]
-struct Report {
+struct SelfPlayReport {
     player: &'static str,
     table: String,
     rule: &'static str,
@@ -53,11 +53,12 @@ struct Report {
 }
 
 pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
+    let limit = args.minutes.map_or(Ok(NO_LIMIT), minutes)?;
     let coach = coach_for(table, &args.policy)?;
     let skill = args.skill.unwrap_or(Skill::EXPERT);
     let request = request(args, skill);
     let start = Instant::now();
-    let until = start + args.minutes.map_or(NO_LIMIT, |minutes| Duration::from_secs(60 * minutes));
+    let until = start + limit.min(NO_LIMIT);
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(!args.seed);
     let mut innings = Vec::new();
     for layout in held_out_layouts(coach.table(), args.layouts as usize, args.seed) {
@@ -90,13 +91,13 @@ pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
     Ok(())
 }
 
-fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: Duration) -> Report {
+fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: Duration) -> SelfPlayReport {
     let points: u32 = innings.iter().map(|inning| inning.points).sum();
     let misses = innings.iter().filter(|inning| inning.missed).count() as u32;
     let turns = f64::from((points + misses).max(1));
     let missed = SuccessRate::new(misses as usize, (points + misses) as usize);
     let average = |miss: f64| (miss > 0.0).then(|| (1.0 - miss) / miss);
-    Report {
+    SelfPlayReport {
         player: "recommender",
         table: table.to_owned(),
         rule: args.rule.name(),
@@ -119,7 +120,7 @@ fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: D
     }
 }
 
-fn print(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
+fn print(out: &mut impl Write, report: &SelfPlayReport) -> std::io::Result<()> {
     let end = |end: Option<f64>| end.map_or_else(|| "no limit".to_owned(), |end| format!("{end:.1}"));
     let [low, high] = report.average_interval.map(end);
     writeln!(

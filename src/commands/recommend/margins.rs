@@ -9,7 +9,7 @@ use crate::{
     commands::{Failure, output::tell},
     game::Rule,
     physics::CueInputs,
-    table::{Layout, Table},
+    table::{BALL_NAMES, Layout, Table},
 };
 
 /// Columns and rows of a map.
@@ -84,7 +84,7 @@ impl fmt::Display for Margins {
         match hit {
             Some(hit) => {
                 let side = if hit.left { "left" } else { "right" };
-                writeln!(formatter, ": hits ball {} {:.0} % full, {side} side", hit.ball, 100.0 * hit.fullness)?;
+                writeln!(formatter, ": hits {} {:.0} % full, {side} side", BALL_NAMES[hit.ball], 100.0 * hit.fullness)?;
             }
             None => writeln!(formatter)?,
         }

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use self::margins::Margins;
 use super::{
     Failure,
-    input::{ByTable, Keys, Scene, answer_lines, note_doubts},
-    named::{policy_called, skill_called},
+    input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts},
+    lookup::{policy_called, skill_called},
     output::impulse_words,
 };
 use crate::{
@@ -30,7 +30,7 @@ use crate::{
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     #[command(flatten)]
-    scene: Scene,
+    position: PositionArgs,
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
@@ -70,20 +70,20 @@ pub struct Args {
 
 /// One line of a batch.
 #[derive(Deserialize)]
-struct Question {
+struct BatchLine {
     preset: String,
     layout: Layout,
     #[serde(default)]
     rule: Rule,
 }
 
-impl Keys for Question {
+impl Keys for BatchLine {
     const KEYS: &'static [&'static str] = &["preset", "layout", "rule"];
 }
 
 /// The answer in JSON.
 #[derive(Serialize)]
-struct Answer {
+struct RecommendAnswer {
     cue: CueInputs,
     /// Absent where nothing was simulated.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,11 +148,11 @@ impl From<Option<Kind>> for Sort {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut coaches = ByTable::new(|table| coach_for(table, &args.policy));
-        return answer_lines(file, |question: Question| {
+        return answer_lines(file, |question: BatchLine| {
             answer(args, coaches.get(&question.preset)?, &question.layout, question.rule)
         });
     }
-    let (table, layout) = args.scene.read()?;
+    let (table, layout) = args.position.read()?;
     let coach = coach_for(table, &args.policy)?;
     let answer = answer(args, &coach, &layout, args.rule)?;
     let mut out = printing::stdout();
@@ -180,7 +180,7 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     Ok(coach.with_policy(policy_called(policy).map_err(Failure::failed)?))
 }
 
-fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
+fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<RecommendAnswer, Failure> {
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
         answer.margins = Margins::in_time(rule, coach.table(), layout, &answer.cue)?;
@@ -188,14 +188,14 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Ans
     Ok(answer)
 }
 
-fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answer, Failure> {
+fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<RecommendAnswer, Failure> {
     if args.policy_only {
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
         let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
         note_doubts(policy, coach.table(), Some(rule));
         let cue = policy.propose(coach.table(), layout);
-        return Ok(Answer {
+        return Ok(RecommendAnswer {
             cue,
             solved: None,
             chance: Chance::default(),
@@ -217,7 +217,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Answe
         seed: args.seed,
         ..Request::default()
     };
-    coach.recommend(layout, &request).map(Answer::from).map_err(Failure::wrong_input)
+    coach.recommend(layout, &request).map(RecommendAnswer::from).map_err(Failure::wrong_input)
 }
 
 fn no_policy(table: &Table) -> Failure {
@@ -227,7 +227,7 @@ fn no_policy(table: &Table) -> Failure {
     ))
 }
 
-impl From<Recommendation> for Answer {
+impl From<Recommendation> for RecommendAnswer {
     fn from(advice: Recommendation) -> Self {
         let alternatives = advice.alternatives.into_iter().map(|shot| Alternative {
             cue: shot.cue,
@@ -251,8 +251,8 @@ impl From<Recommendation> for Answer {
 }
 
 /// The recommendation for people to read.
-fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -> io::Result<()> {
-    let CueInputs { a, b, theta, phi, speed } = answer.cue;
+fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &RecommendAnswer) -> io::Result<()> {
+    let CueInputs { a, b, theta, speed, .. } = answer.cue;
     let side = match a {
         a if a > 0.0 => " (left of centre)",
         a if a < 0.0 => " (right of centre)",
@@ -261,7 +261,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
     writeln!(out, "a      {a:>8.3} R{side}")?;
     writeln!(out, "b      {b:>8.3} R")?;
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
-    writeln!(out, "phi    {:>8.3} degrees", phi.to_degrees())?;
+    writeln!(out, "phi    {:>8} degrees", answer.cue.phi_text(3))?;
     writeln!(out, "V      {speed:>8.3} m/s")?;
     writeln!(out, "{}", impulse_words(&strike(table, &answer.cue)))?;
     match answer.solved {
@@ -276,9 +276,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Answer) -
         write!(out, "{margins}")?;
     }
     for Alternative { cue, chance, sort, .. } in &answer.alternatives {
-        let CueInputs { a, b, theta, phi, speed } = *cue;
-        let (theta, phi) = (theta.to_degrees(), phi.to_degrees());
-        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi:.3},{speed:.3}: {}", words(sort, chance, args))?;
+        let CueInputs { a, b, theta, speed, .. } = *cue;
+        let (theta, phi) = (theta.to_degrees(), cue.phi_text(3));
+        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {}", words(sort, chance, args))?;
     }
     writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
 }

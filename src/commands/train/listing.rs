@@ -43,11 +43,11 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-const HEADINGS: [&str; 10] =
-    ["name", "agent", "reward", "table", "seed", "shots", "best", "last", "last written (UTC)", "state"];
+const HEADINGS: [&str; 11] =
+    ["name", "agent", "reward", "table", "seed", "shots", "of", "best", "last", "last written (UTC)", "state"];
 
 /// Columns that are numbers and stand to the right.
-const NUMBERS: [usize; 4] = [4, 5, 6, 7];
+const NUMBERS: [usize; 5] = [4, 5, 6, 7, 8];
 
 fn table(runs: &[Summary]) -> Vec<String> {
     let reward = |reward: Option<f64>| reward.map_or_else(|| "-".to_owned(), |reward| format!("{reward:.4}"));
@@ -59,7 +59,8 @@ fn table(runs: &[Summary]) -> Vec<String> {
             run.reward.to_string(),
             run.table.clone(),
             run.seed.to_string(),
-            format!("{}/{}", run.shots, run.planned_shots),
+            run.shots.to_string(),
+            run.planned_shots.to_string(),
             reward(run.best_reward),
             reward(run.last_reward),
             run.changed.clone(),

@@ -1,9 +1,9 @@
 //! `carom train`: train agents without a screen.
 
 mod listing;
-mod order;
-mod screen;
-mod several;
+mod multi_seed;
+mod progress;
+mod spec;
 
 use std::{
     io::{self, Write},
@@ -21,9 +21,9 @@ use signal_hook::{
     flag,
 };
 
-use self::screen::Screen;
-pub(super) use self::{listing::print as print_runs, screen::line};
-use super::{Failure, named::run_named, output::tell};
+use self::progress::Progress;
+pub(super) use self::{listing::print as print_runs, progress::line};
+use super::{Failure, input::minutes, lookup::run_named, output::tell};
 use crate::{
     game::Reward,
     learning::{
@@ -108,13 +108,13 @@ fn rewards() -> String {
 }
 
 /// How long to train and how to report.
-struct Session<'a> {
+struct TrainOptions<'a> {
     limit: Option<Duration>,
     stop: &'a (dyn Fn() -> bool + Sync),
     json: bool,
 }
 
-impl Session<'_> {
+impl TrainOptions<'_> {
     /// The limits of one run that may take so long.
     fn limits(&self, time: Option<Duration>) -> Limits<'_> {
         Limits { time, stop: self.stop }
@@ -135,36 +135,36 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // A terminal that is hung up, as when an ssh connection breaks, is no reason to stop: the run can be watched and
     // stopped from the next one.
     flag::register(SIGHUP, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
-    let session = Session { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json };
+    let options = TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json };
     if let Some(name) = &args.resume {
-        return resume(&run_named(name), args.jobs, &session);
+        return resume(&run_named(name), args.jobs, &options);
     }
-    let read = order::read(args)?;
+    let read = spec::read(args)?;
     if let Some(seeds) = args.seeds {
-        return several::start(read, seeds, args.jobs, &session);
+        return multi_seed::start(read, seeds, args.jobs, &options);
     }
     if args.jobs > 1 {
         let jobs = args.jobs;
         return Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; say how many by --seeds")));
     }
-    let order::Read { order, weights, folder } = read;
-    train(order.start(&folder, order.plan.seed, weights.as_ref()).map_err(failure)?, &session)
+    let spec::Read { spec, weights, folder } = read;
+    train(spec.start(&folder, spec.plan.seed, weights.as_ref()).map_err(failure)?, &options)
 }
 
 /// Goes on with one run or several.
-fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
+fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     if is_group(folder) {
-        return several::resume(folder, jobs, session);
+        return multi_seed::resume(folder, jobs, options);
     }
     let (run, notices) = Run::resume(folder).map_err(failure)?;
     for notice in notices {
         tell(format_args!("warning: {notice}"));
     }
-    train(run, session)
+    train(run, options)
 }
 
 /// Trains one run and says how it ended.
-fn train(mut run: Run, session: &Session<'_>) -> Result<(), Failure> {
+fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
         tell(format_args!(
@@ -173,13 +173,13 @@ fn train(mut run: Run, session: &Session<'_>) -> Result<(), Failure> {
             learner.plan().shots
         ));
     }
-    let mut screen = Screen::new(&run, session.json, None);
-    let ending = run.practise(&session.limits(session.limit), &mut screen);
-    screen.close();
+    let mut progress = Progress::new(&run, options.json, None);
+    let ending = run.train(&options.limits(options.limit), &mut progress);
+    progress.close();
     match ending.map_err(failure)? {
-        Ending::Finished(score) => say_result(&run, score, session.json)?,
+        Ending::Finished(score) => say_result(&run, score, options.json)?,
         Ending::Stopped(score) => {
-            say_result(&run, score, session.json)?;
+            say_result(&run, score, options.json)?;
             tell(how_to_go_on(run.folder()));
         }
         Ending::Abandoned => abandon(run).map_err(failure)?,
@@ -217,14 +217,6 @@ fn how_to_go_on(folder: &Path) -> String {
     format!("stopped early; go on with: carom train --resume \"{}\"", folder.display())
 }
 
-fn minutes(value: f64) -> Result<Duration, Failure> {
-    let accepted = value > 0.0;
-    let duration = Duration::try_from_secs_f64(60.0 * value).ok().filter(|_| accepted);
-    duration.ok_or_else(|| {
-        Failure::wrong_input(format_args!("--minutes {value} is no time to train; accepted is a number above 0"))
-    })
-}
-
 fn failure(error: RunError) -> Failure {
     match error {
         RunError::Occupied(_)
@@ -233,18 +225,5 @@ fn failure(error: RunError) -> Failure {
         | RunError::Origin { .. }
         | RunError::Start(StartError::Settings(_)) => Failure::wrong_input(error),
         _ => Failure::failed(error),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_time_is_refused_and_named() {
-        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
-        }
-        assert_eq!(minutes(0.5).unwrap(), Duration::from_secs(30));
     }
 }

@@ -15,7 +15,7 @@ pub const GATHERED: f64 = 0.6;
 /// What the shot of an exercise fails to show of what is taught, as sentences; none where all is well. An own exercise and
 /// one without a shot promise nothing.
 ///
-/// Every bundled shot meets ball 1 first, once, and makes the point by its rule; the rest depends on the category, and in
+/// Every bundled shot meets yellow first, once, and makes the point by its rule; the rest depends on the category, and in
 /// three-cushion on the pattern that the first tag names.
 ///
 /// # Errors
@@ -31,10 +31,10 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let mut checks = vec![
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", Point::of(exercise.rule, &table, layout).is_made(&technique.tally)),
-        ("it meets ball 1 first", technique.first == Some(1)),
-        ("it meets ball 1 only once before ball 2", technique.is_clean),
-        ("it covers at least a twentieth of ball 1", technique.fullness >= 0.05),
-        ("ball 1 stays away from ball 2 but in a time shot", technique.drives_second == is_tagged("time")),
+        ("it meets yellow first", technique.first == Some(1)),
+        ("it meets yellow only once before red", technique.is_clean),
+        ("it covers at least a twentieth of yellow", technique.fullness >= 0.05),
+        ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];
     checks.extend(match exercise.category {
         Category::FirstCaroms => vec![
@@ -49,7 +49,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ],
         Category::Follow => vec![
             ("the tip is more than 0.2 R above the centre", cue.b > 0.2),
-            ("ball 1 is hit at least seven tenths full", technique.fullness >= 0.7),
+            ("yellow is hit at least seven tenths full", technique.fullness >= 0.7),
             ("the cue ball turns by less than 40 degrees", technique.turn < 2.0 / 3.0 * FRAC_PI_3),
         ],
         Category::Side => vec![
@@ -59,7 +59,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         Category::OneCushion => vec![("the rule is one-cushion", exercise.rule.cushions() == 1)],
         Category::Gather => vec![
             ("the object balls are more than 0.6 m apart before", layout.balls[1].distance(layout.balls[2]) > GATHERED),
-            ("ball 1 comes back from a cushion", !technique.sent.is_empty()),
+            ("yellow comes back from a cushion", !technique.sent.is_empty()),
             ("all balls are within 0.6 m after", technique.spread <= GATHERED),
         ],
         Category::ThreeCushion => {
@@ -86,9 +86,9 @@ fn tagged(exercise: &Exercise, technique: &Technique, cue: &CueInputs) -> impl I
         ("follow", "with the tag follow the tip is more than 0.1 R above the centre", cue.b > 0.1),
         ("running", "with the tag running the first cushion is met with running english", technique.english > 0.0),
         ("reverse", "with the tag reverse the first cushion is met with reverse english", technique.english < 0.0),
-        ("cushion-first", "with the tag cushion-first a cushion comes before ball 1", !technique.before.is_empty()),
-        ("two-cushions", "with the tag two-cushions there are two cushions before ball 2", cushions == 2 || !direct),
-        ("three-cushions", "with the tag three-cushions there are three before ball 2", cushions == 3 || !direct),
+        ("cushion-first", "with the tag cushion-first a cushion comes before yellow", !technique.before.is_empty()),
+        ("two-cushions", "with the tag two-cushions there are two cushions before red", cushions == 2 || !direct),
+        ("three-cushions", "with the tag three-cushions there are three before red", cushions == 3 || !direct),
     ];
     let tags = &exercise.tags;
     checks

@@ -25,7 +25,7 @@ pub struct Technique {
     pub before: Vec<Rail>,
     /// Cushions between the first and the second object ball, in order.
     pub between: Vec<Rail>,
-    /// Cushions that ball 1 meets in the whole shot, in order.
+    /// Cushions that yellow meets in the whole shot, in order.
     pub sent: Vec<Rail>,
     /// How much of the first ball is covered as the cue ball comes on: 1 is head-on, 0 a graze.
     pub fullness: f64,

@@ -20,65 +20,65 @@ const MARKED: f64 = 0.2;
 pub const PATTERNS: [Pattern; 13] = [
     Pattern {
         tag: "natural",
-        course: "ball 1, a long cushion, a short one, the other long one, ball 2",
+        course: "yellow, a long cushion, a short one, the other long one, red",
         is_it: |t| t.before.is_empty() && course(t) == "lsL" && t.english > -MARKED,
     },
     Pattern {
         tag: "around-the-table",
-        course: "ball 1, four cushions or more, each the next one round the table, ball 2",
+        course: "yellow, four cushions or more, each the next one round the table, red",
         is_it: |t| t.before.is_empty() && matches!(course(t).as_str(), "lsLS" | "slSL" | "lsLSl" | "slSLs"),
     },
     Pattern {
         tag: "short-angle",
-        course: "ball 1, a short cushion, a long one, the other short one, ball 2",
+        course: "yellow, a short cushion, a long one, the other short one, red",
         is_it: |t| t.before.is_empty() && course(t) == "slS",
     },
     Pattern {
         tag: "across",
-        course: "ball 1, three times across between the long cushions, ball 2",
+        course: "yellow, three times across between the long cushions, red",
         is_it: |t| t.before.is_empty() && course(t) == "lLl",
     },
     Pattern {
         tag: "up-and-down",
-        course: "ball 1, three times along between the short cushions, ball 2",
+        course: "yellow, three times along between the short cushions, red",
         is_it: |t| t.before.is_empty() && course(t) == "sSs",
     },
     Pattern {
         tag: "plus",
-        course: "ball 1, a short cushion, a long one, the other long one, ball 2, with running english",
+        course: "yellow, a short cushion, a long one, the other long one, red, with running english",
         is_it: |t| t.before.is_empty() && course(t) == "slL" && t.english > MARKED,
     },
     Pattern {
         tag: "reverse",
-        course: "ball 1, three cushions, ball 2, with reverse english",
+        course: "yellow, three cushions, red, with reverse english",
         is_it: |t| t.before.is_empty() && t.between.len() == 3 && t.english < -MARKED,
     },
     Pattern {
         tag: "double-the-rail",
-        course: "ball 1, a cushion, the one beside it, the first one again, ball 2, with reverse english",
+        course: "yellow, a cushion, the one beside it, the first one again, red, with reverse english",
         is_it: |t| t.before.is_empty() && matches!(course(t).as_str(), "lsl" | "sls") && t.english < -MARKED,
     },
     Pattern {
         tag: "rail-first",
-        course: "a cushion, ball 1, two other cushions or more, ball 2",
+        course: "a cushion, yellow, two other cushions or more, red",
         is_it: |t| t.before.len() == 1 && t.between.first() != t.before.first(),
     },
     Pattern {
         tag: "ticky",
-        course: "a cushion, ball 1, the same cushion again, another or more, ball 2",
+        course: "a cushion, yellow, the same cushion again, another or more, red",
         is_it: |t| t.before.len() == 1 && t.between.first() == t.before.first(),
     },
     Pattern {
         tag: "umbrella",
-        course: "two cushions, ball 1, a third one or more, ball 2",
+        course: "two cushions, yellow, a third one or more, red",
         is_it: |t| t.before.len() == 2 && !t.between.is_empty(),
     },
     Pattern {
         tag: "bank",
-        course: "three cushions, ball 1, ball 2",
+        course: "three cushions, yellow, red",
         is_it: |t| t.before.len() == 3 && t.between.is_empty(),
     },
-    Pattern { tag: "time", course: "ball 1 sends ball 2 to where the cue ball comes", is_it: |t| t.drives_second },
+    Pattern { tag: "time", course: "yellow sends red to where the cue ball comes", is_it: |t| t.drives_second },
 ];
 
 /// The cushions between the balls: `l` and `s` for the long and the short one that is met first, `L` and `S` for those

@@ -99,7 +99,7 @@ pub struct Meaning {
     pub offset: Dual,
     /// Cue speed, m/s.
     pub speed: Dual,
-    /// Tip to the left and up, in units of R; in the view's frame, which may be a mirror's.
+    /// Tip to the left and up, in units of R; in the observation's frame, which may be a mirror's.
     pub tip: [Dual; 2],
     /// Elevation, rad.
     pub theta: Dual,

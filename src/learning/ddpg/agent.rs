@@ -12,7 +12,7 @@ use super::{
     action::Action,
     hyperparameters::Hyperparameters,
     networks::Networks,
-    scenes::{Scenes, action_rows},
+    observation_batch::{ObservationBatch, action_rows},
 };
 use crate::learning::network::{
     adam::{Adam, soft_update},
@@ -21,7 +21,7 @@ use crate::learning::network::{
 
 /// What an update reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Losses {
+pub struct UpdateStats {
     /// Mean cross entropy of the critic, nats.
     pub critic: f64,
     /// Minus what the actor climbs: the mean over its heads of the critic's probability.
@@ -69,35 +69,46 @@ impl Ddpg {
         &self.target
     }
 
-    /// Learns from a batch of shots: `scenes`, the action taken in each and the success, 0 to 1, that it had.
-    /// `pace` scales both learning rates.
+    /// Learns from a batch of shots: `observed`, the action taken in each and the success, 0 to 1, that it had.
+    /// `lr_factor` scales both learning rates.
     ///
     /// # Errors
     /// Where sizes differ, or where the networks no longer give finite numbers.
-    pub fn update(&mut self, scenes: &Scenes, actions: &[Action], successes: &[f32], pace: f64) -> Result<Losses> {
-        let count = scenes.views().len();
+    pub fn update(
+        &mut self,
+        observed: &ObservationBatch,
+        actions: &[Action],
+        successes: &[f32],
+        lr_factor: f64,
+    ) -> Result<UpdateStats> {
+        let count = observed.observations().len();
         if actions.len() != count || successes.len() != count {
-            bail!("{count} views, {} actions and {} successes are no batch", actions.len(), successes.len());
+            bail!("{count} observations, {} actions and {} successes are no batch", actions.len(), successes.len());
         }
-        let (clip, rate) = (self.hyper.gradient_clip, pace * self.hyper.critic_learning_rate);
-        let (gradient, critic) = self.critic_gradient(scenes, actions, successes)?;
+        let (clip, rate) = (self.hyper.gradient_clip, lr_factor * self.hyper.critic_learning_rate);
+        let (gradient, critic) = self.critic_gradient(observed, actions, successes)?;
         self.critic_optimiser.step(self.online.critic.parameters(), &gradient, rate, clip)?;
 
-        let rate = pace * self.hyper.actor_learning_rate;
-        let (gradient, actor) = self.actor_gradient(&scenes.first(self.hyper.actor_batch)?)?;
+        let rate = lr_factor * self.hyper.actor_learning_rate;
+        let (gradient, actor) = self.actor_gradient(&observed.first(self.hyper.actor_batch)?)?;
         self.actor_optimiser.step(self.online.actor.parameters(), &gradient, rate, clip)?;
 
         soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.target_rate)?;
         soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.target_rate)?;
-        Ok(Losses { critic, actor })
+        Ok(UpdateStats { critic, actor })
     }
 
     /// The mean cross entropy between the critic's probabilities and what happened, and its gradient.
-    fn critic_gradient(&self, scenes: &Scenes, actions: &[Action], successes: &[f32]) -> Result<(Tensor, f64)> {
+    fn critic_gradient(
+        &self,
+        observed: &ObservationBatch,
+        actions: &[Action],
+        successes: &[f32],
+    ) -> Result<(Tensor, f64)> {
         let count = actions.len();
-        let actions = action_rows(scenes.space(), actions)?;
+        let actions = action_rows(observed.space(), actions)?;
         let successes = Tensor::from_slice(successes, (count, 1), &Device::Cpu)?;
-        let judged = self.online.critic.record(&scenes.with_actions(&actions)?, Wanted::Parameters)?;
+        let judged = self.online.critic.record(&observed.with_actions(&actions)?, Wanted::Parameters)?;
         let logits = judged.outputs();
         // Along a logit the cross entropy rises with what was expected minus what happened.
         let errors = ((sigmoid(logits)? - &successes)? / count as f64)?;
@@ -108,11 +119,11 @@ impl Ddpg {
 
     /// The deterministic policy gradient, downhill: every head climbs the critic from its own action. The number is
     /// minus the mean probability that the critic gives the heads.
-    fn actor_gradient(&self, scenes: &Scenes) -> Result<(Tensor, f64)> {
+    fn actor_gradient(&self, observed: &ObservationBatch) -> Result<(Tensor, f64)> {
         let Networks { actor, critic } = &self.online;
-        let proposed = actor.record(scenes.states(), Wanted::Parameters)?;
-        let actions = proposed.outputs().tanh()?.reshape(((), scenes.space().actions()))?;
-        let (inputs, join) = scenes.record_actions(&actions)?;
+        let proposed = actor.record(observed.states(), Wanted::Parameters)?;
+        let actions = proposed.outputs().tanh()?.reshape(((), observed.space().actions()))?;
+        let (inputs, join) = observed.record_actions(&actions)?;
         let judged = critic.record(&inputs, Wanted::Inputs)?;
         let success = sigmoid(judged.outputs())?;
 
@@ -145,7 +156,7 @@ fn wanted(gradient: Option<Tensor>) -> Result<Tensor> {
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{action::ActionSpace, view::View},
+        learning::ddpg::{action::ActionSpace, observation::Observation},
         table::{Layout, Table},
     };
     use candle_core::Var;
@@ -154,7 +165,7 @@ mod tests {
     use std::sync::Arc;
 
     /// An agent with an opinion, and a batch for it.
-    fn agent_and_batch(space: ActionSpace) -> (Ddpg, Scenes, Vec<Action>, Vec<f32>) {
+    fn agent_and_batch(space: ActionSpace) -> (Ddpg, ObservationBatch, Vec<Action>, Vec<f32>) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);
         let layers = vec![24, 24];
         let hyper = Hyperparameters {
@@ -170,10 +181,11 @@ mod tests {
             parameters.set(&Tensor::from_vec(values, parameters.shape(), &Device::Cpu).unwrap()).unwrap();
         }
         let table = Arc::new(Table::default());
-        let views = (0..20).map(|index| View::new(&Layout::random(&table, &mut rng), index % 4)).collect();
+        let observations =
+            (0..20).map(|index| Observation::new(&Layout::random(&table, &mut rng), index % 4)).collect();
         let actions = (0..20).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
         let successes = (0..20).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
-        (agent, Scenes::new(&table, space, views).unwrap(), actions, successes)
+        (agent, ObservationBatch::new(&table, space, observations).unwrap(), actions, successes)
     }
 
     fn assert_close(ours: &Tensor, loss: &Tensor, parameters: &Var) {
@@ -189,12 +201,12 @@ mod tests {
     #[test]
     fn the_critics_gradient_is_candles_gradient_of_the_cross_entropy() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let (agent, scenes, actions, successes) = agent_and_batch(space);
-            let (gradient, loss) = agent.critic_gradient(&scenes, &actions, &successes).unwrap();
+            let (agent, observed, actions, successes) = agent_and_batch(space);
+            let (gradient, loss) = agent.critic_gradient(&observed, &actions, &successes).unwrap();
             let critic = &agent.online.critic;
-            let actions = action_rows(scenes.space(), &actions).unwrap();
+            let actions = action_rows(observed.space(), &actions).unwrap();
             let successes = Tensor::from_slice(&successes, (20, 1), &Device::Cpu).unwrap();
-            let logits = critic.forward(&scenes.with_actions(&actions).unwrap()).unwrap();
+            let logits = critic.forward(&observed.with_actions(&actions).unwrap()).unwrap();
             let theirs = mean_cross_entropy(&logits, &successes).unwrap();
             assert_eq!(f64::from(theirs.to_scalar::<f32>().unwrap()), loss);
             assert_close(&gradient, &theirs, critic.parameters());
@@ -204,18 +216,18 @@ mod tests {
     #[test]
     fn the_actors_gradient_is_candles_gradient_of_what_it_climbs() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let (agent, scenes, ..) = agent_and_batch(space);
-            let (gradient, _) = agent.actor_gradient(&scenes).unwrap();
+            let (agent, observed, ..) = agent_and_batch(space);
+            let (gradient, _) = agent.actor_gradient(&observed).unwrap();
             let actions = agent
                 .online
                 .actor
-                .forward(scenes.states())
+                .forward(observed.states())
                 .unwrap()
                 .tanh()
                 .unwrap()
-                .reshape(((), scenes.space().actions()))
+                .reshape(((), observed.space().actions()))
                 .unwrap();
-            let logits = agent.online.critic.forward_frozen(&scenes.with_actions(&actions).unwrap()).unwrap();
+            let logits = agent.online.critic.forward_frozen(&observed.with_actions(&actions).unwrap()).unwrap();
             let weighted = (&logits * agent.hyper.logit_weight).unwrap();
             let climbed = (sigmoid(&logits).unwrap() + weighted).unwrap().mean_all().unwrap();
             assert_close(&gradient, &climbed.neg().unwrap(), agent.online.actor.parameters());
@@ -247,20 +259,21 @@ mod tests {
         let space = hyper.actions;
         let mut agent = Ddpg::new(hyper, &mut rng).unwrap();
         let table = Arc::new(Table::default());
-        let scenes = |rng: &mut Xoshiro256PlusPlus| {
-            let views = (0..128).map(|index| View::new(&Layout::random(&table, rng), index % 4)).collect();
-            Scenes::new(&table, space, views).unwrap()
+        let observed = |rng: &mut Xoshiro256PlusPlus| {
+            let observations =
+                (0..128).map(|index| Observation::new(&Layout::random(&table, rng), index % 4)).collect();
+            ObservationBatch::new(&table, space, observations).unwrap()
         };
         for _ in 0..400 {
-            let scenes = scenes(&mut rng);
+            let observed = observed(&mut rng);
             let actions: Vec<Action> = (0..128).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
             let miss = |action: &Action| (0..2).map(|k| (action[k] - BEST[k]).powi(2)).sum::<f32>();
             let successes: Vec<f32> = actions.iter().map(|action| (-4.0 * miss(action)).exp()).collect();
-            agent.update(&scenes, &actions, &successes, 1.0).unwrap();
+            agent.update(&observed, &actions, &successes, 1.0).unwrap();
         }
-        let scenes = scenes(&mut rng);
-        let (actions, logits) = agent.target.judge(&scenes).unwrap();
-        let heads = actions.len() / scenes.views().len();
+        let observed = observed(&mut rng);
+        let (actions, logits) = agent.target.judge(&observed).unwrap();
+        let heads = actions.len() / observed.observations().len();
         for (actions, logits) in actions.chunks(heads).zip(logits.chunks(heads)) {
             let best = (0..heads).max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap();
             let apart = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());
@@ -270,7 +283,7 @@ mod tests {
 
     #[test]
     fn a_batch_of_unequal_parts_is_refused() {
-        let (mut agent, scenes, actions, successes) = agent_and_batch(ActionSpace::PhiV);
-        assert!(agent.update(&scenes, &actions[1..], &successes, 1.0).is_err());
+        let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::PhiV);
+        assert!(agent.update(&observed, &actions[1..], &successes, 1.0).is_err());
     }
 }

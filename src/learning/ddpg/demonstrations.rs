@@ -5,9 +5,9 @@ use rand::{Rng, RngExt};
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
-    replay::Experience,
-    stroke::playable,
-    view::{VIEWS, View},
+    first_contact::playable,
+    observation::{OBSERVATIONS, Observation},
+    replay::Transition,
 };
 use crate::{
     game::Reward,
@@ -25,14 +25,14 @@ pub fn demonstrate(
     layout: &Layout,
     patience: u32,
     rng: &mut (impl Rng + ?Sized),
-) -> Option<Experience> {
+) -> Option<Transition> {
     (0..TRIES).find_map(|_| {
-        let view = View::new(layout, rng.random_range(0..VIEWS));
+        let observation = Observation::new(layout, rng.random_range(0..OBSERVATIONS));
         let mut action: Action = [0.0; ACTIONS];
         action[..space.actions()].fill_with(|| rng.random_range(-1.0..=1.0));
-        let cue = playable(table, layout, &view, action).ok()?;
+        let cue = playable(table, layout, &observation, action).ok()?;
         let earned = reward.within(table, layout, &cue, patience);
-        (earned >= 1.0).then_some(Experience { view, action, success: 1.0 })
+        (earned >= 1.0).then_some(Transition { observation, action, success: 1.0 })
     })
 }
 
@@ -52,7 +52,7 @@ mod tests {
                 continue;
             };
             shown += 1;
-            let cue = playable(&table, &layout, &shot.view, shot.action).unwrap();
+            let cue = playable(&table, &layout, &shot.observation, shot.action).unwrap();
             assert_eq!(Reward::R3.of(&table, &layout, &cue), 1.0);
         }
         assert!(shown > 20, "{shown}");

@@ -1,4 +1,4 @@
-//! What the networks are told: numbers about a view for both, and about a view and an action for the critic.
+//! What the networks are told: numbers about an observation for both, and about an observation and an action for the critic.
 
 use std::f64::consts::PI;
 
@@ -7,18 +7,18 @@ use glam::DVec2;
 use super::{
     action::{Action, Meaning},
     dual::{Dual, DualVector},
-    stroke::Stroke,
-    view::{Line, View, free_path},
+    first_contact::FirstContact,
+    observation::{Line, Observation, free_path},
 };
 use crate::table::Table;
 
-/// Numbers about a view.
+/// Numbers about an observation.
 pub const STATE_FEATURES: usize = 38;
 
 /// A speed of the order of those in play, m/s: features are of the order of one.
 const TYPICAL_SPEED: f64 = 6.0;
 
-/// Numbers about a view and an action.
+/// Numbers about an observation and an action.
 pub const ACTION_FEATURES: usize = 58;
 
 /// Changes whenever the features change: weights fit one version only.
@@ -26,14 +26,14 @@ pub const FEATURE_VERSION: &str = "final-course-1";
 
 /// Appends [`STATE_FEATURES`] numbers of the order of one: where the balls lie, how they lie to each other, the cushions
 /// behind the first ball, and the second ball's images in the cushions as seen from the first.
-pub fn push_state_features(table: &Table, view: &View, out: &mut Vec<f32>) {
+pub fn push_state_features(table: &Table, observation: &Observation, out: &mut Vec<f32>) {
     let mut push = |value: f64| out.push(value as f32);
     let (reach, length, diameter) = (table.reach(), table.length, 2.0 * table.radius);
-    for ball in [view.cue, view.first, view.second] {
+    for ball in [observation.cue, observation.first, observation.second] {
         push(ball.x / reach.x);
         push(ball.y / reach.y);
     }
-    let lines = view.lines(table);
+    let lines = observation.lines(table);
     for Line { distance, direction } in [lines.to_first, lines.to_second, lines.onward] {
         push(direction.x);
         push(direction.y);
@@ -49,10 +49,10 @@ pub fn push_state_features(table: &Table, view: &View, out: &mut Vec<f32>) {
     let beside = aim.perp_dot(lines.onward.direction) * lines.onward.distance / diameter;
     push(beside / (1.0 + beside.abs()));
     for direction in [aim, aim.perp(), -aim.perp()] {
-        push(free_path(table, view.first, direction) / length);
+        push(free_path(table, observation.first, direction) / length);
     }
-    for image in view.images(table) {
-        let span = image - view.first;
+    for image in observation.images(table) {
+        let span = image - observation.first;
         let distance = span.length().max(diameter);
         push(aim.dot(span) / distance);
         push(aim.perp_dot(span) / distance);
@@ -66,10 +66,10 @@ pub fn push_state_features(table: &Table, view: &View, out: &mut Vec<f32>) {
 /// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network
 /// would need many units to find this rotation by itself, and points are missed by a degree. Where the spin takes the
 /// cue ball from there in the end, its final direction, is the second such frame.
-pub fn push_action_features(table: &Table, view: &View, action: Action, out: &mut Vec<Dual>) {
+pub fn push_action_features(table: &Table, observation: &Observation, action: Action, out: &mut Vec<Dual>) {
     let meaning = Meaning::of(table, action);
-    let lines = view.lines(table);
-    let stroke = Stroke::of(table, &meaning, lines.to_first.distance);
+    let lines = observation.lines(table);
+    let stroke = FirstContact::of(table, &meaning, lines.to_first.distance);
     let offset = meaning.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
@@ -92,9 +92,9 @@ pub fn push_action_features(table: &Table, view: &View, action: Action, out: &mu
     // Where the first ball goes, against where the second one lies: a kiss spoils the shot.
     let onward = DualVector::constant(lines.onward.direction);
     out.extend([normal.dot(onward), normal.perp_dot(onward)]);
-    let contact = DualVector::constant(view.first) - normal * diameter;
+    let contact = DualVector::constant(observation.first) - normal * diameter;
     let mut targets = [DualVector::constant(DVec2::ZERO); 5];
-    for (place, target) in std::iter::once(view.second).chain(view.images(table)).enumerate() {
+    for (place, target) in std::iter::once(observation.second).chain(observation.images(table)).enumerate() {
         let span = DualVector::constant(target) - contact;
         // A tenth of a millimetre keeps the slopes finite where the balls touch.
         let distance = (span.dot(span) + 1e-8).sqrt();
@@ -108,7 +108,7 @@ pub fn push_action_features(table: &Table, view: &View, action: Action, out: &mu
     }
     // How far the cue ball can go along the tangent; its slope is left out, for it jumps in the corners.
     let tangent = DVec2::new(-normal.y.value, normal.x.value);
-    out.push(Dual::constant(free_path(table, view.first, tangent) / table.length));
+    out.push(Dual::constant(free_path(table, observation.first, tangent) / table.length));
     let [left, up, elevation] = [2, 3, 4].map(|index| Dual::action(index, f64::from(action[index])));
     out.extend([left, up, elevation, left * left, up * up, left * up, left * elevation]);
     out.extend([stroke.speed, stroke.speed_on_arrival].map(|speed| speed * (1.0 / TYPICAL_SPEED)));
@@ -121,7 +121,7 @@ pub fn push_action_features(table: &Table, view: &View, action: Action, out: &mu
         out.extend([heading.dot(towards), heading.perp_dot(towards)]);
     }
     let DualVector { x, y } = heading;
-    out.push(Dual::constant(free_path(table, view.first, DVec2::new(x.value, y.value)) / table.length));
+    out.push(Dual::constant(free_path(table, observation.first, DVec2::new(x.value, y.value)) / table.length));
 }
 
 /// Velocity of the cue ball once it rolls after meeting the first ball, as a share of its speed on arrival: the collision
@@ -130,14 +130,14 @@ pub fn push_action_features(table: &Table, view: &View, action: Action, out: &mu
 /// left out; the network knows the sidespin itself.
 fn final_course(
     table: &Table,
-    stroke: &Stroke,
+    stroke: &FirstContact,
     course: DualVector,
     normal: DualVector,
     offset: Dual,
     cos_cut: Dual,
 ) -> DualVector {
     let along = cos_cut * (0.5 * (1.0 - table.ball_restitution));
-    let grip = match table.ball_friction {
+    let friction = match table.ball_friction {
         None => Dual::constant(1.0 / 7.0),
         Some(friction) => {
             let rubbing =
@@ -145,7 +145,7 @@ fn final_course(
             (cos_cut * rubbing.recip() * (0.5 * friction * (1.0 + table.ball_restitution))).at_most(1.0 / 7.0)
         }
     };
-    let aside = offset * (-grip + 1.0);
+    let aside = offset * (-friction + 1.0);
     let roll = stroke.roll_on_arrival * (2.0 / 7.0);
     DualVector {
         x: (normal.x * along - normal.y * aside) * (5.0 / 7.0) + course.x * roll,
@@ -165,9 +165,9 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    fn features(table: &Table, view: &View, action: Action) -> Vec<Dual> {
+    fn features(table: &Table, observation: &Observation, action: Action) -> Vec<Dual> {
         let mut out = Vec::new();
-        push_action_features(table, view, action, &mut out);
+        push_action_features(table, observation, action, &mut out);
         assert_eq!(out.len(), ACTION_FEATURES);
         out
     }
@@ -182,13 +182,13 @@ mod tests {
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
             for case in 0..400 {
-                let view = View::new(&Layout::random(&table, &mut rng), case % 4);
+                let observation = Observation::new(&Layout::random(&table, &mut rng), case % 4);
                 let mut state = Vec::new();
-                push_state_features(&table, &view, &mut state);
+                push_state_features(&table, &observation, &mut state);
                 assert_eq!(state.len(), STATE_FEATURES);
                 assert!(state.iter().all(|x| x.abs() <= 4.0), "{state:?}");
                 let action = random(&mut rng, 1.0);
-                for (index, feature) in features(&table, &view, action).iter().enumerate() {
+                for (index, feature) in features(&table, &observation, action).iter().enumerate() {
                     assert!(feature.value.abs() <= 8.0, "{index}: {feature:?}");
                     assert!(feature.slope.iter().all(|slope| slope.abs() < 200.0), "{index}: {feature:?}");
                 }
@@ -201,9 +201,9 @@ mod tests {
         let table = Table::default();
         let diameter = 2.0 * table.radius;
         let layout = Layout::new([DVec2::ZERO, DVec2::new(diameter, 0.0), DVec2::new(0.0, -diameter)]);
-        for view in View::all(&layout) {
+        for observation in Observation::all(&layout) {
             for action in [[-1.0, 0.0, 1.0, 1.0, 1.0], [1.0; ACTIONS], [0.0, 1.0, -1.0, 0.0, -1.0]] {
-                let features = features(&table, &view, action);
+                let features = features(&table, &observation, action);
                 assert!(features.iter().all(|f| f.value.is_finite() && f.slope.iter().all(|s| s.is_finite())));
             }
         }
@@ -214,14 +214,14 @@ mod tests {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
         for case in 0..50 {
-            let view = View::new(&Layout::random(&table, &mut rng), case % 4);
+            let observation = Observation::new(&Layout::random(&table, &mut rng), case % 4);
             let action = random(&mut rng, 0.8);
-            let here = features(&table, &view, action);
+            let here = features(&table, &observation, action);
             for along in 0..ACTIONS {
                 let moved = |step: f32| {
                     let mut action = action;
                     action[along] += step;
-                    (features(&table, &view, action), f64::from(action[along]))
+                    (features(&table, &observation, action), f64::from(action[along]))
                 };
                 let ((after, x1), (before, x0)) = (moved(1e-3), moved(-1e-3));
                 // The free paths' slopes are left out on purpose.

@@ -1,4 +1,4 @@
-//! Hindsight experience replay (Andrychowicz et al. 2017; thesis 6.1.1): a shot that made no point would have made
+//! Hindsight transition replay (Andrychowicz et al. 2017; thesis 6.1.1): a shot that made no point would have made
 //! it had that ball lain on the cue ball's way. So it is put there, and the shot is remembered as a success.
 
 use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
@@ -6,31 +6,31 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{action::Action, replay::Experience, stroke::playable, view::View};
+use super::{action::Action, first_contact::playable, observation::Observation, replay::Transition};
 use crate::{
     game::Reward,
     physics::strike,
-    simulation::{Event, EventKind, Observer, Patience, Segment, watch},
+    simulation::{Event, EventKind, Observer, Segment, StepBudget, watch},
     table::{Layout, Table},
 };
 
-/// The shot of `action` in `view`, which missed, with the second ball moved to where it makes the point. `None` where the
+/// The shot of `action` in `observation`, which missed, with the second ball moved to where it makes the point. `None` where the
 /// cue ball met no ball first, or the moved ball is in the way of the others or makes no point. The new outcome is played,
 /// with at most `patience` steps of resting contacts, not supposed.
 pub fn relabel(
     table: &Table,
     reward: Reward,
-    (layout, view, action): (&Layout, &View, Action),
+    (layout, observation, action): (&Layout, &Observation, Action),
     patience: u32,
     rng: &mut (impl Rng + ?Sized),
-) -> Option<Experience> {
-    let cue = playable(table, layout, view, action).ok()?;
-    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: Patience(patience) };
+) -> Option<Transition> {
+    let cue = playable(table, layout, observation, action).ok()?;
+    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: StepBudget(patience) };
     watch(table, layout, &strike(table, &cue), &mut way);
     let (first, begin) = way.met?;
-    // The ball that was not met is the one to move; the view must call it the second.
+    // The ball that was not met is the one to move; the observation must call it the second.
     let second = 3 - first;
-    if view.mirror * view.second != layout.balls[second] {
+    if observation.mirror * observation.second != layout.balls[second] {
         return None;
     }
     let time = begin + (way.last - begin) * rng.random::<f64>();
@@ -42,11 +42,11 @@ pub fn relabel(
     let mut moved = *layout;
     moved.balls[second] = target;
     moved.validate(table).ok()?;
-    let view = View { second: view.mirror * target, ..*view };
+    let observation = Observation { second: observation.mirror * target, ..*observation };
     // The moved ball may be in the cue's way.
-    let is_same = playable(table, &moved, &view, action) == Ok(cue);
+    let is_same = playable(table, &moved, &observation, action) == Ok(cue);
     let success = is_same && reward.within(table, &moved, &cue, patience) >= 1.0;
-    success.then_some(Experience { view, action, success: 1.0 })
+    success.then_some(Transition { observation, action, success: 1.0 })
 }
 
 /// Keeps the cue ball's way after it has met its first ball.
@@ -57,7 +57,7 @@ struct Way {
     last: f64,
     /// Pieces of the way and when they end, s.
     segments: Vec<(Segment, f64)>,
-    patience: Patience,
+    patience: StepBudget,
 }
 
 impl Observer for Way {
@@ -87,7 +87,7 @@ impl Observer for Way {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::view::VIEWS;
+    use crate::learning::ddpg::observation::OBSERVATIONS;
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -100,15 +100,21 @@ mod tests {
                 let mut found = 0;
                 for case in 0..200 {
                     let layout = Layout::random(&table, &mut rng);
-                    let view = View::new(&layout, case % VIEWS);
+                    let observation = Observation::new(&layout, case % OBSERVATIONS);
                     let action = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
-                    let Some(after) = relabel(&table, reward, (&layout, &view, action), 20, &mut rng) else { continue };
+                    let Some(after) = relabel(&table, reward, (&layout, &observation, action), 20, &mut rng) else {
+                        continue;
+                    };
                     found += 1;
-                    assert_eq!((after.view.cue, after.view.first, after.action), (view.cue, view.first, action));
-                    let balls = [after.view.cue, after.view.first, after.view.second].map(|ball| view.mirror * ball);
+                    assert_eq!(
+                        (after.observation.cue, after.observation.first, after.action),
+                        (observation.cue, observation.first, action)
+                    );
+                    let balls = [after.observation.cue, after.observation.first, after.observation.second]
+                        .map(|ball| observation.mirror * ball);
                     let moved = Layout::new(balls);
                     moved.validate(&table).unwrap();
-                    let cue = playable(&table, &moved, &after.view, action).unwrap();
+                    let cue = playable(&table, &moved, &after.observation, action).unwrap();
                     assert_eq!(reward.of(&table, &moved, &cue), 1.0);
                 }
                 assert!(found > 20, "{name} {reward}: {found}");

@@ -13,7 +13,7 @@ use crate::learning::settings::{
 pub struct Hyperparameters {
     /// What the agent chooses: the thesis' phi and V, or all five cue inputs.
     pub actions: ActionSpace,
-    /// Actions that the actor proposes for a view. One alone averages between success windows and misses all; several,
+    /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
     /// Units of the actor's hidden layers.
@@ -34,14 +34,14 @@ pub struct Hyperparameters {
     pub actor_batch: usize,
     /// New shots before every update.
     pub shots_per_update: usize,
-    /// Share of them that are played near the critic's favourite among all heads in all views of a layout; the others
-    /// near any head's action in any view.
+    /// Share of them that are played near the critic's favourite among all heads in all observations of a layout; the others
+    /// near any head's action in any observation.
     pub critic_chooses: f64,
     /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
     /// left behind.
     pub replay: usize,
     /// Share of the misses for which it is tried to remember them a second time, as the points that they would have been with
-    /// the second ball elsewhere (hindsight experience replay, thesis 6.1.1). For rewards of points only.
+    /// the second ball elsewhere (hindsight transition replay, thesis 6.1.1). For rewards of points only.
     pub hindsight: f64,
     /// Share of the shots of an update that are not the agent's own but a search's solutions (demonstrations, thesis
     /// 6.1.2). For rewards of points only.

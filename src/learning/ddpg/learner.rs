@@ -5,14 +5,15 @@ use serde_json::Value;
 use super::{
     hyperparameters::Hyperparameters,
     networks::Networks,
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
+    policy::score,
     snapshot,
     trainer::{Task, Trainer},
 };
 use crate::{
     learning::{
-        evaluation::{Score, score},
-        learner::{Agent, Learner, Plan, StartError, Turn, note_of},
+        evaluation::Score,
+        learner::{Agent, Iteration, Learner, StartError, TrainingPlan, note_of},
         network::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
@@ -27,7 +28,7 @@ pub const AGENT: Agent = Agent {
         let refuse = |reason: &dyn std::fmt::Display| StartError::Settings(reason.to_string());
         let hyperparameters: Hyperparameters = serde_json::from_value(settings).map_err(|error| refuse(&error))?;
         hyperparameters.validate().map_err(|error| refuse(&error))?;
-        let Plan { reward, seed, shots } = plan;
+        let TrainingPlan { reward, seed, shots } = plan;
         let of_points = hyperparameters.hindsight > 0.0 || hyperparameters.demonstrations > 0.0;
         if of_points && reward.rule().is_none() {
             let reason =
@@ -44,9 +45,9 @@ impl Learner for Trainer {
         AGENT.name
     }
 
-    fn plan(&self) -> Plan {
+    fn plan(&self) -> TrainingPlan {
         let Task { reward, seed, shots, .. } = self.task;
-        Plan { reward, seed, shots }
+        TrainingPlan { reward, seed, shots }
     }
 
     fn table(&self) -> &Table {
@@ -67,19 +68,19 @@ impl Learner for Trainer {
     }
 
     fn learning_rate(&self) -> f64 {
-        self.pace() * self.task.hyperparameters.critic_learning_rate
+        self.lr_schedule() * self.task.hyperparameters.critic_learning_rate
     }
 
     fn exploration(&self) -> f64 {
         self.task.hyperparameters.exploration.uniform
     }
 
-    fn memory(&self) -> Option<f64> {
+    fn replay_fill(&self) -> Option<f64> {
         Some(self.replay.len() as f64 / self.task.hyperparameters.replay.max(1) as f64)
     }
 
-    fn turn(&mut self) -> candle_core::Result<Turn> {
-        self.turn()
+    fn iterate(&mut self) -> candle_core::Result<Iteration> {
+        self.iterate()
     }
 
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score> {
@@ -100,7 +101,7 @@ impl Learner for Trainer {
     }
 
     /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
-    fn adopt(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
+    fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
         let own = &self.agent.online;
         let network = |name: &str, inputs, own: &[usize]| {
@@ -132,7 +133,7 @@ mod tests {
     #[test]
     fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {
         let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
-        teacher.turn().unwrap();
+        teacher.iterate().unwrap();
         let mut writer = Writer::default();
         let note = teacher.save(&mut writer).unwrap();
         let checkpoint = writer.finish(&note).unwrap();
@@ -144,13 +145,13 @@ mod tests {
         for file in [checkpoint.as_slice(), &policy] {
             let mut pupil = Trainer::new(Task { seed: 6, ..small_task() }, Table::default()).unwrap();
             assert_ne!(weights(&pupil), weights(&teacher));
-            pupil.adopt(&Reader::new(file).unwrap()).unwrap();
+            pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             assert_eq!(weights(&pupil), weights(&teacher));
             assert_eq!(pupil.shots(), 0);
 
             let mut task = small_task();
             task.hyperparameters.critic_layers = vec![8];
-            let refused = Trainer::new(task, Table::default()).unwrap().adopt(&Reader::new(file).unwrap());
+            let refused = Trainer::new(task, Table::default()).unwrap().load_weights(&Reader::new(file).unwrap());
             let refused = refused.unwrap_err().to_string();
             assert!(
                 refused.contains("critic") && refused.contains("-8-1") && refused.contains("-16-16-1"),
@@ -161,7 +162,7 @@ mod tests {
 
     #[test]
     fn settings_come_back_and_wrong_ones_are_named() {
-        let plan = Plan { reward: crate::game::Reward::R1, seed: 1, shots: 10 };
+        let plan = TrainingPlan { reward: crate::game::Reward::R1, seed: 1, shots: 10 };
         let start = |settings: Value| (AGENT.start)(plan, Table::default(), settings);
         let some = start(serde_json::json!({ "heads": 2 })).unwrap().settings();
         assert_eq!(start(some.clone()).unwrap().settings(), some);

@@ -1,4 +1,4 @@
-//! The actor and the critic, and what they say about a batch of views.
+//! The actor and the critic, and what they say about a batch of observations.
 
 use candle_core::{Result, Tensor};
 use rand::Rng;
@@ -6,7 +6,7 @@ use rand::Rng;
 use super::{
     action::{Action, aim_at},
     hyperparameters::Hyperparameters,
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS, Scenes, actions_in},
+    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS, ObservationBatch, actions_in},
 };
 use crate::learning::network::mlp::Mlp;
 
@@ -16,9 +16,9 @@ const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// An actor and a critic.
 #[derive(Clone, Debug)]
 pub struct Networks {
-    /// From a view to the heads' actions, before the squashing.
+    /// From an observation to the heads' actions, before the squashing.
     pub actor: Mlp,
-    /// From a view and an action to the logit of success.
+    /// From an observation and an action to the logit of success.
     pub critic: Mlp,
 }
 
@@ -53,25 +53,25 @@ impl Networks {
         Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()? })
     }
 
-    /// The heads' actions, the heads of a view one after the other.
+    /// The heads' actions, the heads of an observation one after the other.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn actions(&self, scenes: &Scenes) -> Result<Vec<Action>> {
-        actions_in(scenes.space(), &self.propose(scenes)?)
+    pub fn actions(&self, observed: &ObservationBatch) -> Result<Vec<Action>> {
+        actions_in(observed.space(), &self.propose(observed)?)
     }
 
     /// The heads' actions and the critic's logit of success for each.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn judge(&self, scenes: &Scenes) -> Result<(Vec<Action>, Vec<f32>)> {
-        let actions = self.propose(scenes)?;
-        let logits = self.critic.forward_frozen(&scenes.with_actions(&actions)?)?;
-        Ok((actions_in(scenes.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
+    pub fn judge(&self, observed: &ObservationBatch) -> Result<(Vec<Action>, Vec<f32>)> {
+        let actions = self.propose(observed)?;
+        let logits = self.critic.forward_frozen(&observed.with_actions(&actions)?)?;
+        Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
     }
 
-    fn propose(&self, scenes: &Scenes) -> Result<Tensor> {
-        self.actor.forward_frozen(scenes.states())?.tanh()?.reshape(((), scenes.space().actions()))
+    fn propose(&self, observed: &ObservationBatch) -> Result<Tensor> {
+        self.actor.forward_frozen(observed.states())?.tanh()?.reshape(((), observed.space().actions()))
     }
 }

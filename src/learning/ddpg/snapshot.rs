@@ -11,10 +11,10 @@ use super::{
     agent::Ddpg,
     features::FEATURE_VERSION,
     networks::Networks,
-    replay::{Experience, ReplayBuffer},
-    scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+    observation::Observation,
+    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
+    replay::{ReplayBuffer, Transition},
     trainer::{Task, Trainer},
-    view::View,
 };
 use crate::{
     learning::{
@@ -30,7 +30,7 @@ use crate::{
 
 /// What a snapshot holds beside arrays.
 #[derive(Debug, Serialize, Deserialize)]
-struct Note {
+struct TrainerState {
     task: Task,
     table: Table,
     features: String,
@@ -43,8 +43,8 @@ struct Note {
     replay_next: usize,
 }
 
-/// Numbers of a view in a snapshot.
-const VIEW_NUMBERS: usize = 8;
+/// Numbers of an observation in a snapshot.
+const OBSERVATION_NUMBERS: usize = 8;
 
 /// Adds the arrays of the trainer's state to a file and returns the rest, its note.
 ///
@@ -66,14 +66,14 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
             writer.add(format!("{name}.moment.{order}"), &[values.len()], &values);
         }
     }
-    let held = replay.experiences();
-    let views: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.view)).collect();
+    let held = replay.transitions();
+    let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
     let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
     let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
-    writer.add_f64("replay.views", &[held.len(), VIEW_NUMBERS], &views);
+    writer.add_f64("replay.views", &[held.len(), OBSERVATION_NUMBERS], &observations);
     writer.add("replay.actions", &[held.len(), ACTIONS], &actions);
     writer.add("replay.successes", &[held.len()], &successes);
-    note_of(&Note {
+    note_of(&TrainerState {
         task: trainer.task.clone(),
         table: Table::clone(&trainer.table),
         features: FEATURE_VERSION.to_owned(),
@@ -92,7 +92,7 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
 /// # Errors
 /// Where they do not fit or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
-    let note: Note = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+    let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
     if note.features != FEATURE_VERSION || note.actions != note.task.hyperparameters.actions.meaning() {
         return Err(WeightsError::Foreign);
     }
@@ -120,30 +120,30 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         online,
         target,
     };
-    let replay = ReplayBuffer::restore(note.task.hyperparameters.replay, experiences(reader)?, note.replay_next);
-    let Note { task, table, rng, shots, updates, .. } = note;
+    let replay = ReplayBuffer::restore(note.task.hyperparameters.replay, transitions(reader)?, note.replay_next);
+    let TrainerState { task, table, rng, shots, updates, .. } = note;
     Ok(Trainer { task, table: table.into(), agent, replay, rng, shots, updates })
 }
 
-fn view_numbers(view: &View) -> [f64; VIEW_NUMBERS] {
-    let View { cue, first, second, mirror } = *view;
+fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
+    let Observation { cue, first, second, mirror } = *observation;
     [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
 }
 
-fn experiences(reader: &Reader<'_>) -> Result<Vec<Experience>, WeightsError> {
-    let views = reader.array_f64("replay.views")?;
+fn transitions(reader: &Reader<'_>) -> Result<Vec<Transition>, WeightsError> {
+    let observations = reader.array_f64("replay.views")?;
     let ((_, actions), (_, successes)) = (reader.array("replay.actions")?, reader.array("replay.successes")?);
-    let (views, actions) = (views.as_chunks::<VIEW_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
-    if views.len() != successes.len() || actions.len() != successes.len() {
+    let (observations, actions) = (observations.as_chunks::<OBSERVATION_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
+    if observations.len() != successes.len() || actions.len() != successes.len() {
         let expected = format!("{} shots", successes.len());
         return Err(WeightsError::Array { name: "replay.views".to_owned(), expected });
     }
-    let shots = views.iter().zip(actions).zip(successes);
+    let shots = observations.iter().zip(actions).zip(successes);
     Ok(shots
         .map(|((v, action), success)| {
             let pair = |index: usize| DVec2::new(v[index], v[index + 1]);
-            let view = View { cue: pair(0), first: pair(2), second: pair(4), mirror: pair(6) };
-            Experience { view, action: *action, success }
+            let observation = Observation { cue: pair(0), first: pair(2), second: pair(4), mirror: pair(6) };
+            Transition { observation, action: *action, success }
         })
         .collect())
 }
@@ -164,14 +164,14 @@ mod tests {
         let mut whole = Trainer::new(small_task(), Table::default()).unwrap();
         let mut parts = Trainer::new(small_task(), Table::default()).unwrap();
         for _ in 0..5 {
-            whole.turn().unwrap();
-            parts.turn().unwrap();
+            whole.iterate().unwrap();
+            parts.iterate().unwrap();
         }
         let bytes_of_parts = bytes(&parts);
         let reader = Reader::new(&bytes_of_parts).unwrap();
         let mut parts = read(&reader, reader.note().unwrap()).unwrap();
         for _ in 0..5 {
-            assert_eq!(whole.turn().unwrap(), parts.turn().unwrap());
+            assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
         }
         assert_eq!(bytes(&whole), bytes(&parts));
     }

@@ -8,17 +8,15 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    action::ActionSpace, agent::Ddpg, features::FEATURE_VERSION, hyperparameters::Hyperparameters,
-    replay::ReplayBuffer, scenes::Scenes,
+    action::ActionSpace,
+    agent::Ddpg,
+    features::FEATURE_VERSION,
+    hyperparameters::Hyperparameters,
+    observation_batch::ObservationBatch,
+    policy::{Policy, file::Origin},
+    replay::ReplayBuffer,
 };
-use crate::{
-    game::Reward,
-    learning::{
-        learner::Turn,
-        policy::{Policy, file::Origin},
-    },
-    table::Table,
-};
+use crate::{game::Reward, learning::learner::Iteration, table::Table};
 
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +31,7 @@ pub struct Task {
     pub hyperparameters: Hyperparameters,
 }
 
-/// An agent at practice on a table.
+/// An agent that trains on a table.
 #[derive(Debug)]
 pub struct Trainer {
     pub(super) task: Task,
@@ -46,7 +44,7 @@ pub struct Trainer {
 }
 
 impl Trainer {
-    /// A beginner.
+    /// An untrained agent.
     ///
     /// # Errors
     /// Whatever candle reports.
@@ -111,26 +109,30 @@ impl Trainer {
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
-    pub fn turn(&mut self) -> Result<Turn> {
-        let pace = self.pace();
+    pub fn iterate(&mut self) -> Result<Iteration> {
+        let lr_factor = self.lr_schedule();
         let mean_reward = self.play()?;
         // An expert may have found nothing to show yet.
         if self.replay.is_empty() {
-            return Ok(Turn { mean_reward, ..Turn::default() });
+            return Ok(Iteration { mean_reward, ..Iteration::default() });
         }
         let batch = self.replay.sample(self.task.hyperparameters.batch, &mut self.rng);
-        let scenes = Scenes::new(&self.table, self.space(), batch.iter().map(|experience| experience.view).collect())?;
-        let actions: Vec<_> = batch.iter().map(|experience| experience.action).collect();
-        let successes: Vec<_> = batch.iter().map(|experience| experience.success).collect();
-        let losses = self.agent.update(&scenes, &actions, &successes, pace)?;
+        let observed = ObservationBatch::new(
+            &self.table,
+            self.space(),
+            batch.iter().map(|transition| transition.observation).collect(),
+        )?;
+        let actions: Vec<_> = batch.iter().map(|transition| transition.action).collect();
+        let successes: Vec<_> = batch.iter().map(|transition| transition.success).collect();
+        let losses = self.agent.update(&observed, &actions, &successes, lr_factor)?;
         self.updates += 1;
         // What the actor climbs is the critic's mean value of its actions.
         let q_value = -losses.actor;
-        Ok(Turn { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
+        Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
     }
 
     /// Part of the first learning rates that is left: half a cosine from 1 at the first shot to 0 at the last.
-    pub fn pace(&self) -> f64 {
+    pub fn lr_schedule(&self) -> f64 {
         let done = (self.shots as f64 / self.task.shots as f64).min(1.0);
         0.5 * (1.0 + (std::f64::consts::PI * done).cos())
     }
@@ -139,7 +141,10 @@ impl Trainer {
 #[cfg(test)]
 pub(in crate::learning) mod tests {
     use super::*;
-    use crate::learning::evaluation::{HELD_OUT_SEED, held_out_layouts, score};
+    use crate::learning::{
+        ddpg::policy::score,
+        evaluation::{HELD_OUT_SEED, held_out_layouts},
+    };
 
     /// A task that is learnt in an instant, or not at all.
     pub fn small_task() -> Task {
@@ -160,7 +165,7 @@ pub(in crate::learning) mod tests {
         let weights = |seed| {
             let mut trainer = Trainer::new(Task { seed, ..small_task() }, Table::default()).unwrap();
             while !trainer.is_finished() {
-                trainer.turn().unwrap();
+                trainer.iterate().unwrap();
             }
             assert_eq!((trainer.shots(), trainer.updates()), (160, 10));
             trainer.agent.target().actor.parameters().to_vec1::<f32>().unwrap()
@@ -176,7 +181,7 @@ pub(in crate::learning) mod tests {
         task.hyperparameters.shots_per_update = 1;
         let mut trainer = Trainer::new(task, Table::preset("thesis").unwrap()).unwrap();
         for _ in 0..10 {
-            trainer.turn().unwrap();
+            trainer.iterate().unwrap();
         }
         assert!(trainer.shots() == 10 && trainer.updates() < 10);
     }
@@ -184,13 +189,13 @@ pub(in crate::learning) mod tests {
     #[test]
     fn the_learning_rate_falls_from_one_to_nothing() {
         let mut trainer = Trainer::new(small_task(), Table::default()).unwrap();
-        assert_eq!(trainer.pace(), 1.0);
+        assert_eq!(trainer.lr_schedule(), 1.0);
         while !trainer.is_finished() {
-            let before = trainer.pace();
-            trainer.turn().unwrap();
-            assert!(trainer.pace() < before);
+            let before = trainer.lr_schedule();
+            trainer.iterate().unwrap();
+            assert!(trainer.lr_schedule() < before);
         }
-        assert!(trainer.pace() < 1e-12);
+        assert!(trainer.lr_schedule() < 1e-12);
     }
 
     #[test]
@@ -212,7 +217,7 @@ pub(in crate::learning) mod tests {
             |trainer: &Trainer| score(&trainer.policy(0.0, "").unwrap(), &table, Reward::R3, &layouts).mean_reward;
         let before = reward(&trainer);
         while !trainer.is_finished() {
-            trainer.turn().unwrap();
+            trainer.iterate().unwrap();
         }
         let after = reward(&trainer);
         assert!(after > before + 0.15, "{before} before, {after} after");

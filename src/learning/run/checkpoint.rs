@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    contents::{self, DamageReason, State, restore},
+    contents::{self, State, restore},
+    damage::{Damage, DamageReason},
     error::RunError,
 };
 use crate::{
@@ -17,14 +18,6 @@ pub const CURRENT: &str = "checkpoint.safetensors";
 
 /// The one before.
 pub const PREVIOUS: &str = "checkpoint-previous.safetensors";
-
-/// Why a checkpoint cannot be gone on from.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {reason}")]
-pub struct Damage {
-    path: String,
-    reason: DamageReason,
-}
 
 /// What the checkpoint with these bytes, read from `path`, holds.
 ///
@@ -129,14 +122,14 @@ mod tests {
     use crate::{
         learning::{
             ddpg::trainer::{Trainer, tests::small_task},
-            run::{config::Schedule, contents::bytes, tally::Tally},
+            run::{accumulator::Accumulator, config::Schedule, contents::bytes},
         },
         table::Table,
     };
     use std::fs;
 
     fn state() -> State {
-        State { schedule: Schedule::for_shots(100), from: None, tally: Tally::default() }
+        State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() }
     }
 
     /// A folder with two checkpoints, and the shots that each has played.
@@ -145,7 +138,7 @@ mod tests {
         let mut learner = Trainer::new(small_task(), Table::default()).unwrap();
         let mut checkpoints = Checkpoints::new(folder.path());
         let shots = [(); 2].map(|()| {
-            learner.turn().unwrap();
+            learner.iterate().unwrap();
             checkpoints.write(&bytes(&learner, &state()).unwrap()).unwrap();
             learner.shots()
         });

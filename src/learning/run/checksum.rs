@@ -8,12 +8,12 @@ const MARK: &[u8] = br#"{\"checksum\":\""#;
 const DIGITS: usize = 16;
 
 /// What stands in the note until the file is sealed.
-pub const UNSEALED: &str = "0000000000000000";
+pub const NO_CHECKSUM: &str = "0000000000000000";
 
 /// Puts the checksum in its place. `false` where there is no place for it.
-pub fn seal(bytes: &mut [u8]) -> bool {
+pub fn write_checksum(bytes: &mut [u8]) -> bool {
     let Some(place) = place(bytes) else { return false };
-    bytes[place..place + DIGITS].copy_from_slice(UNSEALED.as_bytes());
+    bytes[place..place + DIGITS].copy_from_slice(NO_CHECKSUM.as_bytes());
     let digits = format!("{:016x}", hash([&*bytes].into_iter()));
     bytes[place..place + DIGITS].copy_from_slice(digits.as_bytes());
     true
@@ -23,7 +23,7 @@ pub fn seal(bytes: &mut [u8]) -> bool {
 pub fn is_whole(bytes: &[u8]) -> Option<bool> {
     let place = place(bytes)?;
     let digits = &bytes[place..place + DIGITS];
-    let parts = [&bytes[..place], UNSEALED.as_bytes(), &bytes[place + DIGITS..]];
+    let parts = [&bytes[..place], NO_CHECKSUM.as_bytes(), &bytes[place + DIGITS..]];
     Some(digits == format!("{:016x}", hash(parts.into_iter())).as_bytes())
 }
 
@@ -48,8 +48,8 @@ mod tests {
     fn every_changed_byte_is_noticed() {
         // The published value of this hash for "foobar".
         assert_eq!(hash([b"foo".as_slice(), b"bar"].into_iter()), 0x8594_4171_f739_67e8);
-        let mut bytes = format!("{{\"note\":\"{{\\\"checksum\\\":\\\"{UNSEALED}\\\"}}\"}}  weights").into_bytes();
-        assert!(seal(&mut bytes));
+        let mut bytes = format!("{{\"note\":\"{{\\\"checksum\\\":\\\"{NO_CHECKSUM}\\\"}}\"}}  weights").into_bytes();
+        assert!(write_checksum(&mut bytes));
         assert_eq!(is_whole(&bytes), Some(true));
         for index in 0..bytes.len() {
             for change in [1, 0x20, 0x80, 0xff] {
@@ -59,6 +59,6 @@ mod tests {
             }
             assert_ne!(is_whole(&bytes[..index]), Some(true), "cut at {index}");
         }
-        assert!(!seal(&mut b"nothing to seal".to_vec()));
+        assert!(!write_checksum(&mut b"nothing to seal".to_vec()));
     }
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::metrics::Record;
 use crate::learning::{
     evaluation::Score,
-    learner::{Learner, Turn},
+    learner::{Iteration, Learner},
 };
 
 /// The time that training takes.
@@ -43,7 +43,7 @@ impl Clock {
 
     /// The line that is due now, `measuring` seconds after the last shot: a speed that fell with each measurement would say
     /// nothing of either.
-    pub fn record(&mut self, learner: &dyn Learner, means: Turn, score: Option<Score>, measuring: f64) -> Record {
+    pub fn record(&mut self, learner: &dyn Learner, means: Iteration, score: Option<Score>, measuring: f64) -> Record {
         let seconds = self.seconds();
         let shots = learner.shots();
         let record = Record {
@@ -57,9 +57,9 @@ impl Clock {
             q_value: means.q_value,
             practice_reward: means.mean_reward,
             exploration: Some(learner.exploration()),
-            memory: learner.memory(),
+            memory: learner.replay_fill(),
             held_out_reward: score.map(|score| score.mean_reward),
-            held_out_reach: score.map(|score| score.reach),
+            held_out_reach: score.map(|score| score.best_of_k),
         };
         self.last = (seconds, shots);
         record

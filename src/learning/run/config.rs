@@ -10,7 +10,7 @@ use crate::{
     game::Reward,
     learning::{
         calendar::now,
-        learner::{Learner, Plan},
+        learner::{Learner, TrainingPlan},
     },
     storage::{self, write_atomic},
     table::Table,
@@ -82,7 +82,7 @@ pub struct Config {
     pub agent: String,
     /// Reward, seed and number of shots.
     #[serde(flatten)]
-    pub plan: Plan,
+    pub plan: TrainingPlan,
     /// When it was started, UTC.
     pub started: String,
     /// Version of carom that started it.

@@ -6,9 +6,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    checksum::{UNSEALED, is_whole, seal},
+    accumulator::Accumulator,
+    checksum::{NO_CHECKSUM, is_whole, write_checksum},
     config::{Schedule, Start},
-    tally::Tally,
+    damage::{DamageReason, FORMAT},
 };
 use crate::{
     learning::{
@@ -18,16 +19,13 @@ use crate::{
     storage,
 };
 
-/// Version of what a checkpoint holds.
-const FORMAT: u32 = 2;
-
 /// Longest header that is believed, bytes. Notes and names of arrays take some thousands.
 const LONGEST_HEADER: u64 = 1 << 24;
 
 /// What a checkpoint says beside the learner's arrays. No clock goes in: equal states give equal files.
 #[derive(Serialize, Deserialize)]
-struct Note {
-    /// First, so that it is found ([`seal`]).
+struct Header {
+    /// First, so that it is found ([`write_checksum`]).
     checksum: String,
     format: u32,
     agent: String,
@@ -46,30 +44,8 @@ pub struct State {
     /// Whose weights it started from.
     pub from: Option<Start>,
     /// What it has to report next.
-    pub tally: Tally,
-}
-
-/// Why the bytes of a checkpoint cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum DamageReason {
-    /// The file cannot be read.
-    #[error("{0}")]
-    File(#[from] std::io::Error),
-    /// A byte has changed.
-    #[error("it is damaged: its content does not fit its checksum")]
-    Checksum,
-    /// There is no checksum.
-    #[error("it has no checksum: it is damaged, or not a checkpoint of this version of carom")]
-    Unsealed,
-    /// It is of another version.
-    #[error("it has format {0}, and this version of carom reads format {FORMAT}")]
-    Format(u32),
-    /// Nobody can take it up.
-    #[error("its agent \"{0}\" is not known to this version of carom")]
-    Agent(String),
-    /// The learner refuses it.
-    #[error("{0}")]
-    Content(#[from] WeightsError),
+    #[serde(rename = "tally")]
+    pub accumulator: Accumulator,
 }
 
 /// The bytes of a checkpoint.
@@ -78,8 +54,8 @@ pub enum DamageReason {
 /// Whatever candle or safetensors reports.
 pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsError> {
     let mut writer = Writer::default();
-    let note = Note {
-        checksum: UNSEALED.to_owned(),
+    let note = Header {
+        checksum: NO_CHECKSUM.to_owned(),
         format: FORMAT,
         agent: learner.agent().to_owned(),
         shots: learner.shots(),
@@ -87,7 +63,7 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
         learner: learner.save(&mut writer)?,
     };
     let mut bytes = writer.finish(&note)?;
-    if seal(&mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+    if write_checksum(&mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
 }
 
 /// The learner and the run's state in a checkpoint's bytes.
@@ -98,14 +74,14 @@ pub fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> 
     match is_whole(bytes) {
         Some(true) => {}
         Some(false) => return Err(DamageReason::Checksum),
-        None => return Err(DamageReason::Unsealed),
+        None => return Err(DamageReason::NoChecksum),
     }
     let reader = Reader::new(bytes)?;
     let Version { format } = reader.note()?;
     if format != FORMAT {
         return Err(DamageReason::Format(format));
     }
-    let Note { agent, state, learner, .. } = reader.note()?;
+    let Header { agent, state, learner, .. } = reader.note()?;
     let agent = Agent::named(&agent).map_err(|_| DamageReason::Agent(agent))?;
     Ok(((agent.restore)(&reader, learner)?, state))
 }
@@ -155,16 +131,16 @@ mod tests {
     fn contents_of_other_formats_are_refused_by_number() {
         let learner = Trainer::new(small_task(), Table::default()).unwrap();
         let mut writer = Writer::default();
-        let note = Note {
-            checksum: UNSEALED.to_owned(),
+        let note = Header {
+            checksum: NO_CHECKSUM.to_owned(),
             format: 99,
             agent: "ddpg".to_owned(),
             shots: 0,
-            state: State { schedule: Schedule::for_shots(100), from: None, tally: Tally::default() },
+            state: State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() },
             learner: learner.save(&mut writer).unwrap(),
         };
         let mut bytes = writer.finish(&note).unwrap();
-        assert!(seal(&mut bytes));
+        assert!(write_checksum(&mut bytes));
         let message = restore(&bytes).unwrap_err().to_string();
         assert!(message.contains("format 99") && message.contains("format 2"), "{message}");
     }

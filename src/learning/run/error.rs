@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::checkpoint::Damage;
+use super::damage::Damage;
 use crate::learning::{PolicyError, agents::UnknownAgent, learner::StartError, network::weights::WeightsError};
 
 /// Why a run cannot start, go on or be saved.

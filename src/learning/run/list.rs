@@ -16,7 +16,7 @@ use super::{
     config::{self, Config},
     follow::{Condition, Signs, Stamp, condition},
     holds_checkpoints,
-    standing::{self, Phase, Standing},
+    status::{self, Phase, RunStatus},
 };
 use crate::{game::Reward, learning::calendar::moment};
 
@@ -184,8 +184,8 @@ impl RunsFolder {
     fn summary(&mut self, folder: &Path, name: String, config: Config) -> Summary {
         let Config { agent, plan, started, table, .. } = config;
         let rewards = self.rewards(folder);
-        let standing = Standing::read(folder).ok();
-        let told = |of: fn(&Standing) -> Option<f64>| standing.as_ref().and_then(of);
+        let standing = RunStatus::read(folder).ok();
+        let told = |of: fn(&RunStatus) -> Option<f64>| standing.as_ref().and_then(of);
         let last = told(|standing| standing.held_out_reward).or(rewards.last);
         let shots = standing.as_ref().map_or(0, |standing| standing.shots).max(rewards.shots);
         let shots = if shots == 0 { shots_in(folder).unwrap_or(0) } else { shots };
@@ -235,7 +235,7 @@ pub fn latest_in(folder: &Path) -> Option<PathBuf> {
 /// When the run in `folder` last wrote one of its files.
 fn last_written(folder: &Path) -> Option<SystemTime> {
     let written = |name: &str| std::fs::metadata(folder.join(name)).and_then(|data| data.modified()).ok();
-    [standing::FILE, METRICS, config::FILE].into_iter().filter_map(written).max()
+    [status::FILE, METRICS, config::FILE].into_iter().filter_map(written).max()
 }
 
 fn folders_in(folder: &Path) -> io::Result<Vec<PathBuf>> {

@@ -4,42 +4,43 @@
 //! policy, then the lines of metrics, last the checkpoint; whatever is younger than the checkpoint is done again,
 //! to the same bits.
 
+mod accumulator;
 mod checkpoint;
 mod checksum;
 mod clock;
 mod config;
 mod contents;
+mod damage;
 mod discard;
 mod error;
 pub mod examples;
 pub mod follow;
+mod heartbeat;
 pub mod history;
 pub mod list;
 pub mod metrics;
 mod number;
 pub mod origin;
-mod practice;
-mod pulse;
 pub mod quantity;
 pub mod request;
 pub mod seeds;
-pub mod standing;
-mod tally;
+pub mod status;
+mod training;
 
 use std::path::{Path, PathBuf};
 
 use self::{
+    accumulator::Accumulator,
     checkpoint::{Checkpoints, Loaded},
     contents::State,
     error::file,
     metrics::MetricsFile,
-    tally::Tally,
 };
 pub use self::{
     config::{Config, Schedule, Start, run_name},
     discard::discard,
     error::{OriginError, RunError},
-    practice::{Ending, Limits, Watcher},
+    training::{Ending, Limits, Watcher},
 };
 use crate::{
     learning::{evaluation::Score, learner::Learner},
@@ -60,7 +61,7 @@ const FILES: [&str; 9] = [
     checkpoint::CURRENT,
     checkpoint::PREVIOUS,
     examples::FILE,
-    standing::FILE,
+    status::FILE,
     request::FILE,
     Lock::FILE,
 ];
@@ -91,7 +92,7 @@ impl Run {
         let lock = lock(folder)?;
         refuse_taken(folder)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
-        let state = State { schedule, from, tally: Tally::default() };
+        let state = State { schedule, from, accumulator: Accumulator::default() };
         let checkpoints = Checkpoints::new(folder);
         let mut run = Self { folder: folder.to_owned(), config, learner, state, checkpoints, _lock: lock };
         // First of all something to go on from, however early the run is killed.
@@ -111,7 +112,7 @@ impl Run {
         }
         let lock = lock(folder)?;
         // What an earlier process said of itself holds no more.
-        let _ = std::fs::remove_file(folder.join(standing::FILE));
+        let _ = std::fs::remove_file(folder.join(status::FILE));
         let (checkpoints, Loaded { learner, state, fallback, .. }) = Checkpoints::open(folder)?;
         let mut notices = Vec::new();
         if let Some(damage) = fallback {

@@ -84,7 +84,7 @@ impl Weights {
         Self { start, ..self }
     }
 
-    /// Gives the weights to a beginner.
+    /// Gives the weights to an untrained agent.
     ///
     /// # Errors
     /// [`RunError::Origin`] where the agent or the sizes differ.
@@ -94,8 +94,8 @@ impl Weights {
         if found != expected {
             return Err(refuse(OriginError::Agent { found: found.clone(), expected: expected.to_owned() }));
         }
-        let mut adopt = || learner.adopt(&Reader::new(&self.bytes)?);
-        adopt().map_err(|reason| refuse(reason.into()))
+        let mut load = || learner.load_weights(&Reader::new(&self.bytes)?);
+        load().map_err(|reason| refuse(reason.into()))
     }
 
     /// Keeps a copy of the file.

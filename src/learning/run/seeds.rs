@@ -17,7 +17,7 @@ use super::{
     origin::Weights,
 };
 use crate::{
-    learning::learner::{Agent, Learner, Plan},
+    learning::learner::{Agent, Learner, TrainingPlan},
     storage::{self, Lock, write_atomic},
     table::Table,
 };
@@ -33,12 +33,12 @@ const WEIGHTS: &str = "from.safetensors";
 
 /// What to train.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Order {
+pub struct TrainingSpec {
     /// The agent's name.
     pub agent: String,
     /// Reward, number of shots, and the first seed.
     #[serde(flatten)]
-    pub plan: Plan,
+    pub plan: TrainingPlan,
     /// The agent's settings, as far as they differ from its defaults.
     pub settings: Value,
     /// When a run reports and is measured.
@@ -47,19 +47,19 @@ pub struct Order {
     pub table: Table,
 }
 
-impl Order {
+impl TrainingSpec {
     /// A new run with this seed.
     ///
     /// # Errors
     /// Where the agent refuses, the weights do not suit, or the folder is taken.
     pub fn start(&self, folder: &Path, seed: u64, weights: Option<&Weights>) -> Result<Run, RunError> {
-        let learner = self.beginner(seed, weights)?;
+        let learner = self.untrained(seed, weights)?;
         Run::create(folder, learner, self.schedule, weights.map(|weights| weights.start.clone()))
     }
 
-    fn beginner(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {
+    fn untrained(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {
         let agent = Agent::named(&self.agent)?;
-        let mut learner = (agent.start)(Plan { seed, ..self.plan }, self.table.clone(), self.settings.clone())?;
+        let mut learner = (agent.start)(TrainingPlan { seed, ..self.plan }, self.table.clone(), self.settings.clone())?;
         if let Some(weights) = weights {
             weights.give_to(learner.as_mut())?;
         }
@@ -69,18 +69,18 @@ impl Order {
 
 /// What `seeds.json` says.
 #[derive(Debug, Serialize, Deserialize)]
-struct Note {
+struct GroupFile {
     seeds: u64,
     from: Option<Start>,
     #[serde(flatten)]
-    order: Order,
+    order: TrainingSpec,
 }
 
 /// Runs that differ in their seed alone, in folders of one folder.
 #[derive(Debug)]
 pub struct Group {
     folder: PathBuf,
-    note: Note,
+    note: GroupFile,
     weights: Option<Weights>,
     _lock: Lock,
 }
@@ -89,17 +89,17 @@ impl Group {
     /// A new group with `seeds` seeds in `folder`, which is made where it is missing.
     ///
     /// # Errors
-    /// [`RunError::Occupied`] where it holds runs already, and whatever [`Order::start`] would refuse.
-    pub fn create(folder: &Path, order: Order, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
+    /// [`RunError::Occupied`] where it holds runs already, and whatever [`TrainingSpec::start`] would refuse.
+    pub fn create(folder: &Path, order: TrainingSpec, seeds: u64, weights: Option<Weights>) -> Result<Self, RunError> {
         // What is refused is refused before anything is written.
-        order.beginner(order.plan.seed, weights.as_ref())?;
+        order.untrained(order.plan.seed, weights.as_ref())?;
         std::fs::create_dir_all(folder).map_err(file(folder))?;
         let lock = super::lock(folder)?;
         super::refuse_taken(folder)?;
         if let Some(weights) = &weights {
             weights.write(&folder.join(WEIGHTS))?;
         }
-        let note = Note { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), order };
+        let note = GroupFile { seeds, from: weights.as_ref().map(|weights| weights.start.clone()), order };
         let path = folder.join(FILE);
         let text = serde_json::to_string_pretty(&note).map_err(|error| file(&path)(error.into()))?;
         write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))?;
@@ -113,7 +113,7 @@ impl Group {
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
         let path = folder.join(FILE);
         let text = storage::read(&path, storage::SMALL).map_err(file(&path))?;
-        let note: Note = serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))?;
+        let note: GroupFile = serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))?;
         let lock = super::lock(folder)?;
         let weights = match &note.from {
             Some(start) => Some(Weights::load(&folder.join(WEIGHTS))?.known_as(start.clone())),

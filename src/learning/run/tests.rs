@@ -9,7 +9,7 @@ use crate::{
     learning::{
         agents::AGENTS,
         ddpg::trainer::{Trainer, tests::small_task},
-        learner::{Plan, Turn},
+        learner::{Iteration, TrainingPlan},
         policy::Policy,
     },
     table::Table,
@@ -47,7 +47,7 @@ fn is_finished(ending: Ending) -> bool {
 
 fn finish(run: &mut Run) -> (Ending, Told) {
     let mut told = Told::default();
-    (run.practise(&FOREVER, &mut told).unwrap(), told)
+    (run.train(&FOREVER, &mut told).unwrap(), told)
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
     for after in stops {
         let asked = Cell::new(0);
         let stop = || asked.replace(asked.get() + 1) == *after;
-        let ending = run.practise(&Limits { time: None, stop: &stop }, &mut Told::default()).unwrap();
+        let ending = run.train(&Limits { time: None, stop: &stop }, &mut Told::default()).unwrap();
         assert!(matches!(ending, Ending::Stopped(_)));
         drop(run);
         run = Run::resume(folder.path()).unwrap().0;
@@ -105,7 +105,7 @@ fn a_run_that_is_stopped_at_any_turn_goes_on_to_the_same_files() {
 fn every_agent_goes_on_to_the_same_files() {
     for agent in AGENTS {
         let start = |folder: &Path| {
-            let plan = Plan { reward: Reward::R1, seed: 3, shots: 1_000 };
+            let plan = TrainingPlan { reward: Reward::R1, seed: 3, shots: 1_000 };
             let learner = (agent.start)(plan, Table::default(), serde_json::json!({})).unwrap();
             let schedule = Schedule { log_every: 150, evaluate_every: 400, evaluation_layouts: 5 };
             Run::create(folder, learner, schedule, None).unwrap()
@@ -124,7 +124,7 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_training_goes_on_to_the_next(
     fs::write(in_the_way.join("inside"), b"").unwrap();
     let before = fs::read(folder.path().join(checkpoint::CURRENT)).unwrap();
     let mut told = Told::default();
-    let error = run.practise(&FOREVER, &mut told).unwrap_err().to_string();
+    let error = run.train(&FOREVER, &mut told).unwrap_err().to_string();
     assert_eq!(told.warnings.len(), 2, "{:?}", told.warnings);
     assert!(told.warnings[0].contains("after 64 shots") && told.warnings[0].contains(POLICY), "{:?}", told.warnings);
     assert!(error.contains("160 shots") && error.contains("--resume"), "{error}");
@@ -155,15 +155,15 @@ fn a_folder_belongs_to_one_run_at_a_time() {
 fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
-    let odd = Turn { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Turn::default() };
-    assert!(!run.state.tally.add(&odd));
+    let odd = Iteration { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Iteration::default() };
+    assert!(!run.state.accumulator.add(&odd));
     let mut told = Told::default();
-    let error = run.practise(&FOREVER, &mut told).unwrap_err().to_string();
+    let error = run.train(&FOREVER, &mut told).unwrap_err().to_string();
     assert!(error.contains("after 16 shots"), "{error}");
     let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
     assert!(lines[0].critic_loss.is_nan() && lines[0].actor_loss == Some(f64::NEG_INFINITY), "{lines:?}");
-    let standing = standing::Standing::read(folder.path()).unwrap();
-    assert_eq!((standing.phase, standing.reason), (standing::Phase::Failed, Some(error)));
+    let standing = status::RunStatus::read(folder.path()).unwrap();
+    assert_eq!((standing.phase, standing.reason), (status::Phase::Failed, Some(error)));
     drop(run);
     let (ending, told) = finish(&mut Run::resume(folder.path()).unwrap().0);
     assert!(is_finished(ending) && told.lines.len() == 5);

@@ -6,7 +6,7 @@ use rand::{Rng, RngExt};
 use super::{
     kernels::Rows,
     pass::Pass,
-    update::{Batch, Rates, Seen, Sizes, Update, Workspace},
+    update::{Batch, BatchStats, Rates, Sizes, Update, Workspace},
 };
 use crate::learning::network::{pass::parameter_count, tensors::stored_values};
 
@@ -108,7 +108,7 @@ impl ActorCritic {
     ///
     /// # Errors
     /// Where the batch has another size, or where the networks no longer give finite numbers.
-    pub fn update(&mut self, batch: &mut Batch) -> Result<Seen> {
+    pub fn update(&mut self, batch: &mut Batch) -> Result<BatchStats> {
         let update = Update::new(&mut self.workspace, batch, &self.rates, self.updates + 1);
         self.state.inplace_op1(&update)?;
         self.updates += 1;
@@ -181,7 +181,7 @@ mod tests {
             Self { sizes, networks, optimisers }
         }
 
-        fn update(&mut self, batch: &Batch) -> Seen {
+        fn update(&mut self, batch: &Batch) -> BatchStats {
             let [actor, critic, actor_target, critic_target] = &self.networks;
             let (states, rows) = (self.sizes.states(), batch.rewards.len());
             let tensor = |values: &[f32], width| Tensor::from_slice(values, (rows, width), &Device::Cpu).unwrap();
@@ -207,7 +207,7 @@ mod tests {
             soft_update(critic_target.parameters(), critic.parameters(), 1.0 - RATES.keep).unwrap();
             soft_update(actor_target.parameters(), actor.parameters(), 1.0 - RATES.keep).unwrap();
             let number = |tensor: Tensor| f64::from(tensor.to_scalar::<f32>().unwrap());
-            Seen { loss: number(loss), value: number(value) }
+            BatchStats { loss: number(loss), value: number(value) }
         }
     }
 

@@ -23,7 +23,7 @@ pub struct Choice {
 
 /// One shot as an agent learns from it.
 #[derive(Clone, Copy, Debug)]
-pub struct Experience {
+pub struct Transition {
     /// What was seen.
     pub before: Observation,
     /// What was done.
@@ -38,7 +38,7 @@ pub struct Experience {
 
 /// What an update saw.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Learnt {
+pub struct UpdateStats {
     /// Mean squared error of the values against their targets.
     pub loss: f64,
     /// Mean value of the agent's own choices.
@@ -71,7 +71,7 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     /// Its settings.
     type Settings: Settings;
 
-    /// A beginner.
+    /// An untrained agent.
     ///
     /// # Errors
     /// Whatever candle reports.
@@ -87,7 +87,7 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     fn exploration(&self) -> f64;
 
     /// Share of its memory that is filled, where it has one.
-    fn memory(&self) -> Option<f64>;
+    fn replay_fill(&self) -> Option<f64>;
 
     /// What it does while it learns.
     ///
@@ -105,7 +105,7 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
-    fn learn(&mut self, experience: &Experience, rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error>;
+    fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error>;
 
     /// Adds the arrays of its state to a file and returns everything else.
     ///
@@ -123,7 +123,7 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     ///
     /// # Errors
     /// Where the file has none that fits.
-    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError>;
+    fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError>;
 }
 
 /// What one shot brought.
@@ -132,7 +132,7 @@ pub struct Played {
     /// Its reward.
     pub reward: f64,
     /// What was learnt after it.
-    pub learnt: Option<Learnt>,
+    pub stats: Option<UpdateStats>,
 }
 
 /// Where an agent and its environment are in their episodes.
@@ -161,7 +161,7 @@ impl Progress {
         let outcome = environment.act(choice.action);
         let (reward, goes_on, after) = (outcome.reward, !outcome.over, environment.observe());
         self.running = goes_on;
-        let learnt = agent.learn(&Experience { before, choice, reward, goes_on, after }, rng)?;
-        Ok(Played { reward, learnt })
+        let stats = agent.learn(&Transition { before, choice, reward, goes_on, after }, rng)?;
+        Ok(Played { reward, stats })
     }
 }

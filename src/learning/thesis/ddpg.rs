@@ -10,13 +10,13 @@ use serde_json::Value;
 
 use super::{
     actor_critic::ActorCritic,
-    agent::{Agent, Choice, Experience, Learnt, Settings},
+    agent::{Agent, Choice, Settings, Transition, UpdateStats},
     carom::Episode,
     environment::{ACTIONS, Action, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
-    memory::{Memory, Transition},
     pass::Pass,
     q_learning::check_episode,
+    replay::{ReplayBuffer, StoredTransition},
     update::{Batch, Rates, Sizes},
 };
 use crate::learning::settings::{
@@ -119,7 +119,7 @@ impl PlainDdpgSettings {
 pub struct PlainDdpg {
     settings: PlainDdpgSettings,
     networks: ActorCritic,
-    memory: Memory,
+    replay: ReplayBuffer,
     noise: Action,
     shots: u64,
     batch: Batch,
@@ -128,7 +128,7 @@ pub struct PlainDdpg {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Note {
+struct PlainDdpgState {
     shots: u64,
     updates: u32,
     next: usize,
@@ -136,18 +136,24 @@ struct Note {
 }
 
 impl PlainDdpg {
-    fn with(settings: PlainDdpgSettings, networks: ActorCritic, memory: Memory, noise: Action, shots: u64) -> Self {
+    fn with(
+        settings: PlainDdpgSettings,
+        networks: ActorCritic,
+        replay: ReplayBuffer,
+        noise: Action,
+        shots: u64,
+    ) -> Self {
         let batch = Batch::new(networks.sizes(), settings.batch);
         let single = RefCell::new(Pass::new(&networks.sizes().actor, 1));
-        Self { settings, networks, memory, noise, shots, batch, single }
+        Self { settings, networks, replay, noise, shots, batch, single }
     }
 
-    fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<Learnt, Error> {
+    fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let Batch { inputs, rewards, goes_on, next_inputs } = &mut self.batch;
         let rows = inputs.as_chunks_mut::<{ STATES + ACTIONS }>().0.iter_mut();
         let rows = rows.zip(next_inputs.as_chunks_mut::<{ STATES + ACTIONS }>().0).zip(rewards).zip(goes_on);
         for (((input, next), reward), goes_on) in rows {
-            if let Some(drawn) = self.memory.draw(rng) {
+            if let Some(drawn) = self.replay.draw(rng) {
                 input[..STATES].copy_from_slice(&drawn.state);
                 input[STATES..].copy_from_slice(&drawn.action);
                 next[..STATES].copy_from_slice(&drawn.next);
@@ -156,7 +162,7 @@ impl PlainDdpg {
             }
         }
         let seen = self.networks.update(&mut self.batch)?;
-        Ok(Learnt { loss: seen.loss, value: seen.value })
+        Ok(UpdateStats { loss: seen.loss, value: seen.value })
     }
 }
 
@@ -167,8 +173,8 @@ impl Agent for PlainDdpg {
 
     fn new(settings: PlainDdpgSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
         let networks = ActorCritic::random(settings.sizes(), settings.rates(), settings.batch, rng)?;
-        let memory = Memory::new(settings.memory);
-        Ok(Self::with(settings, networks, memory, Action::default(), 0))
+        let replay = ReplayBuffer::new(settings.memory);
+        Ok(Self::with(settings, networks, replay, Action::default(), 0))
     }
 
     fn settings(&self) -> &PlainDdpgSettings {
@@ -183,8 +189,8 @@ impl Agent for PlainDdpg {
         self.settings.noise.deviation(self.settings.noise_restarts)
     }
 
-    fn memory(&self) -> Option<f64> {
-        Some(self.memory.fill())
+    fn replay_fill(&self) -> Option<f64> {
+        Some(self.replay.fill())
     }
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
@@ -202,9 +208,9 @@ impl Agent for PlainDdpg {
         Ok(choice)
     }
 
-    fn learn(&mut self, experience: &Experience, rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error> {
-        self.memory.push(Transition::of(experience));
-        if self.settings.noise_restarts && !experience.goes_on {
+    fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
+        self.replay.push(StoredTransition::of(transition));
+        if self.settings.noise_restarts && !transition.goes_on {
             self.noise = Action::default();
         }
         self.shots += 1;
@@ -215,19 +221,20 @@ impl Agent for PlainDdpg {
         let values = self.networks.values()?;
         writer.add("networks", &[values.len()], &values);
         let Self { shots, noise, .. } = *self;
-        note_of(&Note { shots, noise, updates: self.networks.updates(), next: self.memory.save(writer) })
+        note_of(&PlainDdpgState { shots, noise, updates: self.networks.updates(), next: self.replay.save(writer) })
     }
 
     fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let Note { shots, updates, next, noise } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let PlainDdpgState { shots, updates, next, noise } =
+            serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let (sizes, rates) = (settings.sizes(), settings.rates());
         let networks = ActorCritic::from_values(sizes, rates, settings.batch, values(&settings, reader)?, updates)?;
-        let memory = Memory::restore(settings.memory, reader, next)?;
-        Ok(Self::with(settings, networks, memory, noise, shots))
+        let replay = ReplayBuffer::restore(settings.memory, reader, next)?;
+        Ok(Self::with(settings, networks, replay, noise, shots))
     }
 
     /// The learning networks become both the learning ones and the targets; the optimisers begin anew.
-    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
+    fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         let mut values = values(&self.settings, reader)?;
         let (sizes, rates) = (self.settings.sizes(), self.settings.rates());
         values.truncate(sizes.parameters().iter().sum());

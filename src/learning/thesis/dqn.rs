@@ -8,12 +8,12 @@ use serde_json::Value;
 
 use super::{
     actor_critic::glorot,
-    agent::{Agent, Choice, Experience, Learnt, Settings},
+    agent::{Agent, Choice, Settings, Transition, UpdateStats},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
     exploration::Epsilon,
-    memory::{Memory, Transition},
     q_learning::{check_episode, check_epsilon},
+    replay::{ReplayBuffer, StoredTransition},
 };
 use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
@@ -94,13 +94,13 @@ pub struct Dqn {
     online: Mlp,
     target: Mlp,
     optimiser: Adam,
-    memory: Memory,
+    replay: ReplayBuffer,
     shots: u64,
     updates: u32,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Note {
+struct DqnState {
     shots: u64,
     updates: u32,
     next: usize,
@@ -119,10 +119,10 @@ fn largest(values: &[f32]) -> (usize, f32) {
 
 impl Dqn {
     /// Learns from a batch that is drawn from the memory.
-    fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<Learnt, Error> {
+    fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let (rows, actions) = (self.settings.batch, DISCRETE_ACTIONS as usize);
-        let drawn: Vec<&Transition> = (0..rows).filter_map(|_| self.memory.draw(rng)).collect();
-        let states = |of: fn(&Transition) -> [f32; STATES]| {
+        let drawn: Vec<&StoredTransition> = (0..rows).filter_map(|_| self.replay.draw(rng)).collect();
+        let states = |of: fn(&StoredTransition) -> [f32; STATES]| {
             let values: Vec<f32> = drawn.iter().flat_map(|transition| of(transition)).collect();
             Tensor::from_vec(values, (drawn.len(), STATES), &Device::Cpu)
         };
@@ -155,7 +155,7 @@ impl Dqn {
         if self.updates.is_multiple_of(self.settings.target_every) {
             self.target = self.online.duplicate()?;
         }
-        Ok(Learnt { loss, value })
+        Ok(UpdateStats { loss, value })
     }
 }
 
@@ -174,7 +174,7 @@ impl Agent for Dqn {
         Ok(Self {
             target: online.duplicate()?,
             optimiser: Adam::new(online.parameters().elem_count())?,
-            memory: Memory::new(settings.memory),
+            replay: ReplayBuffer::new(settings.memory),
             online,
             settings,
             shots: 0,
@@ -194,8 +194,8 @@ impl Agent for Dqn {
         self.settings.epsilon.after(self.shots)
     }
 
-    fn memory(&self) -> Option<f64> {
-        Some(self.memory.fill())
+    fn replay_fill(&self) -> Option<f64> {
+        Some(self.replay.fill())
     }
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
@@ -211,8 +211,8 @@ impl Agent for Dqn {
         Ok(choice(largest(&values).0 as u32))
     }
 
-    fn learn(&mut self, experience: &Experience, rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error> {
-        self.memory.push(Transition::of(experience));
+    fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
+        self.replay.push(StoredTransition::of(transition));
         self.shots += 1;
         if self.shots <= self.settings.warm_up as u64 { Ok(None) } else { self.update(rng).map(Some) }
     }
@@ -223,11 +223,11 @@ impl Agent for Dqn {
         for (order, moment) in self.optimiser.state().0.iter().enumerate() {
             writer.add(format!("moment.{order}"), moment.dims(), &moment.to_vec1()?);
         }
-        note_of(&Note { shots: self.shots, updates: self.updates, next: self.memory.save(writer) })
+        note_of(&DqnState { shots: self.shots, updates: self.updates, next: self.replay.save(writer) })
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let Note { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let DqnState { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let online = network(&settings, reader, "online")?;
         let moment = |order: usize| {
             let name = format!("moment.{order}");
@@ -242,7 +242,7 @@ impl Agent for Dqn {
         Ok(Self {
             target: network(&settings, reader, "target")?,
             optimiser: Adam::from_state([moment(0)?, moment(1)?], updates)?,
-            memory: Memory::restore(settings.memory, reader, next)?,
+            replay: ReplayBuffer::restore(settings.memory, reader, next)?,
             online,
             settings,
             shots,
@@ -250,7 +250,7 @@ impl Agent for Dqn {
         })
     }
 
-    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
+    fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         let online = network(&self.settings, reader, "online")?;
         self.target = online.duplicate()?;
         self.online = online;

@@ -15,14 +15,14 @@ use super::{
 use crate::{
     learning::{
         evaluation::Score,
-        learner::{self, Learner, Plan, StartError, Turn, note_of},
+        learner::{self, Iteration, Learner, StartError, TrainingPlan, note_of},
         network::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
     table::{Layout, Table},
 };
 
-/// Shots of a turn. As many as the agents play before their first update, so that updates come in whole hundreds.
+/// Shots of a iteration. As many as the agents play before their first update, so that updates come in whole hundreds.
 const SHOTS_PER_TURN: u64 = 100;
 
 /// The lines in the list of agents.
@@ -36,25 +36,29 @@ const fn line<A: Agent + 'static>() -> learner::Agent {
     learner::Agent { name: A::NAME, title: A::TITLE, start: start::<A>, restore: restore::<A> }
 }
 
-fn start<A: Agent + 'static>(plan: Plan, table: Table, settings: Value) -> Result<Box<dyn Learner>, StartError> {
+fn start<A: Agent + 'static>(
+    plan: TrainingPlan,
+    table: Table,
+    settings: Value,
+) -> Result<Box<dyn Learner>, StartError> {
     let settings: A::Settings =
         serde_json::from_value(settings).map_err(|error| StartError::Settings(error.to_string()))?;
     settings.validate().map_err(|error| StartError::Settings(error.to_string()))?;
-    Ok(Box::new(Student::<A>::new(plan, table, settings)?))
+    Ok(Box::new(TrainingLoop::<A>::new(plan, table, settings)?))
 }
 
 fn restore<A: Agent + 'static>(reader: &Reader<'_>, note: Value) -> Result<Box<dyn Learner>, WeightsError> {
-    let note: Note<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+    let note: TrainingLoopState<A::Settings> = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
     note.settings.validate().map_err(|_| WeightsError::Foreign)?;
     let agent = A::restore(note.settings, reader, note.agent)?;
-    let Note { plan, game, progress, rng, shots, .. } = note;
-    Ok(Box::new(Student { plan, agent, game, progress, rng, shots }))
+    let TrainingLoopState { plan, game, progress, rng, shots, .. } = note;
+    Ok(Box::new(TrainingLoop { plan, agent, game, progress, rng, shots }))
 }
 
 /// An agent and its game.
 #[derive(Debug)]
-pub struct Student<A> {
-    plan: Plan,
+pub struct TrainingLoop<A> {
+    plan: TrainingPlan,
     agent: A,
     game: Carom,
     progress: Progress,
@@ -64,8 +68,8 @@ pub struct Student<A> {
 
 /// What a file holds beside arrays.
 #[derive(Serialize, Deserialize)]
-struct Note<S> {
-    plan: Plan,
+struct TrainingLoopState<S> {
+    plan: TrainingPlan,
     settings: S,
     agent: Value,
     game: Carom,
@@ -74,12 +78,12 @@ struct Note<S> {
     shots: u64,
 }
 
-impl<A: Agent> Student<A> {
-    /// A beginner.
+impl<A: Agent> TrainingLoop<A> {
+    /// An untrained agent.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn new(plan: Plan, table: Table, settings: A::Settings) -> candle_core::Result<Self> {
+    pub fn new(plan: TrainingPlan, table: Table, settings: A::Settings) -> candle_core::Result<Self> {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
         let game = Carom::new(table, plan.reward, settings.episode());
         Ok(Self { agent: A::new(settings, &mut rng)?, plan, game, progress: Progress::default(), rng, shots: 0 })
@@ -89,21 +93,21 @@ impl<A: Agent> Student<A> {
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
-    pub fn play(&mut self, shots: u64) -> candle_core::Result<Turn> {
-        let (mut turn, mut updates) = (Turn::default(), 0_u32);
+    pub fn play(&mut self, shots: u64) -> candle_core::Result<Iteration> {
+        let (mut iteration, mut updates) = (Iteration::default(), 0_u32);
         for _ in 0..shots {
             let played = self.progress.shoot(&mut self.agent, &mut self.game, &mut self.rng)?;
-            turn.mean_reward += played.reward / shots as f64;
-            if let Some(learnt) = played.learnt {
-                turn.critic_loss += learnt.loss;
-                turn.q_value += learnt.value;
+            iteration.mean_reward += played.reward / shots as f64;
+            if let Some(stats) = played.stats {
+                iteration.critic_loss += stats.loss;
+                iteration.q_value += stats.value;
                 updates += 1;
             }
         }
         self.shots += shots;
-        turn.critic_loss /= f64::from(updates.max(1));
-        turn.q_value /= f64::from(updates.max(1));
-        Ok(turn)
+        iteration.critic_loss /= f64::from(updates.max(1));
+        iteration.q_value /= f64::from(updates.max(1));
+        Ok(iteration)
     }
 
     /// Mean reward of the agent's best shots on `layouts`, and the share of those that earn at least one.
@@ -116,16 +120,16 @@ impl<A: Agent> Student<A> {
             reached += usize::from(reward >= 1.0);
         }
         let count = layouts.len().max(1) as f64;
-        Ok(Score { mean_reward: total / count, reach: reached as f64 / count })
+        Ok(Score { mean_reward: total / count, best_of_k: reached as f64 / count })
     }
 }
 
-impl<A: Agent> Learner for Student<A> {
+impl<A: Agent> Learner for TrainingLoop<A> {
     fn agent(&self) -> &'static str {
         A::NAME
     }
 
-    fn plan(&self) -> Plan {
+    fn plan(&self) -> TrainingPlan {
         self.plan
     }
 
@@ -154,11 +158,11 @@ impl<A: Agent> Learner for Student<A> {
         self.agent.exploration()
     }
 
-    fn memory(&self) -> Option<f64> {
-        self.agent.memory()
+    fn replay_fill(&self) -> Option<f64> {
+        self.agent.replay_fill()
     }
 
-    fn turn(&mut self) -> candle_core::Result<Turn> {
+    fn iterate(&mut self) -> candle_core::Result<Iteration> {
         let left = self.plan.shots.saturating_sub(self.shots);
         self.play(left.clamp(1, SHOTS_PER_TURN))
     }
@@ -178,7 +182,7 @@ impl<A: Agent> Learner for Student<A> {
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
         let agent = self.agent.save(writer)?;
-        note_of(&Note {
+        note_of(&TrainingLoopState {
             plan: self.plan,
             settings: self.agent.settings().clone(),
             agent,
@@ -189,7 +193,7 @@ impl<A: Agent> Learner for Student<A> {
         })
     }
 
-    fn adopt(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
-        self.agent.adopt(weights)
+    fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
+        self.agent.load_weights(weights)
     }
 }

@@ -13,7 +13,7 @@ pub mod environment;
 pub mod exploration;
 mod kernels;
 pub mod learner;
-pub mod memory;
 mod pass;
 pub mod q_learning;
+pub mod replay;
 pub mod update;

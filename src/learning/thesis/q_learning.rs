@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    agent::{Agent, Choice, Experience, Learnt, Settings},
+    agent::{Agent, Choice, Settings, Transition, UpdateStats},
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, discrete_action},
     exploration::Epsilon,
@@ -85,7 +85,7 @@ pub struct QLearning {
 }
 
 #[derive(Serialize, Deserialize)]
-struct Note {
+struct QLearningState {
     shots: u64,
 }
 
@@ -137,7 +137,7 @@ impl Agent for QLearning {
         self.settings.epsilon.after(self.shots)
     }
 
-    fn memory(&self) -> Option<f64> {
+    fn replay_fill(&self) -> Option<f64> {
         None
     }
 
@@ -154,17 +154,17 @@ impl Agent for QLearning {
         Ok(choice(self.favourite(seen.cell).map_or_else(any, |(index, _)| index)))
     }
 
-    fn learn(&mut self, experience: &Experience, _rng: &mut Xoshiro256PlusPlus) -> Result<Option<Learnt>, Error> {
+    fn learn(&mut self, transition: &Transition, _rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
         let highest = |cell| self.favourite(cell).map_or(0.0, |(_, value)| f64::from(value));
-        let value = highest(experience.before.cell);
-        let next = if experience.goes_on { highest(experience.after.cell) } else { 0.0 };
-        let target = experience.reward + self.settings.discount * next;
+        let value = highest(transition.before.cell);
+        let next = if transition.goes_on { highest(transition.after.cell) } else { 0.0 };
+        let target = transition.reward + self.settings.discount * next;
         let rate = self.settings.learning_rate;
-        let known = self.value_mut(experience.before.cell, experience.choice.index);
+        let known = self.value_mut(transition.before.cell, transition.choice.index);
         let error = target - f64::from(*known);
         *known += (rate * error) as f32;
         self.shots += 1;
-        Ok(Some(Learnt { loss: error * error, value }))
+        Ok(Some(UpdateStats { loss: error * error, value }))
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
@@ -173,17 +173,17 @@ impl Agent for QLearning {
         let numbers: Vec<f32> =
             entries().flat_map(|(cell, (index, value))| [cell as f32, index as f32, value]).collect();
         writer.add("table", &[numbers.len() / 3, 3], &numbers);
-        note_of(&Note { shots: self.shots })
+        note_of(&QLearningState { shots: self.shots })
     }
 
     fn restore(settings: QLearningSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let Note { shots } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let QLearningState { shots } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let mut agent = Self { settings, table: BTreeMap::new(), shots };
-        agent.adopt(reader)?;
+        agent.load_weights(reader)?;
         Ok(agent)
     }
 
-    fn adopt(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
+    fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         let (_, numbers) = reader.array("table")?;
         let mut table: BTreeMap<u32, Vec<(u32, f32)>> = BTreeMap::new();
         for [cell, index, value] in numbers.as_chunks::<3>().0 {

@@ -98,7 +98,7 @@ impl Batch {
 
 /// What an update saw.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct BatchStats {
     /// Mean squared error of the critic before its step.
     pub loss: f64,
     /// Mean value that the critic, after its step, gives to the actor's actions before the actor's.
@@ -146,7 +146,7 @@ impl Workspace {
     }
 
     /// One update of everything in `state`; `steps` is the number of updates up to and including this one.
-    fn update(&mut self, state: &mut [f32], batch: &mut Batch, rates: &Rates, steps: u32) -> Result<Seen> {
+    fn update(&mut self, state: &mut [f32], batch: &mut Batch, rates: &Rates, steps: u32) -> Result<BatchStats> {
         let rows = self.values.len();
         if batch.rewards.len() != rows || state.len() != self.sizes.values() {
             bail!("this workspace is for batches of {rows} and states of {} values", self.sizes.values());
@@ -167,7 +167,7 @@ impl Workspace {
         let value = self.actor_gradient(actor, critic, batch);
         let descent = Descent::new(&self.gradients[0], rates, steps)?;
         descent.step(&self.gradients[0], actor, actor_target, [actor_first, actor_second]);
-        Ok(Seen { loss, value })
+        Ok(BatchStats { loss, value })
     }
 
     /// What the critic should have said: the reward and, where the episode went on, the discounted value of the target
@@ -278,17 +278,17 @@ pub(super) struct Update<'a> {
     rates: &'a Rates,
     steps: u32,
     /// What is written to; candle hands operations out as shared references.
-    inner: RefCell<(&'a mut Workspace, &'a mut Batch, Seen)>,
+    inner: RefCell<(&'a mut Workspace, &'a mut Batch, BatchStats)>,
 }
 
 impl<'a> Update<'a> {
     /// Update number `steps`, the first being 1.
     pub fn new(workspace: &'a mut Workspace, batch: &'a mut Batch, rates: &'a Rates, steps: u32) -> Self {
-        Self { rates, steps, inner: RefCell::new((workspace, batch, Seen::default())) }
+        Self { rates, steps, inner: RefCell::new((workspace, batch, BatchStats::default())) }
     }
 
     /// What it saw, once it has run.
-    pub fn seen(self) -> Seen {
+    pub fn seen(self) -> BatchStats {
         self.inner.into_inner().2
     }
 }

@@ -1,4 +1,4 @@
-//! Which contacts push and which frictions hold: what is constant from one change of regime to the next.
+//! Which contacts push and which frictions hold: what is constant from one change of it to the next.
 
 use glam::DVec2;
 
@@ -81,7 +81,7 @@ impl Friction {
     }
 }
 
-/// What every friction does in one regime.
+/// What every friction does in one active set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActiveSet {
     /// The cloth's friction on each ball against slipping.

@@ -31,7 +31,7 @@ pub struct Forces {
     pub angular: [DVec3; BALLS],
     /// Normal force per ball mass of each contact, m/s².
     pub normal: [f64; MAX_CONTACTS],
-    /// By how much all laws hold, m/s²: negative where the regime that was asked for has ended.
+    /// By how much all laws hold, m/s²: negative where the active set that was asked for has ended.
     pub slack: f64,
     /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
     pub(super) friction: [DVec2; MAX_CONTACTS],
@@ -41,7 +41,7 @@ pub struct Forces {
     pub(super) spin: [f64; BALLS],
 }
 
-/// The regime that holds in a state.
+/// The active set that holds in a state.
 #[derive(Clone, Debug)]
 pub struct Resolved {
     /// The contacts that push.
@@ -53,7 +53,7 @@ pub struct Resolved {
     /// Whether frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
     pub shared: bool,
     /// What the frictions do if those that have yielded hold again: slips that end, or slide on against their friction.
-    pub grips: Option<ActiveSet>,
+    pub sticking: Option<ActiveSet>,
     /// Whether all laws hold to rounding.
     pub converged: bool,
 }
@@ -76,7 +76,7 @@ pub fn resolve(
         set: *set,
         forces: Forces::of(table.radius, &problem, &solution.sizes, &accelerations),
         shared: false,
-        grips: None,
+        sticking: None,
         converged: solution.converged,
     };
     let never_slips = |place: Place| {
@@ -90,7 +90,8 @@ pub fn resolve(
         if *side == Side::Holds {
             // Balls that never slip stop at once, others slide on against their friction.
             let ends = if never_slips(unknown.place) { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
-            resolved.grips = grip(&resolved.grips.unwrap_or(*set), unknown.place, ends).or(resolved.grips);
+            resolved.sticking =
+                sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
         }
         let Side::Limited(force) = *side else { continue };
         let rates: [f64; 2] = std::array::from_fn(|axis| {
@@ -130,7 +131,7 @@ pub fn resolve(
 }
 
 /// The set in which a friction that yields does something else; none where it does not yield.
-fn grip(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSet> {
+fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSet> {
     let mut set = *set;
     let friction = match place {
         Place::Normal(_) | Place::Spin(_) => return None,
@@ -165,7 +166,7 @@ pub fn yielding(
             Place::Roll(ball) => set.roll[ball],
             Place::Contact(index) => set.contact[index],
         };
-        // Any law that changes sides ends the regime: as fast as its rate grows, or its force falls below the limit.
+        // Any law that changes sides ends the active set: as fast as its rate grows, or its force falls below the limit.
         let rows = &problem.rates[unknown.first..][..unknown.count];
         let slack = match side {
             Side::Holds if friction == Friction::Yields => -slack_of_one(unknown, &solution.sizes),

@@ -54,13 +54,13 @@ type Holding = (DVec2, DVec2, f64);
 
 /// What the cloth does to a ball that would move otherwise.
 #[derive(Clone, Copy)]
-struct Grip {
+struct Sticking {
     cloth: Cloth,
     /// Whether the spin about the vertical is held.
     spin: bool,
 }
 
-impl Grip {
+impl Sticking {
     fn of(set: &ActiveSet, ball: usize) -> Self {
         let cloth = match (set.cloth[ball], set.roll[ball]) {
             (Friction::Slips(_), _) => Cloth::Slides,
@@ -115,7 +115,7 @@ struct Joint {
     /// The normal force alone, or two frictions that hold as well.
     unknowns: usize,
     /// Friction along t and z for each unit of the normal force, where the contact slips.
-    rub: DVec2,
+    slip_friction: DVec2,
     /// What the rates have besides the accelerations' part, m/s²: two balls' courses around each other bend.
     bias: Triple,
 }
@@ -128,14 +128,14 @@ impl Joint {
         t: DVec2::ZERO,
         at: 0,
         unknowns: 0,
-        rub: DVec2::ZERO,
+        slip_friction: DVec2::ZERO,
         bias: [0.0; 3],
     };
 
     /// The force of one unknown alone.
     fn unit(&self, unknown: usize) -> Triple {
         match unknown {
-            0 => [1.0, self.rub.x, self.rub.y],
+            0 => [1.0, self.slip_friction.x, self.slip_friction.y],
             1 => [0.0, 1.0, 0.0],
             _ => [0.0, 0.0, 1.0],
         }
@@ -160,25 +160,25 @@ impl Joint {
     }
 }
 
-/// The linear system of one regime in one state.
+/// The linear system of one active set in one state.
 struct Held {
     joints: [Joint; MAX_CONTACTS],
     contacts: usize,
     unknowns: usize,
-    grips: [Grip; BALLS],
+    sticking: [Sticking; BALLS],
     members: [bool; BALLS],
     /// Each contact's unknowns.
     sizes: [Triple; MAX_CONTACTS],
 }
 
 impl Held {
-    /// The system of the `contacts`; `rubs` says whether the normal force of one that slips brings its friction with it.
+    /// The system of the `contacts`; `has_friction` says whether the normal force of one that slips brings its friction with it.
     fn new(
         table: &Table,
         balls: &[BallState; BALLS],
         contacts: &[Contact],
         set: &ActiveSet,
-        rubs: impl Fn(&Contact) -> bool,
+        has_friction: impl Fn(&Contact) -> bool,
     ) -> Self {
         let joint = |index: usize| {
             let contact = &contacts[index];
@@ -194,7 +194,7 @@ impl Held {
                 turning = -table.radius * (across / diameter) * spin.truncate().dot(n);
             }
             let against = set.contact[index].direction(slip);
-            let mu = if rubs(contact) { coefficient(table, contact) } else { 0.0 };
+            let mu = if has_friction(contact) { coefficient(table, contact) } else { 0.0 };
             Joint {
                 first: contact.first,
                 second: contact.second,
@@ -202,7 +202,7 @@ impl Held {
                 t,
                 at: 0,
                 unknowns: if against.is_some() { 1 } else { 3 },
-                rub: -mu * against.unwrap_or(DVec2::ZERO),
+                slip_friction: -mu * against.unwrap_or(DVec2::ZERO),
                 bias: [centripetal, 0.0, turning],
             }
         };
@@ -210,7 +210,7 @@ impl Held {
             joints: [Joint::NONE; MAX_CONTACTS],
             contacts: contacts.len(),
             unknowns: 0,
-            grips: std::array::from_fn(|ball| Grip::of(set, ball)),
+            sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
             members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
             sizes: [[0.0; 3]; MAX_CONTACTS],
         };
@@ -232,7 +232,7 @@ impl Held {
                 let (push, twist) = joint.act(joint.unit(unknown));
                 let mut response = Movement::NONE;
                 for (ball, sense) in joint.members() {
-                    (response.linear[ball], response.angular[ball]) = self.grips[ball].held(sense * push, twist);
+                    (response.linear[ball], response.angular[ball]) = self.sticking[ball].held(sense * push, twist);
                 }
                 for other in self.joints() {
                     for (row, rate) in other.rates(&response)[..other.unknowns].iter().enumerate() {
@@ -307,8 +307,8 @@ impl Held {
     /// The force in a contact.
     fn force(&self, index: usize) -> Triple {
         let [normal, along, up] = self.sizes[index];
-        let rub = self.joints[index].rub;
-        [normal, along + rub.x * normal, up + rub.y * normal]
+        let slip_friction = self.joints[index].slip_friction;
+        [normal, along + slip_friction.x * normal, up + slip_friction.y * normal]
     }
 
     /// The movement under the contacts' forces, before the cloth holds it and after.
@@ -324,13 +324,13 @@ impl Held {
         let mut moved = forced;
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             (moved.linear[ball], moved.angular[ball]) =
-                self.grips[ball].held(forced.linear[ball], forced.angular[ball]);
+                self.sticking[ball].held(forced.linear[ball], forced.angular[ball]);
         }
         (forced, moved)
     }
 }
 
-/// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the regime's end,
+/// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the active set's end,
 /// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
 pub fn forces(
     table: &Table,
@@ -373,16 +373,16 @@ pub fn forces(
     let [unheld, moved] = system.solve(&free, true)?;
     let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
     for ball in (0..BALLS).filter(|&ball| members[ball]) {
-        let grip = system.grips[ball];
-        let (cloth, roll, spin) = grip.holding(unheld.linear[ball], unheld.angular[ball]);
+        let sticking = system.sticking[ball];
+        let (cloth, roll, spin) = sticking.holding(unheld.linear[ball], unheld.angular[ball]);
         (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
-        if grip.cloth != Cloth::Slides {
+        if sticking.cloth != Cloth::Slides {
             limit(sliding, cloth.length());
         }
-        if grip.cloth == Cloth::Stands {
+        if sticking.cloth == Cloth::Stands {
             limit(rolling, roll.length());
         }
-        if grip.spin {
+        if sticking.spin {
             limit(boring, spin.abs());
         }
         forces.linear[ball] = moved.linear[ball];
@@ -400,12 +400,12 @@ pub fn forces(
 }
 
 /// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
-/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something rubs where its
+/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something has friction where its
 /// contact slips. Where they cannot all vanish, all stay.
 pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts: &[Contact], set: &ActiveSet) {
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
-    let rubs = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
-    let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), rubs);
+    let has_friction = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
+    let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), has_friction);
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     if let Some([_, stopped]) = system.solve(&speeds, false) {

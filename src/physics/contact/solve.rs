@@ -15,7 +15,7 @@ use super::{
 /// Forces per mass by which laws may be broken, as a share of the largest force or acceleration: some hundred roundings.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
-/// Newton steps before sweeps are tried. From a near regime it takes two or three, from anywhere about eight.
+/// Newton steps before sweeps are tried. From a near active set it takes two or three, from anywhere about eight.
 const NEWTON_STEPS: usize = 24;
 
 /// A step that takes the error below this share of itself is as good as any.

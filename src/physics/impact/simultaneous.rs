@@ -92,12 +92,12 @@ pub fn collide_together(
                 Some(mu) if mu * impulses[index] < holds * size => mu * impulses[index] / size,
                 _ => holds,
             };
-            let (rub, t) = (-share * factor * slips[index], normals[index].perp());
-            let twist = contact_twist(radius, -rub.x, -rub.y, t);
-            balls[contact.first].velocity += rub.x * t;
+            let (tangential, t) = (-share * factor * slips[index], normals[index].perp());
+            let twist = contact_twist(radius, -tangential.x, -tangential.y, t);
+            balls[contact.first].velocity += tangential.x * t;
             balls[contact.first].spin += twist;
             if let Some(second) = contact.second {
-                balls[second].velocity -= rub.x * t;
+                balls[second].velocity -= tangential.x * t;
                 balls[second].spin += twist;
             }
         }

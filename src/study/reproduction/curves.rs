@@ -9,7 +9,7 @@ use crate::{
     game::Reward,
     learning::{
         evaluation::{HELD_OUT_SEED, held_out_layouts},
-        learner::{Agent, Learner, Plan, StartError},
+        learner::{Agent, Learner, StartError, TrainingPlan},
         thesis::carom::{Carom, Episode},
     },
     table::{Layout, Table},
@@ -83,7 +83,7 @@ impl Training {
     /// Where the agent cannot start.
     pub fn run(&self, table: &Table, played: &dyn Fn(u64) -> bool) -> Result<Option<Curve>, StartError> {
         let agent = Agent::named(self.agent).map_err(|error| StartError::Settings(error.to_string()))?;
-        let plan = Plan { reward: self.reward, seed: self.seed, shots: self.shots };
+        let plan = TrainingPlan { reward: self.reward, seed: self.seed, shots: self.shots };
         let mut learner = (agent.start)(plan, table.clone(), self.reading.settings())?;
         let mut curve = Curve::default();
         while !learner.is_finished() {
@@ -107,7 +107,7 @@ fn interval(learner: &mut dyn Learner, played: &dyn Fn(u64) -> bool) -> Result<O
     let (start, mut point, mut updates) = (learner.shots(), Point::default(), 0.0);
     while learner.shots() < start + INTERVAL && !learner.is_finished() {
         let (shots, updates_before) = (learner.shots(), learner.updates());
-        let turn = learner.turn()?;
+        let turn = learner.iterate()?;
         let (shots, made) = (learner.shots() - shots, (learner.updates() - updates_before) as f64);
         if !played(shots) {
             return Ok(None);

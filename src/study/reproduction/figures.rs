@@ -150,7 +150,7 @@ mod tests {
             assert_eq!(Figure::named(figure.name), Ok(figure));
             let agent = learner::Agent::named(figure.agent).unwrap();
             for reading in READINGS {
-                let plan = learner::Plan { reward: figure.reward, seed: 1, shots: 1 };
+                let plan = learner::TrainingPlan { reward: figure.reward, seed: 1, shots: 1 };
                 let learner = (agent.start)(plan, Table::default(), reading.settings()).unwrap();
                 assert_eq!(learner.settings()["episode"], reading.settings()["episode"]);
             }

@@ -109,8 +109,8 @@ impl Session {
             }
         };
         thread::scope(|scope| {
-            let crew: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
-            crew.into_iter().try_for_each(|worker| match worker.join() {
+            let workers: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
+            workers.into_iter().try_for_each(|worker| match worker.join() {
                 Ok(result) => result,
                 Err(panic) => std::panic::resume_unwind(panic),
             })

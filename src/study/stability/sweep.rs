@@ -96,7 +96,7 @@ impl Sweep {
             let own = Arc::clone(&desk);
             (thread::spawn(move || work.through(&own, &sender)), desk)
         };
-        let mut crew: Vec<_> = (0..threads).map(|_| start(&work)).collect();
+        let mut workers: Vec<_> = (0..threads).map(|_| start(&work)).collect();
         let (mut figures, mut findings) = (Figures::default(), 0_u64);
         let mut looked = Instant::now();
         loop {
@@ -112,12 +112,12 @@ impl Sweep {
                     findings += 1;
                     go_on = watch(progress(&figures, findings), Some(&finding));
                 }
-                Err(RecvTimeoutError::Timeout) if crew.iter().all(|(thread, _)| thread.is_finished()) => break,
+                Err(RecvTimeoutError::Timeout) if workers.iter().all(|(thread, _)| thread.is_finished()) => break,
                 Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
             }
             if looked.elapsed() >= WATCH_EVERY {
                 looked = Instant::now();
-                for place in &mut crew {
+                for place in &mut workers {
                     if let Some(shot) = place.1.hangs() {
                         let finding = Finding::hang(&self.table, &shot);
                         figures.merge(&Figures {

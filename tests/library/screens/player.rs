@@ -13,7 +13,7 @@ use carom::{
         evaluation::SuccessRate,
         run::{
             follow::{Condition, Update},
-            standing::{Phase, Standing},
+            status::{Phase, RunStatus},
         },
     },
     physics::CueInputs,
@@ -292,7 +292,7 @@ impl Player {
 
     pub fn condition(self, condition: Condition, reason: Option<&str>) -> Self {
         let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
-        let standing = Standing { phase, reason: reason.map(str::to_owned), ..standing() };
+        let standing = RunStatus { phase, reason: reason.map(str::to_owned), ..standing() };
         let update = Update { condition: Some(condition), standing: Some(standing), ..Update::default() };
         self.update(Slot::Main, NAME, update)
     }

@@ -9,7 +9,7 @@ use carom::{
         follow::{Condition, Update},
         list::{Stage, Summary},
         metrics::Record,
-        standing::{Phase, Standing},
+        status::{Phase, RunStatus},
     },
     physics::CueInputs,
     table::{Layout, Table},
@@ -58,8 +58,8 @@ pub fn config(reward: &str) -> Config {
     .unwrap()
 }
 
-pub fn standing() -> Standing {
-    Standing {
+pub fn standing() -> RunStatus {
+    RunStatus {
         phase: Phase::Training,
         shots: 1_200_000,
         updates: 93_750,

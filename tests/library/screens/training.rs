@@ -15,7 +15,7 @@ use carom::{
             follow::{Condition, Update},
             list::{Listing, Stage},
             request::Request,
-            standing::Phase,
+            status::Phase,
         },
     },
     table::Table,

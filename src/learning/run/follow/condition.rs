@@ -6,16 +6,16 @@ use super::stamp::Stamp;
 use crate::{
     learning::run::{
         holds_checkpoints,
-        standing::{self, Phase, Standing},
+        status::{self, Phase, RunStatus},
     },
     storage::Lock,
 };
 
 /// Silence after which a run that trains or waits is stalled: it should have said something each second.
-const PATIENCE: Duration = Duration::from_secs(15);
+const HEARTBEAT_TIMEOUT: Duration = Duration::from_secs(15);
 
 /// The same while it plays the held-out layouts, which may be many.
-const MEASURING_PATIENCE: Duration = Duration::from_mins(10);
+const MEASURING_TIMEOUT: Duration = Duration::from_mins(10);
 
 /// Time in which a process begins, or ends, to hold the lock and to say what it does: the two are not seen at one moment.
 const FRESH: Duration = Duration::from_secs(2);
@@ -100,8 +100,8 @@ impl Signs {
             was_there: is_there,
             is_run: holds_checkpoints(folder),
             is_held: Lock::is_held(folder),
-            phase: Standing::read(folder).ok().map(|standing| standing.phase),
-            silent: Stamp::of(&folder.join(standing::FILE)).map_or(Duration::ZERO, |stamp| stamp.age()),
+            phase: RunStatus::read(folder).ok().map(|standing| standing.phase),
+            silent: Stamp::of(&folder.join(status::FILE)).map_or(Duration::ZERO, |stamp| stamp.age()),
             shots: None,
             planned: None,
         }
@@ -119,12 +119,12 @@ pub fn condition(signs: &Signs) -> Condition {
         Some(phase) if phase.is_over() && held && silent >= FRESH => Condition::Is(Phase::Training),
         Some(phase) if phase.is_over() => Condition::Is(phase),
         Some(phase) => {
-            let patience = if phase == Phase::Measuring { MEASURING_PATIENCE } else { PATIENCE };
+            let timeout = if phase == Phase::Measuring { MEASURING_TIMEOUT } else { HEARTBEAT_TIMEOUT };
             match is_held {
-                Some(true) if silent >= patience => Condition::Stalled(whole_seconds(silent)),
+                Some(true) if silent >= timeout => Condition::Stalled(whole_seconds(silent)),
                 Some(false) if silent >= FRESH => Condition::Died,
                 // Where there are no locks, silence is all there is to tell by.
-                None if silent >= patience => Condition::Died,
+                None if silent >= timeout => Condition::Died,
                 _ => Condition::Is(phase),
             }
         }

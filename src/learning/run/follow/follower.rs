@@ -20,7 +20,7 @@ use crate::{
         history::History,
         holds_checkpoints,
         metrics::Record,
-        standing::{self, Standing},
+        status::{self, RunStatus},
     },
     storage::Lock,
 };
@@ -138,7 +138,7 @@ impl Follower {
     }
 
     fn look_at_standing(&mut self, update: &mut Update) {
-        let stamp = Stamp::of(&self.folder.join(standing::FILE));
+        let stamp = Stamp::of(&self.folder.join(status::FILE));
         if stamp == self.standing {
             return;
         }
@@ -147,7 +147,7 @@ impl Follower {
         // A look at a run that has said nothing for an hour finds it an hour silent.
         let age = stamp.filter(|_| is_first).map_or(Duration::ZERO, |stamp| stamp.age());
         self.heard = Instant::now().checked_sub(age).unwrap_or_else(Instant::now);
-        match Standing::read(&self.folder) {
+        match RunStatus::read(&self.folder) {
             Ok(standing) => {
                 self.signs.phase = Some(standing.phase);
                 self.said = standing.shots;
@@ -158,7 +158,7 @@ impl Follower {
                 self.signs.phase = None;
                 self.troubles[1] = None;
             }
-            Err(error) => self.troubles[1] = Some(format!("{} cannot be read: {error}", standing::FILE)),
+            Err(error) => self.troubles[1] = Some(format!("{} cannot be read: {error}", status::FILE)),
         }
     }
 
@@ -269,7 +269,7 @@ mod tests {
             let (mut follower, mut followed) = (Follower::new(folder.path()), Followed::new(folder.path()));
             for (lines, standing, shots, config) in states {
                 for (name, content) in
-                    [(METRICS, lines), (standing::FILE, standing), (examples::FILE, shots), (config::FILE, config)]
+                    [(METRICS, lines), (status::FILE, standing), (examples::FILE, shots), (config::FILE, config)]
                 {
                     let path = folder.path().join(name);
                     match content {

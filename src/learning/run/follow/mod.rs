@@ -21,7 +21,7 @@ use super::{
     history::History,
     metrics::Record,
     quantity::Quantity,
-    standing::{Phase, Standing},
+    status::{Phase, RunStatus},
 };
 
 /// What is known of a run.
@@ -34,7 +34,7 @@ pub struct Followed {
     /// What it has reported.
     pub history: History,
     /// What it says of itself; nothing where it has not started, or an earlier carom trained it.
-    pub standing: Option<Standing>,
+    pub standing: Option<RunStatus>,
     /// How it is, as far as one can see from outside.
     pub condition: Condition,
     /// Its latest shots on held-out layouts.
@@ -53,7 +53,7 @@ pub struct Update {
     /// Lines that have come since.
     pub records: Vec<Record>,
     /// What it says of itself.
-    pub standing: Option<Standing>,
+    pub standing: Option<RunStatus>,
     /// How it is.
     pub condition: Option<Condition>,
     /// Its latest shots.

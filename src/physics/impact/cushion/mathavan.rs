@@ -1,7 +1,7 @@
 //! Impact at the height of the nose, integrated over its impulse: Mathavan, Jackson and Parkin, "A theoretical analysis of
 //! billiard ball dynamics under cushion impacts" (2010).
 //!
-//! While the impulse `P` along the line of the impact grows, the nose rubs the ball with `μ dP` against the slip there,
+//! While the impulse `P` along the line of the impact grows, the nose's friction acts on the ball with `μ dP` against the slip there,
 //! and the ball, pressed into the cloth by `dN = (sin α + μ cos α · slip's upward share) dP`, is rubbed by the cloth with
 //! `μ_s dN` against its slip below. Compression ends when the ball no longer approaches; restitution gives back the
 //! share `e²` of the work that compression took (Stronge).
@@ -42,15 +42,15 @@ impl Law {
         let Self { radius, nose, cloth, sine, cosine } = *self;
         let Motion { velocity: v, spin: w } = *motion;
         let at_nose = DVec2::new(v.y - radius * (cosine * w.z + sine * w.x), radius * w.y + sine * v.x);
-        let rub = -nose * at_nose.normalize_or_zero();
+        let friction = -nose * at_nose.normalize_or_zero();
         // Upwards the nose lifts with its friction and presses down with its normal force.
-        let pressed = (sine - rub.y * cosine).max(0.0);
+        let pressed = (sine - friction.y * cosine).max(0.0);
         let below = DVec2::new(v.x - radius * w.y, v.y + radius * w.x);
         let drag = -cloth * pressed * below.normalize_or_zero();
         let lever = 2.5 / radius;
         Motion {
-            velocity: DVec2::new(cosine + rub.y * sine + drag.x, rub.x + drag.y),
-            spin: lever * DVec3::new(-rub.x * sine + drag.y, rub.y - drag.x, -rub.x * cosine),
+            velocity: DVec2::new(cosine + friction.y * sine + drag.x, friction.x + drag.y),
+            spin: lever * DVec3::new(-friction.x * sine + drag.y, friction.y - drag.x, -friction.x * cosine),
         }
     }
 

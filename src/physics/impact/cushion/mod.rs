@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::BallState;
 use crate::table::{Fade, Rail, RailModel, Rails, Table};
 pub use equator::collide_rail;
-use nose::Grip;
+use nose::StickSlip;
 
 /// One cushion, as an impact needs it.
 #[derive(Clone, Copy, Debug)]
@@ -27,11 +27,11 @@ pub struct Cushion {
 #[derive(Clone, Copy, Debug)]
 enum Law {
     Equator,
-    /// Sine and cosine of the height at which the nose meets the ball, as seen from its centre, and how it grips.
+    /// Sine and cosine of the height at which the nose meets the ball, as seen from its centre, and how slip turns into sticking.
     Nose {
         sine: f64,
         cosine: f64,
-        grip: Grip,
+        stick_slip: StickSlip,
     },
     /// The same height; friction of the cloth meanwhile.
     Mathavan {
@@ -51,10 +51,10 @@ impl Cushion {
         let cosine = if sine == 0.0 { 1.0 } else { (1.0 - sine * sine).sqrt() };
         let law = match table.rail.model {
             RailModel::Equator => Law::Equator,
-            RailModel::Nose => Law::Nose { sine, cosine, grip: Grip::Sharp },
+            RailModel::Nose => Law::Nose { sine, cosine, stick_slip: StickSlip::Sharp },
             RailModel::Smooth => {
                 let most = 2.0 / 7.0 * table.rail.kappa.unwrap_or(1.0);
-                Law::Nose { sine, cosine, grip: Grip::Smooth { most } }
+                Law::Nose { sine, cosine, stick_slip: StickSlip::Smooth { most } }
             }
             RailModel::Mathavan => Law::Mathavan { sine, cosine, cloth: table.sliding_friction },
         };
@@ -83,8 +83,8 @@ impl Cushion {
         let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
         match self.law {
             Law::Equator => collide_rail(radius, restitution, self.friction, n, ball),
-            Law::Nose { sine, cosine, grip } => {
-                nose::collide(radius, restitution, self.friction, [sine, cosine], grip, n, ball)
+            Law::Nose { sine, cosine, stick_slip } => {
+                nose::collide(radius, restitution, self.friction, [sine, cosine], stick_slip, n, ball)
             }
             Law::Mathavan { sine, cosine, cloth } => {
                 mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball)

@@ -11,7 +11,7 @@ use super::BallState;
 
 /// How friction passes from slipping to sticking.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Grip {
+pub(super) enum StickSlip {
     /// Coulomb's law up to no slip: `f = min(2/7, μ P / (m |S|))`.
     Sharp,
     /// `f = L tanh(μ P / (m L |S|))`, with the most `L` that the slip loses.
@@ -28,7 +28,7 @@ pub(super) fn collide(
     restitution: f64,
     friction: f64,
     [sine, cosine]: [f64; 2],
-    grip: Grip,
+    stick_slip: StickSlip,
     n: DVec2,
     ball: &mut BallState,
 ) -> f64 {
@@ -43,12 +43,12 @@ pub(super) fn collide(
     let slip_t = ball.velocity.dot(t) - radius * (cosine * ball.spin.z + sine * spin_n);
     let slip_up = radius * spin_t - sine * approach;
     let slip = (slip_t * slip_t + slip_up * slip_up).sqrt();
-    let factor = match grip {
-        Grip::Sharp => {
+    let factor = match stick_slip {
+        StickSlip::Sharp => {
             let slips = friction * normal / slip;
             if slips < 2.0 / 7.0 { slips } else { 2.0 / 7.0 }
         }
-        Grip::Smooth { most } => {
+        StickSlip::Smooth { most } => {
             // The hyperbolic tangent at half the price of the library's; beyond that it is one.
             let grown = (2.0 * friction * normal / (most * slip)).exp();
             if grown < 1e17 { most * (grown - 1.0) / (grown + 1.0) } else { most }

@@ -1,5 +1,5 @@
 //! What the laws of impact and of free motion take of the energy, by formulas written apart from the engine's. Models of a
-//! table's parts that go beyond the thesis are those of the plain engine.
+//! table's parts that go beyond the thesis are those of the reference engine.
 
 use super::{
     least_squares::{Column, dot},
@@ -8,7 +8,7 @@ use super::{
 use crate::{
     physics::{BallState, Motion},
     simulation::Rail,
-    study::plain::{Ball, Numbers, Vector, balls_collide, rail_collides},
+    study::reference_engine::{Ball, Numbers, Vector, balls_collide, rail_collides},
     table::{BALLS, RailModel, Rails, Table},
 };
 
@@ -45,7 +45,7 @@ pub fn impact_loss(table: &Table, contact: &Contact, before: &Column, restitutio
     energy(before) - energy(&after)
 }
 
-/// The same for a table whose impacts go by other models: `None` for the thesis' laws, and for models that the plain engine
+/// The same for a table whose impacts go by other models: `None` for the thesis' laws, and for models that the reference engine
 /// has not.
 pub fn impact_loss_by_models(table: &Table, contact: &Contact, balls: &[BallState; BALLS]) -> Option<f64> {
     let numbers = Numbers::<f64>::of(table);

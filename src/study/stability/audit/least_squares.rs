@@ -1,8 +1,13 @@
 //! Least squares with few unknowns, by Gram and Schmidt's method with the largest column first: what the unknowns are, or
 //! that they are not unique.
 
+use crate::table::BALLS;
+
+/// Numbers of a column: a ball's velocity and spin.
+pub const SIZE: usize = 5 * BALLS;
+
 /// A column, or the right-hand side.
-pub type Column = [f64; super::motion::SIZE];
+pub type Column = [f64; SIZE];
 
 /// Columns whose part independent of the others is shorter than this share of them depend on the others.
 const DEPENDENT: f64 = 1e-9;

@@ -6,11 +6,8 @@
 
 use glam::DVec2;
 
-use super::least_squares::{Column, dot};
+use super::least_squares::{Column, SIZE, dot};
 use crate::{physics::BallState, simulation::Rail, table::BALLS};
-
-/// Components: two of the velocity and three of the spin of each ball.
-pub const SIZE: usize = 5 * BALLS;
 
 /// `√(2/5)`.
 const LEVER: f64 = 0.632_455_532_033_675_9;

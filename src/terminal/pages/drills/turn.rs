@@ -250,7 +250,7 @@ impl Turn {
             rule: self.exercise.rule,
             skill: self.session.skill,
             plan: self.session.is_game(),
-            own: self.exercise.taught().filter(|_| is_exact && !self.session.is_game()),
+            own: self.exercise.model_shot().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
     }

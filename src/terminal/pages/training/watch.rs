@@ -7,7 +7,7 @@ use crate::{
     learning::run::{
         POLICY,
         follow::{Condition, Followed, Update},
-        standing::Phase,
+        status::Phase,
     },
     table::Table,
     terminal::pages::training::{

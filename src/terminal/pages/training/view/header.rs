@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    learning::run::{follow::Condition, standing::Phase},
+    learning::run::{follow::Condition, status::Phase},
     terminal::{
         pages::training::Watch,
         ui::{Ui, text::end_of},

@@ -10,7 +10,7 @@ use ratatui::{
 use crate::{
     learning::{
         evaluation::SuccessRate,
-        run::{follow::Condition, standing::Phase},
+        run::{follow::Condition, status::Phase},
     },
     terminal::{
         pages::training::{Named, TrainingPage, Watch},

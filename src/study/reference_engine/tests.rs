@@ -1,8 +1,5 @@
 //! The engine as a whole, where balls rest against each other or against cushions.
 
-use rand::SeedableRng;
-use rand_xoshiro::Xoshiro256PlusPlus;
-
 use super::*;
 use crate::{
     physics,
@@ -10,7 +7,6 @@ use crate::{
     study::{
         Errors, Method, Truth,
         shots::{StudyShot, random_shots},
-        stability::adversarial,
     },
     table::{BALLS, Fade, OneRail, RailModel, Rails, SlipFriction, Table},
 };
@@ -220,30 +216,4 @@ fn what_the_engine_lacks_is_said_and_not_judged() {
     assert_eq!(Truth::of(&integrated, &shot).unwrap_err(), Unjudged::IntegratedRail);
     let tilted = Table { tilt: glam::DVec2::new(1e-3, 0.0), ..thesis() };
     assert_eq!(Truth::of(&tilted, &shot).unwrap_err(), Unjudged::Slope);
-}
-
-fn judges_all(random: usize, adversarial_shots: usize) {
-    for table in [thesis(), Table::preset("textbook").unwrap()] {
-        for shot in random_shots(&table, random, 1) {
-            let _ = played(&table, &shot, [0, 1, 2], false);
-        }
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        for _ in 0..adversarial_shots {
-            let shot = adversarial::shot(&table, &mut rng);
-            let cue = shot.cue.inputs();
-            let shot = StudyShot { layout: shot.layout, cue, impulse: physics::strike(&table, &cue) };
-            let _ = played(&table, &shot, [0, 1, 2], false);
-        }
-    }
-}
-
-#[test]
-fn every_shot_is_judged() {
-    judges_all(50, 50);
-}
-
-#[test]
-#[ignore = "takes some minutes"]
-fn every_shot_of_a_long_run_is_judged() {
-    judges_all(1000, 300);
 }

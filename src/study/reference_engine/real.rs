@@ -1,4 +1,4 @@
-//! The numbers that the plain engine computes with: what it needs of them, for `f32` and `f64`.
+//! The numbers that the reference engine computes with: what it needs of them, for `f32` and `f64`.
 
 use std::{
     fmt::Debug,

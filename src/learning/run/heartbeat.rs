@@ -1,4 +1,4 @@
-//! The pulse of a run at work: about once a second it tells what it is doing, and it listens to what it is asked.
+//! The heartbeat of a run at work: about once a second it tells what it is doing, and it listens to what it is asked.
 
 use std::{
     collections::VecDeque,
@@ -8,7 +8,7 @@ use std::{
 
 use super::{
     request::Request,
-    standing::{Phase, Standing},
+    status::{Phase, RunStatus},
 };
 use crate::learning::learner::Learner;
 
@@ -23,47 +23,47 @@ const SPEED_BEATS: usize = 6;
 
 /// What a run tells those who watch it. Nothing of it is needed to go on, so what cannot be written is not told.
 #[derive(Debug)]
-pub struct Pulse {
+pub struct Heartbeat {
     folder: PathBuf,
-    standing: Standing,
+    status: RunStatus,
     beaten: Option<Instant>,
     listened: Instant,
     /// Seconds of training, shots and updates at the last beats, for the speeds.
     track: VecDeque<(f64, u64, u64)>,
 }
 
-impl Pulse {
+impl Heartbeat {
     /// That of the run in `folder`, which begins to work now: an earlier request was not meant for it.
     pub fn new(folder: &Path) -> Self {
         Request::clear(folder);
-        let standing = Standing { process: std::process::id(), ..Standing::default() };
+        let status = RunStatus { process: std::process::id(), ..RunStatus::default() };
         let track = VecDeque::with_capacity(SPEED_BEATS);
-        Self { folder: folder.to_owned(), standing, beaten: None, listened: Instant::now(), track }
+        Self { folder: folder.to_owned(), status, beaten: None, listened: Instant::now(), track }
     }
 
     /// Tells what the run is doing, `seconds` into its training, if a second has passed or it does something else now.
     pub fn beat(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
         let is_due = self.beaten.is_none_or(|beaten| beaten.elapsed() >= BEAT);
-        if is_due || phase != self.standing.phase {
+        if is_due || phase != self.status.phase {
             self.tell(phase, learner, seconds);
         }
     }
 
     /// Tells how the run has ended.
     pub fn end(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64, reason: Option<String>) {
-        self.standing.reason = reason;
+        self.status.reason = reason;
         Request::clear(&self.folder);
         self.tell(phase, learner, seconds);
     }
 
     /// Keeps what the run has earned on the held-out layouts: a run that is stopped has no line of metrics for it.
     pub const fn measured(&mut self, reward: f64) {
-        self.standing.held_out_reward = Some(reward);
+        self.status.held_out_reward = Some(reward);
     }
 
     /// Keeps a sentence for those who watch.
     pub fn warn(&mut self, sentence: &str) {
-        self.standing.warning = Some(sentence.to_owned());
+        self.status.warning = Some(sentence.to_owned());
     }
 
     /// What the run is asked to do.
@@ -79,7 +79,7 @@ impl Pulse {
         let (shots, updates) = (learner.shots(), learner.updates());
         if phase == Phase::Paused {
             self.track.clear();
-            (self.standing.shots_per_second, self.standing.updates_per_second) = (0.0, 0.0);
+            (self.status.shots_per_second, self.status.updates_per_second) = (0.0, 0.0);
         }
         if self.track.len() == SPEED_BEATS {
             self.track.pop_front();
@@ -87,18 +87,18 @@ impl Pulse {
         self.track.push_back((seconds, shots, updates));
         let (first, passed) = (self.track[0], seconds - self.track[0].0);
         if passed > 0.0 {
-            self.standing.shots_per_second = (shots - first.1) as f64 / passed;
-            self.standing.updates_per_second = (updates - first.2) as f64 / passed;
+            self.status.shots_per_second = (shots - first.1) as f64 / passed;
+            self.status.updates_per_second = (updates - first.2) as f64 / passed;
         }
         if phase == Phase::Measuring {
             // A measurement is no part of the speed: it begins anew afterwards.
             self.track.clear();
         }
-        self.standing.phase = phase;
-        (self.standing.shots, self.standing.updates, self.standing.seconds) = (shots, updates, seconds);
-        (self.standing.exploration, self.standing.memory) = (learner.exploration(), learner.memory());
+        self.status.phase = phase;
+        (self.status.shots, self.status.updates, self.status.seconds) = (shots, updates, seconds);
+        (self.status.exploration, self.status.memory) = (learner.exploration(), learner.replay_fill());
         // Nobody has to watch: a full disk stops checkpoints, and says so, but not this.
-        let _ = self.standing.write(&self.folder);
+        let _ = self.status.write(&self.folder);
         self.beaten = Some(Instant::now());
     }
 }
@@ -120,7 +120,7 @@ mod tests {
         let folder = folder.to_owned();
         thread::spawn(move || {
             for _ in 0..4000 {
-                if Standing::read(&folder).is_ok_and(|standing| standing.phase == phase) {
+                if RunStatus::read(&folder).is_ok_and(|status| status.phase == phase) {
                     break;
                 }
                 thread::sleep(Duration::from_millis(5));
@@ -141,10 +141,10 @@ mod tests {
     fn a_run_tells_what_it_does_and_shows_its_shots() {
         let folder = tempfile::tempdir().unwrap();
         let mut run = small_run(folder.path());
-        run.practise(&FOREVER, &mut Told::default()).unwrap();
-        let standing = Standing::read(folder.path()).unwrap();
-        assert_eq!((standing.phase, standing.shots, standing.process), (Phase::Finished, 160, std::process::id()));
-        assert!(standing.updates > 0 && standing.memory == Some(1.0) && standing.exploration > 0.0, "{standing:?}");
+        run.train(&FOREVER, &mut Told::default()).unwrap();
+        let status = RunStatus::read(folder.path()).unwrap();
+        assert_eq!((status.phase, status.shots, status.process), (Phase::Finished, 160, std::process::id()));
+        assert!(status.updates > 0 && status.memory == Some(1.0) && status.exploration > 0.0, "{status:?}");
         let Examples { after, shots } = Examples::read(folder.path()).unwrap();
         assert_eq!((after, shots.len()), (160, examples::COUNT));
         let (reward, table) = (run.learner().plan().reward, run.learner().table());
@@ -159,23 +159,23 @@ mod tests {
         Request::Abandon.send(folder.path()).unwrap();
         let asking =
             [ask(folder.path(), Phase::Training, Request::Pause), ask(folder.path(), Phase::Paused, Request::Stop)];
-        let ending = run.practise(&SLOW, &mut Told::default()).unwrap();
+        let ending = run.train(&SLOW, &mut Told::default()).unwrap();
         for thread in asking {
             thread.join().unwrap();
         }
         assert!(matches!(ending, Ending::Stopped(_)));
-        assert_eq!(Standing::read(folder.path()).unwrap().phase, Phase::Stopped);
+        assert_eq!(RunStatus::read(folder.path()).unwrap().phase, Phase::Stopped);
         drop(run);
         let mut run = Run::resume(folder.path()).unwrap().0;
         let asking =
             [ask(folder.path(), Phase::Training, Request::Pause), ask(folder.path(), Phase::Paused, Request::GoOn)];
-        assert!(matches!(run.practise(&SLOW, &mut Told::default()).unwrap(), Ending::Finished(_)));
+        assert!(matches!(run.train(&SLOW, &mut Told::default()).unwrap(), Ending::Finished(_)));
         for thread in asking {
             thread.join().unwrap();
         }
         assert_eq!(Request::take(folder.path()), None);
         let (whole, other) = (folder.path().join("checkpoint.safetensors"), tempfile::tempdir().unwrap());
-        small_run(other.path()).practise(&FOREVER, &mut Told::default()).unwrap();
+        small_run(other.path()).train(&FOREVER, &mut Told::default()).unwrap();
         assert!(std::fs::read(whole).unwrap() == std::fs::read(other.path().join("checkpoint.safetensors")).unwrap());
     }
 
@@ -189,7 +189,7 @@ mod tests {
                 std::fs::write(path.join("notes.txt"), "mine").unwrap();
             }
             let asking = ask(path, Phase::Training, Request::Abandon);
-            assert_eq!(run.practise(&SLOW, &mut Told::default()).unwrap(), Ending::Abandoned);
+            assert_eq!(run.train(&SLOW, &mut Told::default()).unwrap(), Ending::Abandoned);
             asking.join().unwrap();
             assert!(discard(path).unwrap_err().to_string().contains("another process"));
             drop(run);
@@ -209,7 +209,7 @@ mod tests {
         assert_eq!(followed.condition, Condition::Missing);
         assert!(follower.look().is_none(), "nothing has changed");
         let mut run = small_run(&path);
-        run.practise(&FOREVER, &mut Told::default()).unwrap();
+        run.train(&FOREVER, &mut Told::default()).unwrap();
         drop(run);
         let mut follower = Follower::new(&path);
         let mut lines = Vec::new();

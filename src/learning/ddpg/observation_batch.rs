@@ -1,4 +1,4 @@
-//! A batch of views as the networks take it, and the step from an action to the critic's input as a candle operation.
+//! A batch of observations as the networks take it, and the step from an action to the critic's input as a candle operation.
 
 use std::sync::{Arc, OnceLock};
 
@@ -8,7 +8,7 @@ use super::{
     action::{ACTIONS, Action, ActionSpace},
     dual::Dual,
     features::{ACTION_FEATURES, STATE_FEATURES, push_action_features, push_state_features},
-    view::View,
+    observation::Observation,
 };
 use crate::{
     learning::network::tensors::{stored_values, values},
@@ -48,30 +48,30 @@ fn padded(used: &[f32]) -> Action {
 
 /// Views on one table with their state features.
 #[derive(Clone, Debug)]
-pub struct Scenes {
+pub struct ObservationBatch {
     table: Arc<Table>,
     space: ActionSpace,
-    views: Arc<[View]>,
+    observations: Arc<[Observation]>,
     states: Tensor,
 }
 
-impl Scenes {
-    /// A batch of views for actions in `space`.
+impl ObservationBatch {
+    /// A batch of observations for actions in `space`.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn new(table: &Arc<Table>, space: ActionSpace, views: Vec<View>) -> Result<Self> {
-        let mut features = Vec::with_capacity(views.len() * STATE_FEATURES);
-        for view in &views {
-            push_state_features(table, view, &mut features);
+    pub fn new(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
+        let mut features = Vec::with_capacity(observations.len() * STATE_FEATURES);
+        for observation in &observations {
+            push_state_features(table, observation, &mut features);
         }
-        let states = Tensor::from_vec(features, (views.len(), STATE_FEATURES), &Device::Cpu)?;
-        Ok(Self { table: Arc::clone(table), space, views: views.into(), states })
+        let states = Tensor::from_vec(features, (observations.len(), STATE_FEATURES), &Device::Cpu)?;
+        Ok(Self { table: Arc::clone(table), space, observations: observations.into(), states })
     }
 
-    /// The views.
-    pub fn views(&self) -> &[View] {
-        &self.views
+    /// The observations.
+    pub fn observations(&self) -> &[Observation] {
+        &self.observations
     }
 
     /// What the actions mean.
@@ -79,44 +79,49 @@ impl Scenes {
         self.space
     }
 
-    /// The actor's input, a row for each view.
+    /// The actor's input, a row for each observation.
     pub const fn states(&self) -> &Tensor {
         &self.states
     }
 
-    /// The first `count` views, or all if there are fewer.
+    /// The first `count` observations, or all if there are fewer.
     ///
     /// # Errors
     /// Whatever candle reports.
     pub fn first(&self, count: usize) -> Result<Self> {
-        let count = count.min(self.views.len());
+        let count = count.min(self.observations.len());
         let states = self.states.narrow(0, 0, count)?;
-        Ok(Self { table: Arc::clone(&self.table), space: self.space, views: self.views[..count].into(), states })
+        Ok(Self {
+            table: Arc::clone(&self.table),
+            space: self.space,
+            observations: self.observations[..count].into(),
+            states,
+        })
     }
 
-    /// The critic's input for `actions`, a row for each action (rows x actions of the space); each view takes the same number of
+    /// The critic's input for `actions`, a row for each action (rows x actions of the space); each observation takes the same number of
     /// consecutive rows. Gradients flow to the actions.
     ///
     /// # Errors
-    /// Where the number of actions is no multiple of the number of views.
+    /// Where the number of actions is no multiple of the number of observations.
     pub fn with_actions(&self, actions: &Tensor) -> Result<Tensor> {
-        actions.apply_op1(Join { scenes: self.clone(), slopes: OnceLock::new(), differentiate: actions.track_op() })
+        actions.apply_op1(Join { observed: self.clone(), slopes: OnceLock::new(), differentiate: actions.track_op() })
     }
 
-    /// As [`Scenes::with_actions`], but outside candle's automatic differentiation, with the operation that takes
+    /// As [`ObservationBatch::with_actions`], but outside candle's automatic differentiation, with the operation that takes
     /// gradients back from the critic's input to the actions.
     ///
     /// # Errors
-    /// As [`Scenes::with_actions`].
+    /// As [`ObservationBatch::with_actions`].
     pub fn record_actions(&self, actions: &Tensor) -> Result<(Tensor, Join)> {
-        let join = Join { scenes: self.clone(), slopes: OnceLock::new(), differentiate: true };
+        let join = Join { observed: self.clone(), slopes: OnceLock::new(), differentiate: true };
         Ok((actions.apply_op1_no_bwd(&join)?, join))
     }
 }
 
-/// The operation that appends actions to views.
+/// The operation that appends actions to observations.
 pub struct Join {
-    scenes: Scenes,
+    observed: ObservationBatch,
     /// Slopes of the action features along the actions, row after row, kept by the forward pass for the backward pass.
     slopes: OnceLock<Vec<Action>>,
     differentiate: bool,
@@ -131,7 +136,7 @@ impl Join {
         let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
         let (storage, layout) = gradient.storage_and_layout();
         let gradient = stored_values(&storage, layout)?;
-        let space = self.scenes.space;
+        let space = self.observed.space;
         let (used, rows) = (space.actions(), slopes.len() / ACTION_FEATURES);
         let mut out: Vec<f32> = Vec::with_capacity(rows * used);
         for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(CRITIC_INPUTS)) {
@@ -154,21 +159,29 @@ impl CustomOp1 for Join {
 
     fn cpu_fwd(&self, storage: &CpuStorage, layout: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, columns) = layout.shape().dims2()?;
-        let (views, space) = (self.scenes.views.len(), self.scenes.space);
-        if columns != space.actions() || views == 0 || rows % views != 0 {
-            bail!("{rows} actions of {columns} numbers do not fit {views} views of {} numbers", space.actions());
+        let (observations, space) = (self.observed.observations.len(), self.observed.space);
+        if columns != space.actions() || observations == 0 || rows % observations != 0 {
+            bail!(
+                "{rows} actions of {columns} numbers do not fit {observations} observations of {} numbers",
+                space.actions()
+            );
         }
-        let (state_storage, state_layout) = self.scenes.states.storage_and_layout();
+        let (state_storage, state_layout) = self.observed.states.storage_and_layout();
         let states = stored_values(&state_storage, state_layout)?;
         let mut out = Vec::with_capacity(rows * CRITIC_INPUTS);
         let mut slopes = Vec::with_capacity(if self.differentiate { rows * ACTION_FEATURES } else { 0 });
         let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES);
         let actions = values(storage, layout)?.chunks_exact(columns);
         for (row, action) in actions.enumerate() {
-            let view = row / (rows / views);
+            let observation = row / (rows / observations);
             features.clear();
-            push_action_features(&self.scenes.table, &self.scenes.views[view], padded(action), &mut features);
-            out.extend_from_slice(&states[view * STATE_FEATURES..][..STATE_FEATURES]);
+            push_action_features(
+                &self.observed.table,
+                &self.observed.observations[observation],
+                padded(action),
+                &mut features,
+            );
+            out.extend_from_slice(&states[observation * STATE_FEATURES..][..STATE_FEATURES]);
             out.extend(features.iter().map(|feature| feature.value as f32));
             if self.differentiate {
                 slopes.extend(features.iter().map(|feature| feature.slope.map(|slope| slope as f32)));
@@ -196,14 +209,14 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(10);
         let layout = crate::table::Layout::random(&table, &mut rng);
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let scenes = Scenes::new(&table, space, View::all(&layout)[..2].to_vec()).unwrap();
+            let observed = ObservationBatch::new(&table, space, Observation::all(&layout)[..2].to_vec()).unwrap();
             let values: Vec<Action> =
                 (1..5).map(|row| padded(&[0.1 * row as f32; ACTIONS][..space.actions()])).collect();
             let actions = Var::from_tensor(&action_rows(space, &values).unwrap()).unwrap();
             assert_eq!(actions_in(space, &actions).unwrap(), values);
-            let inputs = scenes.with_actions(&actions).unwrap();
+            let inputs = observed.with_actions(&actions).unwrap();
             let rows: Vec<Vec<f32>> = inputs.to_vec2().unwrap();
-            let states: Vec<Vec<f32>> = scenes.states().to_vec2().unwrap();
+            let states: Vec<Vec<f32>> = observed.states().to_vec2().unwrap();
             for (row, input) in rows.iter().enumerate() {
                 assert_eq!(input.len(), CRITIC_INPUTS);
                 assert_eq!(input[..STATE_FEATURES], states[row / 2]);
@@ -211,10 +224,10 @@ mod tests {
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
-            push_action_features(&table, &scenes.views()[1], values[2], &mut features);
+            push_action_features(&table, &observed.observations()[1], values[2], &mut features);
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
-            assert!(scenes.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());
+            assert!(observed.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());
         }
     }
 }

@@ -10,10 +10,10 @@ use super::{
     clock::Clock,
     error::file,
     examples::Examples,
+    heartbeat::Heartbeat,
     metrics::{MetricsFile, Record},
-    pulse::Pulse,
     request::Request,
-    standing::Phase,
+    status::Phase,
 };
 use crate::{
     learning::evaluation::{HELD_OUT_SEED, Score, held_out_layouts},
@@ -47,19 +47,19 @@ pub enum Ending {
     Abandoned,
 }
 
-/// When a session ends before the plan is finished.
+/// When training ends before the plan is finished.
 pub struct Limits<'a> {
     /// Longest time to train, pauses left out.
     pub time: Option<Duration>,
-    /// Asked between two turns whether to stop.
+    /// Asked between two iterations whether to stop.
     pub stop: &'a dyn Fn() -> bool,
 }
 
-/// What a session works with.
-struct Session<'a> {
+/// Where training reports to.
+struct Reporting<'a> {
     metrics: MetricsFile,
     clock: Clock,
-    pulse: Pulse,
+    heartbeat: Heartbeat,
     layouts: Vec<Layout>,
     watcher: &'a mut dyn Watcher,
 }
@@ -71,25 +71,25 @@ impl Run {
     ///
     /// # Errors
     /// Where training breaks down, or where the last checkpoint cannot be written.
-    pub fn practise(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
+    pub fn train(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
         let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
-        let mut session = Session { metrics, clock, pulse: Pulse::new(&self.folder), layouts, watcher };
-        let ending = self.train(limits, &mut session);
+        let mut reporting = Reporting { metrics, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
+        let ending = self.iterate_until(limits, &mut reporting);
         let (phase, reason) = match &ending {
             Ok(Ending::Finished(_)) => (Phase::Finished, None),
             Ok(Ending::Stopped(_) | Ending::Abandoned) => (Phase::Stopped, None),
             Err(error) => (Phase::Failed, Some(error.to_string())),
         };
-        session.pulse.end(phase, self.learner.as_ref(), session.clock.seconds(), reason);
+        reporting.heartbeat.end(phase, self.learner.as_ref(), reporting.clock.seconds(), reason);
         ending
     }
 
-    fn train(&mut self, limits: &Limits<'_>, session: &mut Session<'_>) -> Result<Ending, RunError> {
+    fn iterate_until(&mut self, limits: &Limits<'_>, reporting: &mut Reporting<'_>) -> Result<Ending, RunError> {
         if self.learner.is_finished() {
-            let score = self.measure(session)?;
+            let score = self.measure(reporting)?;
             if !self.policy_path().exists() {
                 self.write_policy(score)?;
             }
@@ -97,11 +97,11 @@ impl Run {
         }
         let mut saved = Instant::now();
         loop {
-            session.pulse.beat(Phase::Training, self.learner.as_ref(), session.clock.seconds());
-            let is_over = || (limits.stop)() || limits.time.is_some_and(|limit| session.clock.session() >= limit);
+            reporting.heartbeat.beat(Phase::Training, self.learner.as_ref(), reporting.clock.seconds());
+            let is_over = || (limits.stop)() || limits.time.is_some_and(|limit| reporting.clock.session() >= limit);
             let mut stops = is_over();
-            match session.pulse.request() {
-                Some(Request::Pause) => match self.pause(session, limits.stop) {
+            match reporting.heartbeat.request() {
+                Some(Request::Pause) => match self.pause(reporting, limits.stop) {
                     Request::Abandon => return Ok(Ending::Abandoned),
                     request => stops |= request == Request::Stop,
                 },
@@ -110,89 +110,89 @@ impl Run {
                 Some(Request::GoOn) | None => {}
             }
             if stops {
-                let score = self.measure(session)?;
-                self.save(&mut session.metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
+                let score = self.measure(reporting)?;
+                self.save(&mut reporting.metrics, Some(score)).map_err(|reason| self.unsaved(reason))?;
                 return Ok(Ending::Stopped(score));
             }
-            let Reached { score, all } = self.turn(session)?;
+            let Reached { score, all } = self.iterate(reporting)?;
             if score.is_some() || saved.elapsed() >= CHECKPOINT_INTERVAL {
-                let done = self.save(&mut session.metrics, score);
+                let done = self.save(&mut reporting.metrics, score);
                 saved = Instant::now();
                 match (done, score.filter(|_| all)) {
                     (Ok(()), Some(score)) => return Ok(Ending::Finished(score)),
                     (Ok(()), None) => {}
                     (Err(reason), Some(_)) => return Err(self.unsaved(reason)),
-                    (Err(reason), None) => session.warn_of_checkpoint(&reason, self.learner.shots()),
+                    (Err(reason), None) => reporting.warn_of_checkpoint(&reason, self.learner.shots()),
                 }
             }
         }
     }
 
     /// Saves and waits for the next request, which is never another pause.
-    fn pause(&mut self, session: &mut Session<'_>, stop: &dyn Fn() -> bool) -> Request {
+    fn pause(&mut self, reporting: &mut Reporting<'_>, stop: &dyn Fn() -> bool) -> Request {
         let begin = Instant::now();
-        if let Err(reason) = self.save(&mut session.metrics, None) {
-            session.warn_of_checkpoint(&reason, self.learner.shots());
+        if let Err(reason) = self.save(&mut reporting.metrics, None) {
+            reporting.warn_of_checkpoint(&reason, self.learner.shots());
         }
-        let seconds = session.clock.seconds();
+        let seconds = reporting.clock.seconds();
         let request = loop {
-            session.pulse.beat(Phase::Paused, self.learner.as_ref(), seconds);
-            match session.pulse.request() {
+            reporting.heartbeat.beat(Phase::Paused, self.learner.as_ref(), seconds);
+            match reporting.heartbeat.request() {
                 Some(Request::Pause) | None if stop() => break Request::Stop,
                 Some(Request::Pause) | None => thread::sleep(NAP),
                 Some(request) => break request,
             }
         };
-        session.clock.leave_out(begin);
+        reporting.clock.leave_out(begin);
         request
     }
 
     /// Plays the held-out layouts.
-    fn measure(&self, session: &mut Session<'_>) -> Result<Score, RunError> {
+    fn measure(&self, reporting: &mut Reporting<'_>) -> Result<Score, RunError> {
         let learner = self.learner.as_ref();
-        session.pulse.beat(Phase::Measuring, learner, session.clock.seconds());
-        let score = learner.score(&session.layouts)?;
-        session.pulse.measured(score.mean_reward);
+        reporting.heartbeat.beat(Phase::Measuring, learner, reporting.clock.seconds());
+        let score = learner.score(&reporting.layouts)?;
+        reporting.heartbeat.measured(score.mean_reward);
         // They are for looking at: where they cannot be written, nothing is lost.
-        let _ = Examples::of(learner, &session.layouts)?.write(&self.folder);
+        let _ = Examples::of(learner, &reporting.layouts)?.write(&self.folder);
         Ok(score)
     }
 
-    /// One turn, and the line of metrics that is due after it.
-    fn turn(&mut self, session: &mut Session<'_>) -> Result<Reached, RunError> {
+    /// One iteration, and the line of metrics that is due after it.
+    fn iterate(&mut self, reporting: &mut Reporting<'_>) -> Result<Reached, RunError> {
         let Schedule { log_every, evaluate_every, .. } = self.state.schedule;
         let before = self.learner.shots();
-        let turn = self.learner.turn()?;
+        let iteration = self.learner.iterate()?;
         let shots = self.learner.shots();
-        let is_finite = self.state.tally.add(&turn);
+        let is_finite = self.state.accumulator.add(&iteration);
         let all = self.learner.is_finished();
         let passed = |every: u64| before / every != shots / every;
-        let practised = session.clock.seconds();
-        let score = if is_finite && (all || passed(evaluate_every)) { Some(self.measure(session)?) } else { None };
+        let trained = reporting.clock.seconds();
+        let score = if is_finite && (all || passed(evaluate_every)) { Some(self.measure(reporting)?) } else { None };
         if !is_finite || score.is_some() || passed(log_every) {
-            let measuring = session.clock.seconds() - practised;
-            let record = session.clock.record(self.learner.as_ref(), self.state.tally.take(), score, measuring);
-            session.metrics.push(&record);
-            session.watcher.line(&record);
+            let measuring = reporting.clock.seconds() - trained;
+            let record = reporting.clock.record(self.learner.as_ref(), self.state.accumulator.take(), score, measuring);
+            reporting.metrics.push(&record);
+            reporting.watcher.line(&record);
             // Until there is room it waits in memory. No checkpoint is written before it is.
-            let _ = session.metrics.flush();
+            let _ = reporting.metrics.flush();
         }
         if is_finite { Ok(Reached { score, all }) } else { Err(RunError::NotFinite { shots }) }
     }
 }
 
-impl Session<'_> {
+impl Reporting<'_> {
     fn warn_of_checkpoint(&mut self, reason: &RunError, shots: u64) {
         let sentence = format!(
             "the checkpoint after {shots} shots could not be written: {reason}; the one before is whole, and training \
              goes on to the next"
         );
         self.watcher.warn(&sentence);
-        self.pulse.warn(&sentence);
+        self.heartbeat.warn(&sentence);
     }
 }
 
-/// Where a turn has led.
+/// Where a iteration has led.
 struct Reached {
     /// The measurement, where one was due.
     score: Option<Score>,

@@ -1,4 +1,5 @@
-//! Where a step of a resting contact starts: which slips have ended, which contacts press, which frictions hold.
+//! The active set at the start of a step of a resting contact: which slips have ended, which contacts press, which
+//! frictions stick.
 
 use glam::DVec2;
 
@@ -15,7 +16,7 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// The state without the slips that end here, and the regime that holds then; none where no contact presses a ball that
+/// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
 /// moves.
 pub fn lawful(
     table: &Table,
@@ -34,7 +35,7 @@ pub fn lawful(
         let mut begin = *balls;
         let touching = contacts.as_slice();
         if begun {
-            grip(table, &mut begin, touching);
+            stop_slips(table, &mut begin, touching);
         }
         let mut set = ActiveSet::of(table, &begin, touching, none);
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
@@ -45,8 +46,8 @@ pub fn lawful(
         let same = |previous: &&Resting| previous.interrupted && previous.contacts.as_slice() == touching;
         let similar = previous.filter(same).map(|previous| &previous.last);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
-        if let Some(grips) = resolved.grips {
-            set = grips;
+        if let Some(sticking) = resolved.sticking {
+            set = sticking;
             settle(table, constants, &mut begin, touching, &set);
             resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
         }
@@ -93,12 +94,12 @@ fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<&Resti
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
 /// cloth has no time to take part.
-fn grip(table: &Table, balls: &mut State, contacts: &[Contact]) {
-    let grips = |contact: Option<&Contact>| match contact {
+fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
+    let sticks = |contact: Option<&Contact>| match contact {
         Some(contact) if contact.second.is_some() => Friction::Sticks,
         _ => Friction::Slips(DVec2::ZERO),
     };
-    let contact = std::array::from_fn(|index| grips(contacts.get(index)));
+    let contact = std::array::from_fn(|index| sticks(contacts.get(index)));
     stop_by_impulses(table, balls, contacts, &ActiveSet { contact, ..ActiveSet::SLIPPING });
 }
 

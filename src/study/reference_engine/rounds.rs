@@ -7,10 +7,10 @@
 use super::{
     Numbers, Real, Unjudged, Vector,
     complementarity::Problem,
+    complementarity::{Block, Law},
     contact::{Balls, Contact},
     impact::{balls_collide, coulomb, rail_collides},
     rows::{Movement, Row, movement},
-    system::{Block, Law},
     tolerance::{closed, touching},
 };
 
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
     use crate::{
         simulation::Rail,
-        study::plain::{Ball, DoubleDouble, rail_normal},
+        study::reference_engine::{Ball, DoubleDouble, rail_normal},
         table::Table,
     };
 

@@ -3,7 +3,7 @@
 
 use super::{
     Motion, Numbers, Real, Vector,
-    complementarity::Problem,
+    complementarity::{Block, Law, Problem},
     contact::{Balls, Contact},
     laws::Laws,
     linear::solve,
@@ -11,28 +11,6 @@ use super::{
     tolerance::slack,
 };
 use crate::table::BALLS;
-
-/// What the forces of one law must do.
-#[derive(Clone, Copy, Debug)]
-pub enum Law<R> {
-    /// A push is not negative, nor is the rate of opening, and one of the two is zero.
-    Push,
-    /// A friction that holds with up to so much per mass, m/s².
-    Hold(R),
-    /// A contact's friction that holds with up to a share of the push at this index, or any friction.
-    Grip(Option<R>, usize),
-}
-
-/// The forces of one law: one unknown, or two for a friction in a plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Block<R> {
-    /// Index of the first unknown.
-    pub at: usize,
-    /// Number of unknowns.
-    pub axes: usize,
-    /// The law.
-    pub law: Law<R>,
-}
 
 /// A force of unknown size: what it does, and the rate of change that its law is about.
 #[derive(Clone, Copy, Debug)]

@@ -12,7 +12,7 @@ use crate::{
             features::FEATURE_VERSION,
             hyperparameters::Hyperparameters,
             networks::Networks,
-            scenes::{ACTOR_INPUTS, CRITIC_INPUTS},
+            observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
         },
         network::weights::{Reader, WeightsError, Writer},
     },
@@ -22,12 +22,12 @@ use crate::{
 
 /// The bundled policies: the table's name, what was rewarded, and the file.
 const BUNDLED: [(&str, Reward, &[u8]); 6] = [
-    ("match", Reward::R3, include_bytes!("../../../models/match-r3.safetensors")),
-    ("match", Reward::OneCushion, include_bytes!("../../../models/match-one-cushion.safetensors")),
-    ("match", Reward::ThreeCushion, include_bytes!("../../../models/match-three-cushion.safetensors")),
-    ("thesis", Reward::R3, include_bytes!("../../../models/thesis-r3.safetensors")),
-    ("thesis", Reward::OneCushion, include_bytes!("../../../models/thesis-one-cushion.safetensors")),
-    ("thesis", Reward::ThreeCushion, include_bytes!("../../../models/thesis-three-cushion.safetensors")),
+    ("match", Reward::R3, include_bytes!("../../../../models/match-r3.safetensors")),
+    ("match", Reward::OneCushion, include_bytes!("../../../../models/match-one-cushion.safetensors")),
+    ("match", Reward::ThreeCushion, include_bytes!("../../../../models/match-three-cushion.safetensors")),
+    ("thesis", Reward::R3, include_bytes!("../../../../models/thesis-r3.safetensors")),
+    ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
+    ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
 ];
 
 /// Where a policy comes from.

@@ -4,7 +4,7 @@
 use super::{
     action::{Action, Meaning},
     dual::Dual,
-    view::View,
+    observation::Observation,
 };
 use crate::{
     physics::{CueInputs, NoRoom, squirt, with_room},
@@ -13,7 +13,7 @@ use crate::{
 
 /// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
 #[derive(Clone, Copy, Debug)]
-pub struct Stroke {
+pub struct FirstContact {
     /// Speed just after the stroke, m/s.
     pub speed: Dual,
     /// Rolling speed of the spin about the axis across the line of aim, as a share of the speed: 1 is natural roll, less
@@ -33,7 +33,7 @@ pub struct Stroke {
     pub speed_on_arrival: Dual,
 }
 
-impl Stroke {
+impl FirstContact {
     /// The stroke of an action over `distance`, m. The ball's speed is taken as that of the stroke until it arrives, and the
     /// friction's direction as that of the first slip: good to a few percent for the shots that matter.
     pub fn of(table: &Table, action: &Meaning, distance: f64) -> Self {
@@ -50,16 +50,16 @@ impl Stroke {
         // The slip at the cloth (5), as shares of the speed: along the aim 1 - roll, and sideways the spin about the aim.
         let (along, across) = (-roll + 1.0, masse);
         let slip = (along * along + across * across + 1e-9).sqrt();
-        let grip = table.sliding_friction * table.gravity;
-        let sliding = start * slip * (2.0 / (7.0 * grip));
+        let friction = table.sliding_friction * table.gravity;
+        let sliding = start * slip * (2.0 / (7.0 * friction));
         let way = start.recip() * distance;
         let time = way.min(sliding);
         let share = slip.recip();
-        let push = -(across * share) * grip;
+        let push = -(across * share) * friction;
         let sideways = push * time;
         // Friction turns slip into roll: the slip falls at 7/2 of the friction, 5/2 of it by the spin.
-        let slowed = start - along * share * grip * time;
-        let rolled = roll * start + along * share * time * (2.5 * grip);
+        let slowed = start - along * share * friction * time;
+        let rolled = roll * start + along * share * time * (2.5 * friction);
         let swerve = push * time * time * 0.5 + sideways * (way - time);
         let arrival = slowed.at_least(0.05);
         Self {
@@ -75,32 +75,37 @@ impl Stroke {
     }
 }
 
-/// The stroke that carries out `action` in `view`.
-pub fn cue_inputs(table: &Table, view: &View, action: Action) -> CueInputs {
+/// The stroke that carries out `action` in `observation`.
+pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> CueInputs {
     let meaning = Meaning::of(table, action);
-    let line = view.lines(table).to_first;
-    let swerve = Stroke::of(table, &meaning, line.distance).swerve.value;
+    let line = observation.lines(table).to_first;
+    let swerve = FirstContact::of(table, &meaning, line.distance).swerve.value;
     let aside = 2.0 * table.radius * meaning.offset.value - swerve;
     let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
     let direction = glam::DVec2::from_angle(turn).rotate(line.direction);
     let [left, up] = meaning.tip;
-    let a = view.side_on_table(left.value);
+    let a = observation.side_on_table(left.value);
     CueInputs {
         // Adding nought makes a negative nought positive, which people read better.
         a: a + 0.0,
         b: up.value,
         theta: meaning.theta.value,
-        phi: view.angle_on_table(direction) - squirt(table, a),
+        phi: observation.angle_on_table(direction) - squirt(table, a),
         speed: meaning.speed.value,
     }
 }
 
-/// The stroke that carries out `action` in a `view` of `layout`, with the cue raised as far as rails and balls make it.
+/// The stroke that carries out `action` in a `observation` of `layout`, with the cue raised as far as rails and balls make it.
 ///
 /// # Errors
 /// Where the cue has no room at any elevation.
-pub fn playable(table: &Table, layout: &Layout, view: &View, action: Action) -> Result<CueInputs, NoRoom> {
-    with_room(table, layout, &cue_inputs(table, view, action))
+pub fn playable(
+    table: &Table,
+    layout: &Layout,
+    observation: &Observation,
+    action: Action,
+) -> Result<CueInputs, NoRoom> {
+    with_room(table, layout, &cue_inputs(table, observation, action))
 }
 
 #[cfg(test)]
@@ -116,12 +121,12 @@ mod tests {
     fn errors(table: &Table, case: usize, rng: &mut Xoshiro256PlusPlus) -> Option<[f64; 3]> {
         let cue_ball = DVec2::new(-0.2, 0.1);
         let first = DVec2::new(rng.random_range(0.3..1.0), rng.random_range(-0.3..0.3));
-        let view = View::new(&Layout::new([cue_ball, first, DVec2::new(-1.0, -0.5)]), 2 * (case % 2));
+        let observation = Observation::new(&Layout::new([cue_ball, first, DVec2::new(-1.0, -0.5)]), 2 * (case % 2));
         let mut action: [f32; 5] = std::array::from_fn(|_| rng.random_range(-0.7..0.7));
         action[1] = rng.random_range(0.0..1.0);
         let meaning = Meaning::of(table, action);
-        let stroke = Stroke::of(table, &meaning, first.distance(cue_ball));
-        let cue = cue_inputs(table, &view, action);
+        let stroke = FirstContact::of(table, &meaning, first.distance(cue_ball));
+        let cue = cue_inputs(table, &observation, action);
         assert!((strike(table, &cue).velocity.length() - stroke.speed.value).abs() < 1e-9);
 
         // The cue ball runs on where the first ball would lie.
@@ -131,7 +136,7 @@ mod tests {
         let arrived = |time: f64| (recording.positions(time)[0] - first).dot(line) >= 0.0;
         let time = (1..4000).map(|tick| f64::from(tick) * 1e-3).find(|time| arrived(*time))?;
         let ball = recording.state(0, time);
-        let mirrored = view.side_on_table(1.0);
+        let mirrored = observation.side_on_table(1.0);
         let passed = mirrored * line.perp_dot(ball.position - first) / (2.0 * table.radius);
         let speed = ball.velocity.length();
         let aim = DVec2::from_angle(cue.phi);
@@ -164,9 +169,9 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
-            for (index, view) in View::all(&layout).iter().enumerate() {
+            for (index, observation) in Observation::all(&layout).iter().enumerate() {
                 let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 0.0, 0.0, 0.0];
-                let cue = cue_inputs(&table, view, action);
+                let cue = cue_inputs(&table, observation, action);
                 cue.validate().unwrap();
                 assert_eq!((cue.a, cue.b, cue.theta), (0.0, 0.0, 10_f64.to_radians()));
                 let to_ball = layout.balls[1 + (index & 1)] - layout.balls[0];
@@ -182,10 +187,10 @@ mod tests {
     fn no_action_oversteps_the_miscue_limit_and_what_is_no_number_still_gives_a_stroke() {
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
-            let view = View::new(&Layout::opening(&table), 0);
+            let observation = Observation::new(&Layout::opening(&table), 0);
             for input in [f32::NAN, f32::INFINITY, -7.0, 1.0, -1.0, 0.3] {
                 for action in [[input; ACTIONS], [0.0, 0.0, input, -input, 1.0], [0.0, 0.0, input, 0.0, 0.0]] {
-                    let cue = cue_inputs(&table, &view, action);
+                    let cue = cue_inputs(&table, &observation, action);
                     cue.validate().unwrap();
                     cue.validate_tip(table.miscue_limit).unwrap();
                 }
@@ -199,8 +204,8 @@ mod tests {
         let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
         let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
         let action = [0.2, 0.5, 0.6, -0.3, 0.4];
-        let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, view)| {
-            let cue = cue_inputs(&table, &View::new(&layout, view), action);
+        let [one, other] = [(layout, 0), (mirrored, 2)].map(|(layout, observation)| {
+            let cue = cue_inputs(&table, &Observation::new(&layout, observation), action);
             (cue.a, cue.phi, cue.b, cue.theta, cue.speed)
         });
         assert!((one.1 + other.1).abs() < 1e-12 && one.0 > 0.2);

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// The progress of one run.
-pub struct Screen {
+pub struct Progress {
     bar: ProgressBar,
     json: bool,
     /// The run's seed, where there are several runs.
@@ -28,7 +28,7 @@ struct Line<'a> {
     record: &'a Record,
 }
 
-impl Screen {
+impl Progress {
     /// For a run that is about to start, alone or one of several with different seeds.
     pub fn new(run: &Run, json: bool, seed: Option<u64>) -> Self {
         let learner = run.learner();
@@ -76,7 +76,7 @@ fn summary(record: &Record) -> Option<String> {
     Some(format!("loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
 }
 
-impl Watcher for Screen {
+impl Watcher for Progress {
     fn line(&mut self, record: &Record) {
         if self.json
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })

@@ -1,6 +1,6 @@
 //! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
 
-use super::{Workspace, options::Stroke};
+use super::{Workspace, options::StrokeInput};
 use crate::{
     commands::{Failure, output::line},
     drills::{Exercise, check, decode, encode, store::StoreError},
@@ -43,7 +43,7 @@ pub struct SaveArgs {
 /// Print an exercise as one line that can be pasted into a chat.
 #[derive(Debug, clap::Args)]
 pub struct ShareArgs {
-    /// The exercise.
+    /// The exercise: its name, its title, or the beginning of either.
     name: String,
 }
 
@@ -66,7 +66,7 @@ pub struct AddArgs {
 /// What was practised on it stays in the history.
 #[derive(Debug, clap::Args)]
 pub struct RemoveArgs {
-    /// The position.
+    /// The position: its name or its title.
     name: String,
 }
 
@@ -74,8 +74,8 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = Table::preset(&args.table).map_err(Failure::wrong_input)?;
     let shot = match args.shot.as_deref().map(str::parse).transpose()? {
         None => None,
-        Some(Stroke::Own(cue)) => Some(cue),
-        Some(Stroke::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
+        Some(StrokeInput::Own(cue)) => Some(cue),
+        Some(StrokeInput::Coach) => return Err(Failure::wrong_input("--shot takes numbers: a,b,theta,phi,V")),
     };
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
@@ -102,11 +102,13 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
     let workspace = Workspace::open()?;
-    if workspace.library.is_bundled(&args.name) {
-        return Err(Failure::failed(format_args!("\"{}\" is bundled and cannot be removed", args.name)));
+    // One that cannot be read is not in the library; its file is removed by its name.
+    let name = workspace.library.titled(&args.name).map_or(&args.name, |exercise| &exercise.name);
+    if workspace.library.is_bundled(name) {
+        return Err(Failure::failed(format_args!("\"{name}\" is bundled and cannot be removed")));
     }
-    workspace.store.remove_position(&args.name).map_err(Failure::failed)?;
-    line(format_args!("removed {}", args.name))
+    workspace.store.remove_position(name).map_err(Failure::failed)?;
+    line(format_args!("removed {name}"))
 }
 
 fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {

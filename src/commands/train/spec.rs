@@ -6,10 +6,10 @@ use serde_json::Value;
 
 use super::{Args, failure};
 use crate::{
-    commands::{Failure, input::table_named, named::run_named},
+    commands::{Failure, input::table_named, lookup::run_named},
     learning::{
-        learner::Plan,
-        run::{Schedule, origin::Weights, run_name, seeds::Order},
+        learner::TrainingPlan,
+        run::{Schedule, origin::Weights, run_name, seeds::TrainingSpec},
         timestamp,
     },
     storage::{self, Places},
@@ -17,7 +17,7 @@ use crate::{
 
 /// What to train, with which weights, where.
 pub struct Read {
-    pub order: Order,
+    pub spec: TrainingSpec,
     pub weights: Option<Weights>,
     pub folder: PathBuf,
 }
@@ -44,9 +44,9 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
         let name = run_name(&timestamp(), &agent, &table.name, reward, args.seed);
         Places::of_this_user().runs.join(name)
     });
-    let plan = Plan { reward, seed: args.seed, shots: args.steps };
-    let order = Order { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
-    Ok(Read { order, weights, folder })
+    let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
+    let spec = TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
+    Ok(Read { spec, weights, folder })
 }
 
 /// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them.

@@ -2,18 +2,20 @@
 
 pub mod file;
 pub mod kept;
+mod score;
 
 use std::sync::Arc;
 
 use candle_core::Result;
 
 use self::file::Origin;
+pub use self::score::score;
 use crate::{
     learning::ddpg::{
+        first_contact::{cue_inputs, playable},
         networks::Networks,
-        scenes::Scenes,
-        stroke::{cue_inputs, playable},
-        view::{VIEWS, View},
+        observation::{OBSERVATIONS, Observation},
+        observation_batch::ObservationBatch,
     },
     physics::CueInputs,
     table::{Layout, Table},
@@ -76,23 +78,24 @@ impl Policy {
         if layouts.is_empty() {
             return Ok(Vec::new());
         }
-        let views = layouts.iter().flat_map(View::all).collect();
-        let scenes = Scenes::new(&Arc::new(table.clone()), self.origin.hyperparameters.actions, views)?;
-        let (actions, logits) = self.networks.judge(&scenes)?;
-        let heads = actions.len() / scenes.views().len();
+        let observations = layouts.iter().flat_map(Observation::all).collect();
+        let observed =
+            ObservationBatch::new(&Arc::new(table.clone()), self.origin.hyperparameters.actions, observations)?;
+        let (actions, logits) = self.networks.judge(&observed)?;
+        let heads = actions.len() / observed.observations().len();
         let mut proposals = actions.iter().zip(&logits).enumerate().map(|(row, (action, logit))| {
             let success = 1.0 / (1.0 + (-f64::from(*logit)).exp());
             // What is not a number must neither win nor upset the order.
             let success = if success.is_nan() { 0.0 } else { success };
-            let view = &scenes.views()[row / heads];
-            match playable(table, &layouts[row / (VIEWS * heads)], view, *action) {
+            let observation = &observed.observations()[row / heads];
+            match playable(table, &layouts[row / (OBSERVATIONS * heads)], observation, *action) {
                 Ok(cue) => Proposal { cue, success },
-                Err(_) => Proposal { cue: cue_inputs(table, view, *action), success: 0.0 },
+                Err(_) => Proposal { cue: cue_inputs(table, observation, *action), success: 0.0 },
             }
         });
         Ok((0..layouts.len())
             .map(|_| {
-                let mut own: Vec<Proposal> = proposals.by_ref().take(VIEWS * heads).collect();
+                let mut own: Vec<Proposal> = proposals.by_ref().take(OBSERVATIONS * heads).collect();
                 own.sort_by(|a, b| b.success.total_cmp(&a.success));
                 own
             })

@@ -2,11 +2,12 @@
 
 use super::{
     Numbers, Real, Unjudged,
+    complementarity::Law,
     contact::{Balls, Contact},
     laws::Laws,
     rounds::touching_contacts,
     rows::{Row, movement},
-    system::{Law, System},
+    system::System,
     tolerance::{self, settled, slack, touching},
 };
 use crate::table::BALLS;

@@ -5,17 +5,35 @@
 //! the disk. Newton's method on these equations (Alart and Curnier 1991) ends in a few steps where it starts near the
 //! solution; sweeps of the projections themselves bring it there.
 
-use super::{
-    Real,
-    linear::solve,
-    system::{Block, Law},
-};
+use super::{Real, linear::solve};
 
 /// Newton's steps in a row.
 const STEPS: usize = 24;
 
 /// Series of sweeps between them, each twice as long as the last.
 const ROUNDS: usize = 8;
+
+/// What the forces of one law must do.
+#[derive(Clone, Copy, Debug)]
+pub enum Law<R> {
+    /// A push is not negative, nor is the rate of opening, and one of the two is zero.
+    Push,
+    /// A friction that holds with up to so much per mass, m/s².
+    Hold(R),
+    /// A contact's friction that holds with up to a share of the push at this index, or any friction.
+    Grip(Option<R>, usize),
+}
+
+/// The forces of one law: one unknown, or two for a friction in a plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Block<R> {
+    /// Index of the first unknown.
+    pub at: usize,
+    /// Number of unknowns.
+    pub axes: usize,
+    /// The law.
+    pub law: Law<R>,
+}
 
 /// A problem: rates of change are `rates + matrix forces`.
 pub struct Problem<'a, R> {
@@ -160,7 +178,7 @@ impl<R: Real> Problem<'_, R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::plain::DoubleDouble;
+    use crate::study::reference_engine::DoubleDouble;
 
     fn of(values: &[f64]) -> Vec<DoubleDouble> {
         values.iter().map(|value| DoubleDouble::of(*value)).collect()

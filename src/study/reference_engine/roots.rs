@@ -175,7 +175,7 @@ fn first_fall(gap: &[f64; 5], roots: &[f64], end: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::plain::DoubleDouble;
+    use crate::study::reference_engine::DoubleDouble;
 
     /// `(t - 0.3)(t - 0.7)(t + 1)(t + 2)`.
     const QUARTIC: [f64; 5] = [0.42, -1.37, -0.79, 2.0, 1.0];

@@ -1,4 +1,4 @@
-//! What a run says of itself while it works: a small file that is replaced about once a second, for whoever watches.
+//! The run status, schema of `state.json`: a small file that is replaced about once a second, for whoever watches.
 //!
 //! It is no part of what a run goes on from. Whether its process still lives the lock tells, not this file.
 
@@ -51,7 +51,7 @@ impl Phase {
 
 /// The content of `state.json`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Standing {
+pub struct RunStatus {
     /// What the run is doing.
     pub phase: Phase,
     /// Shots played.
@@ -79,7 +79,7 @@ pub struct Standing {
     pub reason: Option<String>,
 }
 
-impl Standing {
+impl RunStatus {
     /// Writes it for the run in `folder`.
     ///
     /// # Errors

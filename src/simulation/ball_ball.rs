@@ -1,4 +1,4 @@
-//! When two balls will meet, if nothing else happens first.
+//! Ball-ball detection: when two balls will collide, if nothing else happens first.
 
 use glam::DVec2;
 

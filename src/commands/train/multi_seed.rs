@@ -7,7 +7,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{Session, abandon, failure, how_to_go_on, order::Read, screen::Screen};
+use super::{TrainOptions, abandon, failure, how_to_go_on, progress::Progress, spec::Read};
 use crate::{
     commands::{Failure, output::tell},
     learning::run::{Ending, RunError, seeds::Group},
@@ -15,17 +15,17 @@ use crate::{
 };
 
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
-pub fn start(read: Read, seeds: u64, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
-    let Read { order, weights, folder } = read;
-    train(&Group::create(&folder, order, seeds, weights).map_err(failure)?, jobs, session)
+pub fn start(read: Read, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
+    let Read { spec, weights, folder } = read;
+    train(&Group::create(&folder, spec, seeds, weights).map_err(failure)?, jobs, options)
 }
 
 /// Goes on with the runs in `folder`.
-pub fn resume(folder: &Path, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
-    train(&Group::resume(folder).map_err(failure)?, jobs, session)
+pub fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
+    train(&Group::resume(folder).map_err(failure)?, jobs, options)
 }
 
-fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure> {
+fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let seeds: Vec<u64> = group.seeds().collect();
     let (next, begin) = (AtomicUsize::new(0), Instant::now());
     // A worker takes seeds until there are none, or it is told to stop. It returns what went wrong, and whether all its
@@ -33,12 +33,12 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
     let work = || {
         let (mut errors, mut finished) = (Vec::new(), true);
         while let Some(seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let left = session.limit.map(|limit| limit.saturating_sub(begin.elapsed()));
-            if (session.stop)() || left.is_some_and(|left| left.is_zero()) {
+            let left = options.limit.map(|limit| limit.saturating_sub(begin.elapsed()));
+            if (options.stop)() || left.is_some_and(|left| left.is_zero()) {
                 finished = false;
                 break;
             }
-            match train_one(group, *seed, left, session) {
+            match train_one(group, *seed, left, options) {
                 Ok(done) => finished &= done,
                 Err(error) => errors.push(format!("seed {seed}: {error}")),
             }
@@ -50,7 +50,7 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
         workers.into_iter().map(std::thread::ScopedJoinHandle::join).collect()
     });
     let spread = group.write_spread().map_err(failure)?;
-    if let Some(spread) = spread.filter(|_| !session.json) {
+    if let Some(spread) = spread.filter(|_| !options.json) {
         let sd = spread.sd.map(|sd| format!(", standard deviation {sd:.4}")).unwrap_or_default();
         writeln!(
             printing::stdout(),
@@ -83,7 +83,7 @@ fn train(group: &Group, jobs: u32, session: &Session<'_>) -> Result<(), Failure>
 }
 
 /// Trains the run with this seed and returns whether it is finished.
-fn train_one(group: &Group, seed: u64, limit: Option<Duration>, session: &Session<'_>) -> Result<bool, RunError> {
+fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainOptions<'_>) -> Result<bool, RunError> {
     let (mut run, notices) = group.run(seed)?;
     for notice in notices {
         tell(format_args!("warning: seed {seed}: {notice}"));
@@ -91,8 +91,8 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, session: &Sessio
     if run.learner().is_finished() {
         return Ok(true);
     }
-    let mut screen = Screen::new(&run, session.json, Some(seed));
-    match run.practise(&session.limits(limit), &mut screen)? {
+    let mut progress = Progress::new(&run, options.json, Some(seed));
+    match run.train(&options.limits(limit), &mut progress)? {
         Ending::Finished(_) => Ok(true),
         Ending::Stopped(_) => Ok(false),
         Ending::Abandoned => abandon(run).map(|()| false),

@@ -3,14 +3,14 @@
 use rand::{Rng, RngExt};
 
 use super::{
-    agent::Experience,
+    agent::Transition,
     environment::{ACTIONS, Action, STATES, State},
 };
 use crate::learning::network::weights::{Reader, WeightsError, Writer};
 
 /// One shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transition {
+pub struct StoredTransition {
     /// The state before.
     pub state: State,
     /// What was done.
@@ -28,10 +28,10 @@ pub struct Transition {
 /// Numbers of a transition in a file.
 const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
 
-impl Transition {
-    /// What is remembered of an experience.
-    pub fn of(experience: &Experience) -> Self {
-        let Experience { before, choice, reward, goes_on, after } = *experience;
+impl StoredTransition {
+    /// What is remembered of an transition.
+    pub fn of(transition: &Transition) -> Self {
+        let Transition { before, choice, reward, goes_on, after } = *transition;
         let (state, next, reward) = (before.state, after.state, reward as f32);
         Self { state, action: choice.action, index: choice.index, reward, goes_on, next }
     }
@@ -53,14 +53,14 @@ impl Transition {
 
 /// A ring of the last transitions.
 #[derive(Clone, Debug)]
-pub struct Memory {
-    held: Vec<Transition>,
+pub struct ReplayBuffer {
+    held: Vec<StoredTransition>,
     capacity: usize,
     /// Where the next one goes once the ring is full.
     next: usize,
 }
 
-impl Memory {
+impl ReplayBuffer {
     /// An empty ring for `capacity` transitions, at least one.
     pub fn new(capacity: usize) -> Self {
         Self { held: Vec::new(), capacity: capacity.max(1), next: 0 }
@@ -72,7 +72,7 @@ impl Memory {
     }
 
     /// Adds a transition.
-    pub fn push(&mut self, transition: Transition) {
+    pub fn push(&mut self, transition: StoredTransition) {
         if self.held.len() < self.capacity {
             self.held.push(transition);
         } else {
@@ -82,18 +82,18 @@ impl Memory {
     }
 
     /// A transition drawn uniformly; none from an empty ring.
-    pub fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Option<&Transition> {
+    pub fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Option<&StoredTransition> {
         if self.held.is_empty() { None } else { Some(&self.held[rng.random_range(0..self.held.len())]) }
     }
 
     /// Adds what is held to a file; returns where the next one goes.
     pub fn save(&self, writer: &mut Writer) -> usize {
-        let numbers: Vec<f32> = self.held.iter().flat_map(Transition::numbers).collect();
+        let numbers: Vec<f32> = self.held.iter().flat_map(StoredTransition::numbers).collect();
         writer.add("memory", &[self.held.len(), NUMBERS], &numbers);
         self.next
     }
 
-    /// A ring with the content that [`Memory::save`] wrote.
+    /// A ring with the content that [`ReplayBuffer::save`] wrote.
     ///
     /// # Errors
     /// Where the file has none.
@@ -104,7 +104,7 @@ impl Memory {
             let expected = format!("at most {capacity} rows of {NUMBERS} values");
             return Err(WeightsError::Array { name: "memory".to_owned(), expected });
         }
-        let held = numbers.as_chunks::<NUMBERS>().0.iter().map(Transition::from_numbers).collect();
+        let held = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
         Ok(Self { held, capacity, next: next % capacity })
     }
 }
@@ -115,9 +115,9 @@ mod tests {
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    fn transition(number: u8) -> Transition {
+    fn transition(number: u8) -> StoredTransition {
         let x = f32::from(number);
-        Transition {
+        StoredTransition {
             state: [x, 0.1, 0.2, 0.3, 0.4, 0.5],
             action: [x / 7.0, -0.3],
             index: u32::from(number) + 800,
@@ -129,15 +129,15 @@ mod tests {
 
     #[test]
     fn the_oldest_make_room_and_a_file_gives_back_the_same_ring() {
-        let mut memory = Memory::new(3);
+        let mut replay = ReplayBuffer::new(3);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        assert!(memory.draw(&mut rng).is_none());
-        (0..5).for_each(|number| memory.push(transition(number)));
+        assert!(replay.draw(&mut rng).is_none());
+        (0..5).for_each(|number| replay.push(transition(number)));
         let mut writer = Writer::default();
-        let next = memory.save(&mut writer);
+        let next = replay.save(&mut writer);
         let bytes = writer.finish(&"").unwrap();
-        let mut again = Memory::restore(3, &Reader::new(&bytes).unwrap(), next).unwrap();
-        for ring in [&mut memory, &mut again] {
+        let mut again = ReplayBuffer::restore(3, &Reader::new(&bytes).unwrap(), next).unwrap();
+        for ring in [&mut replay, &mut again] {
             ring.push(transition(5));
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
             let mut drawn: Vec<_> = (0..60).map(|_| *ring.draw(&mut rng).unwrap()).collect();
@@ -145,6 +145,6 @@ mod tests {
             drawn.dedup();
             assert_eq!(drawn, [transition(3), transition(4), transition(5)]);
         }
-        assert!(Memory::restore(2, &Reader::new(&bytes).unwrap(), 0).is_err());
+        assert!(ReplayBuffer::restore(2, &Reader::new(&bytes).unwrap(), 0).is_err());
     }
 }

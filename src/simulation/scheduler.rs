@@ -1,14 +1,14 @@
-//! What the engine knows of the future: every ball's next event of its own, and every pair's next meeting.
+//! The scheduler: when every ball has its next event of its own, and every pair its next collision.
 
 use std::ops::ControlFlow;
 
 use super::{
     Observer, Rail, Segment,
+    ball_ball::{Triangle, balls_ahead},
     contact_mode::ContactMode,
-    contacts::PAIRS,
+    contacts::{PAIRS, PAIRS_OF},
     cushions::cushion_ahead,
     engine::{Ball, Engine, Meeting},
-    meetings::{Triangle, balls_ahead},
     predict::{Ahead, curved_cushion_ahead},
     savings::Savings,
 };
@@ -16,9 +16,6 @@ use crate::{physics::Motion, table::BALLS};
 
 /// A horizon beyond which nobody looks, s: no ball moves for so long.
 const LONGEST: f64 = 1e9;
-
-/// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
-pub(super) const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
 
 impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// Puts a ball on a course that can last for `lasts` seconds, and predicts which cushion it will meet.

@@ -10,7 +10,7 @@ use crate::table::{Layout, Table};
 /// the *left* of the first ball and lies in the right half of the table (x >= 0): an agent then learns one kind of
 /// shot instead of eight.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
+pub struct Observation {
     /// Centre of the cue ball in the mirrored frame, m.
     pub cue: DVec2,
     /// Centre of the object ball that is met first, m.
@@ -21,11 +21,11 @@ pub struct View {
     pub(super) mirror: DVec2,
 }
 
-/// Number of views of a layout: either object ball first, passed on either side.
-pub const VIEWS: usize = 4;
+/// Number of observations of a layout: either object ball first, passed on either side.
+pub const OBSERVATIONS: usize = 4;
 
-impl View {
-    /// The view number `index` (below [`VIEWS`]) of a layout.
+impl Observation {
+    /// The observation number `index` (below [`OBSERVATIONS`]) of a layout.
     pub fn new(layout: &Layout, index: usize) -> Self {
         let [cue, one, two] = layout.balls;
         let (first, second) = if index & 1 == 0 { (one, two) } else { (two, one) };
@@ -35,17 +35,17 @@ impl View {
         Self { cue: mirror * cue, first: mirror * first, second: mirror * second, mirror }
     }
 
-    /// All views of a layout.
-    pub fn all(layout: &Layout) -> [Self; VIEWS] {
+    /// All observations of a layout.
+    pub fn all(layout: &Layout) -> [Self; OBSERVATIONS] {
         std::array::from_fn(|index| Self::new(layout, index))
     }
 
-    /// A direction of this view as an angle on the table, rad.
+    /// A direction of this observation as an angle on the table, rad.
     pub fn angle_on_table(&self, direction: DVec2) -> f64 {
         (self.mirror * direction).to_angle()
     }
 
-    /// A tip position to the left of the centre, as seen in this view, on the table: a mirror swaps left and right.
+    /// A tip position to the left of the centre, as seen in this observation, on the table: a mirror swaps left and right.
     pub fn side_on_table(&self, left: f64) -> f64 {
         self.mirror.x * self.mirror.y * left
     }
@@ -68,7 +68,7 @@ impl View {
     }
 }
 
-/// The three lines between the balls of a view.
+/// The three lines between the balls of an observation.
 #[derive(Clone, Copy, Debug)]
 pub struct Lines {
     /// From the cue ball to the first object ball.
@@ -117,9 +117,12 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
-            for view in View::all(&layout) {
-                assert!(view.cue.x >= 0.0);
-                assert!((view.first.distance(view.second) - layout.balls[1].distance(layout.balls[2])).abs() < 1e-12);
+            for observation in Observation::all(&layout) {
+                assert!(observation.cue.x >= 0.0);
+                assert!(
+                    (observation.first.distance(observation.second) - layout.balls[1].distance(layout.balls[2])).abs()
+                        < 1e-12
+                );
             }
         }
     }
@@ -130,9 +133,11 @@ mod tests {
         let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(4));
         for mirror in [DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)] {
             let mirrored = Layout::new(layout.balls.map(|ball| mirror * ball));
-            for view in View::all(&layout) {
-                let same = |other: &View| (other.cue, other.first, other.second) == (view.cue, view.first, view.second);
-                assert!(View::all(&mirrored).iter().any(same));
+            for observation in Observation::all(&layout) {
+                let same = |other: &Observation| {
+                    (other.cue, other.first, other.second) == (observation.cue, observation.first, observation.second)
+                };
+                assert!(Observation::all(&mirrored).iter().any(same));
             }
         }
     }
@@ -140,9 +145,13 @@ mod tests {
     #[test]
     fn a_direction_returns_to_the_table() {
         let layout = Layout::new([DVec2::new(-0.5, 0.1), DVec2::new(0.5, 0.2), DVec2::new(0.2, -0.4)]);
-        for view in View::all(&layout) {
-            let first = if view.mirror * view.first == layout.balls[1] { layout.balls[1] } else { layout.balls[2] };
-            let angle = view.angle_on_table(view.first - view.cue);
+        for observation in Observation::all(&layout) {
+            let first = if observation.mirror * observation.first == layout.balls[1] {
+                layout.balls[1]
+            } else {
+                layout.balls[2]
+            };
+            let angle = observation.angle_on_table(observation.first - observation.cue);
             assert!((angle - (first - layout.balls[0]).to_angle()).abs() < 1e-12);
         }
     }

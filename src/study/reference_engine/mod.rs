@@ -1,4 +1,4 @@
-//! A plain event-driven engine in any precision, with any root finder: written straight from the equations, with no
+//! The reference engine: event-driven, in any precision, with any root finder: written straight from the equations, with no
 //! savings at all, and apart from `physics` and `simulation`, so that a slip in one is not in the other.
 //!
 //! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.

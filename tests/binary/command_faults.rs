@@ -1,0 +1,139 @@
+//! The command line: what a shot comes to, one naming of balls and directions, and names that people type.
+
+use serde_json::{Value, json};
+
+use crate::program::asked as carom;
+
+/// What is printed where all goes well.
+fn said(args: &[&str]) -> String {
+    String::from_utf8(carom(args).assert().success().get_output().stdout.clone()).unwrap()
+}
+
+fn answer(args: &[&str]) -> Value {
+    serde_json::from_str(&said(args)).unwrap()
+}
+
+/// What is told where the input is wrong.
+fn refusal(args: &[&str]) -> String {
+    let output = carom(args).output().unwrap();
+    assert!(!output.status.success() && output.stdout.is_empty(), "{output:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
+/// Meets yellow, a cushion, then red.
+const ONE_CUSHION: &str = "0,0.4,0,0.3,3";
+/// Comes off four cushions first, then red, then yellow.
+const CUSHIONS: &str = "0,0,0,100,8";
+
+fn simulate<'a>(shot: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    [&["simulate", "--layout", LAYOUT, "--shot", shot], more].concat()
+}
+
+#[test]
+fn a_simulated_shot_is_judged_by_the_rule_that_is_asked_for() {
+    let straight = said(&simulate(ONE_CUSHION, &[]));
+    assert!(straight.contains("a point (straight): 1 cushion before the second ball"), "{straight}");
+    let three = said(&simulate(ONE_CUSHION, &["--rule", "three-cushion"]));
+    assert!(three.contains("no point (three-cushion): 1 cushion before the second ball, 3 needed"), "{three}");
+    let missed = said(&simulate("0,0,0,90,0.5", &["--rule", "one-cushion"]));
+    assert!(missed.contains("no point (one-cushion): no ball was met"), "{missed}");
+    assert!(refusal(&simulate(ONE_CUSHION, &["--rule", "snooker"])).contains("three-cushion"));
+}
+
+#[test]
+fn the_judgement_stands_in_json_beside_what_stood_there_before() {
+    let straight = answer(&simulate(ONE_CUSHION, &["--json"]));
+    let judged = |answer: &Value| json!([answer["rule"], answer["point"], answer["cushions_before_second"]]);
+    assert_eq!(judged(&straight), json!(["straight", true, 1]));
+    assert!(straight["events"].is_array() && straight["final"].is_array() && straight["duration"].is_number());
+    let three = answer(&simulate(ONE_CUSHION, &["--json", "--rule", "three-cushion"]));
+    assert_eq!(judged(&three), json!(["three-cushion", false, 1]));
+    let missed = answer(&simulate("0,0,0,90,0.5", &["--json"]));
+    assert_eq!((&missed["point"], missed.get("cushions_before_second")), (&json!(false), None));
+}
+
+#[test]
+fn a_line_of_a_batch_may_name_its_own_rule() {
+    let line = |rule: &str| {
+        let cue = r#"{"a":0,"b":0.4,"theta_deg":0,"phi_deg":0.3,"speed":3}"#;
+        format!(r#"{{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{cue}{rule}}}"#)
+    };
+    let input = [line(""), line(r#","rule":"straight""#)].join("\n");
+    let output = carom(&["simulate", "--batch", "-", "--rule", "three-cushion"]).write_stdin(input).assert().success();
+    let output = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    let rules: Vec<Value> = output.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(
+        rules.iter().map(|line| (&line["rule"], &line["point"])).collect::<Vec<_>>(),
+        [(&json!("three-cushion"), &json!(false)), (&json!("straight"), &json!(true))]
+    );
+}
+
+#[test]
+fn balls_have_their_colours_wherever_people_read() {
+    let simulated = said(&simulate(CUSHIONS, &[]));
+    assert!(simulated.contains("white at (") && simulated.contains("red at ("), "{simulated}");
+    let recommended =
+        said(&["recommend", "--layout", LAYOUT, "--budget-ms", "5000", "--simulations", "2000", "--margins"]);
+    for text in [&simulated, &recommended] {
+        assert!(!text.contains("ball 0") && !text.contains("ball 1") && !text.contains("ball 2"), "{text}");
+    }
+    assert!(recommended.contains("hits yellow") || recommended.contains("hits red"), "{recommended}");
+    assert!(said(&["simulate", "--help"]).contains("white is the cue ball"));
+}
+
+#[test]
+fn directions_are_from_nought_to_below_360_degrees() {
+    // The only way to both balls is downwards to the right.
+    let layout = "-0.5,0.3 0,0 0.3,-0.2";
+    let common =
+        ["recommend", "--layout", layout, "--budget-ms", "5000", "--simulations", "2000", "--skill", "perfect"];
+    let text = said(&common);
+    let phi = |line: &str| -> f64 { line.split_whitespace().nth(1).unwrap().parse().unwrap() };
+    let shot = text.lines().find(|line| line.starts_with("phi")).map(phi).unwrap();
+    assert!((0.0..360.0).contains(&shot), "{text}");
+    let others = text.lines().filter(|line| line.starts_with("or "));
+    for other in others {
+        let phi: f64 = other.split(',').nth(3).unwrap().parse().unwrap();
+        assert!((0.0..360.0).contains(&phi), "{other}");
+    }
+    let save = ["drill", "save", "down", "--replace", "--layout", layout, "--shot", "0,0,0,-27,3"];
+    let home = tempfile::tempdir().unwrap();
+    carom(&save).env("XDG_DATA_HOME", home.path()).assert().success();
+    let shown = carom(&["drill", "show", "down"]).env("XDG_DATA_HOME", home.path()).output().unwrap().stdout;
+    let shown = String::from_utf8(shown).unwrap();
+    assert!(shown.contains("0.0000,0.0000,0.000,333.000,3.000"), "{shown}");
+}
+
+#[test]
+fn minutes_of_self_play_may_be_a_fraction() {
+    let args = ["evaluate", "--self-play", "--layouts", "2", "--budget-ms", "20", "--most-points", "1", "--minutes"];
+    let report = answer(&[&args[..], &["0.3", "--json"]].concat());
+    assert_eq!(report["innings"], 2);
+    for wrong in ["0", "-1", "NaN"] {
+        let minutes = format!("--minutes={wrong}");
+        let refused = refusal(&[&args[..8], &[&minutes]].concat());
+        assert!(refused.contains(&format!("--minutes {wrong}")) && refused.contains("above 0"), "{refused}");
+    }
+}
+
+#[test]
+fn an_exercise_may_be_called_by_its_title_or_the_beginning_of_it() {
+    let list = said(&["drill", "list", "--json"]);
+    let exercises: Vec<Value> = list.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let text = |exercise: &Value, key: &str| exercise[key].as_str().unwrap().to_owned();
+    let (name, title) = (text(&exercises[3], "name"), text(&exercises[3], "title"));
+    let by_name = said(&["drill", "show", &name]);
+    for called in [name.to_uppercase(), title.clone(), title.to_lowercase()] {
+        assert_eq!(said(&["drill", "show", &called]), by_name, "{called}");
+    }
+    let refused = refusal(&["drill", "show", "a"]);
+    assert!(refused.contains("\"a\"") && refused.contains(" and ") && refused.lines().count() == 1, "{refused}");
+    assert!(refusal(&["drill", "show", "no such exercise"]).contains("carom drill list"));
+    // The record is that of the exercise, whatever it was called.
+    let home = tempfile::tempdir().unwrap();
+    let practise = |args: &[&str]| carom(args).env("XDG_DATA_HOME", home.path()).output().unwrap();
+    assert!(practise(&["drill", "log", &title, "make"]).status.success());
+    let history = String::from_utf8(practise(&["drill", "history", &title, "--json"]).stdout).unwrap();
+    assert!(history.contains("\"made\":1"), "{history}");
+}
