@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{
     Constants, Segment,
     predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
-    roots::first_crossing_of_quartic,
+    roots::{first_crossing, first_crossing_of_quartic, horner},
     savings::Savings,
     tolerance::Tolerance,
 };
@@ -133,7 +133,20 @@ fn touching_balls_ahead<S: Savings>(
     {
         return Ahead::Nothing;
     }
-    polynomial_closes(tolerance, &[0.0, c1, c2, c3, c4], true, 2.0 * diameter, horizon)
+    let gap = [0.0, c1, c2, c3, c4];
+    let falls = polynomial_closes(tolerance, &gap, true, 2.0 * diameter, horizon);
+    if separation > tolerance.opening {
+        return falls;
+    }
+    // What presses meets as soon as it closes at a speed that counts: to wait for the rounding of the gap would let the
+    // balls' slips change by what they do meanwhile.
+    let speed = [c1 + 4.0 * diameter * tolerance.opening, 2.0 * c2, 3.0 * c3, 4.0 * c4];
+    let horizon = if let Ahead::Meeting(time) = falls { time } else { horizon };
+    let steepness = [speed[1], 2.0 * speed[2], 3.0 * speed[3]];
+    match first_crossing(|t| horner(&speed, t), &steepness, horizon) {
+        Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Ahead::Meeting(time),
+        _ => falls,
+    }
 }
 
 /// Whether `a + b s + c s² + d s³` is surely positive for all `s` from 0 to 1: its Bernstein coefficients, which bound it,
