@@ -124,7 +124,9 @@ pub fn settles(
     }
     // What the bounces open holds on average, and slips that they make are none.
     let mut contacts = coupled(constants, balls, contact, speed);
-    contacts.retain(|_, other| other.shares_a_ball(contact));
+    // What is in flight does not press, and to stop it its contact would have to pull.
+    let flies = |other: &Contact| other != contact && other.opening_speed(balls) > tolerance.slowest_bounce;
+    contacts.retain(|_, other| other.shares_a_ball(contact) && !flies(other));
     let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
     let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
     let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
