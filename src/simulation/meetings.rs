@@ -207,4 +207,20 @@ mod tests {
         let position = roll.position_after(time);
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
     }
+
+    /// Two balls side by side of which one begins to press: the wait for a gap of rounding's size to close was 1e-7 s, in
+    /// which the slip of balls that never slip grew back to more than counts as none.
+    #[test]
+    fn touching_balls_that_press_without_resting_meet_as_soon_as_they_close_at_a_speed_that_counts() {
+        let constants = Constants::of(&Table::preset("thesis").unwrap());
+        let (tolerance, diameter) = (&constants.tolerance, constants.diameter);
+        let meets = |dv: DVec2, dk: DVec2| {
+            touching_balls_ahead::<All>(tolerance, DVec2::new(diameter, 0.0), dv, dk, diameter, 1.0, false)
+        };
+        let Ahead::Meeting(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
+        assert!((time * 1.8 - 2.0 * tolerance.opening).abs() < 1e-3 * tolerance.opening, "{time}");
+        // Those that part first meet when they are back, not when they turn.
+        let parting = DVec2::new(0.5 * tolerance.opening, 0.0);
+        assert_eq!(meets(parting, DVec2::new(0.9, 0.0)), Ahead::Nothing);
+    }
 }
