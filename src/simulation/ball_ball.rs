@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{
     Constants, Segment,
     predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
-    roots::first_crossing_of_quartic,
+    roots::{first_crossing, first_crossing_of_quartic, horner},
     savings::Savings,
     tolerance::Tolerance,
 };
@@ -133,7 +133,20 @@ fn touching_balls_ahead<S: Savings>(
     {
         return Ahead::Nothing;
     }
-    polynomial_closes(tolerance, &[0.0, c1, c2, c3, c4], true, 2.0 * diameter, horizon)
+    let gap = [0.0, c1, c2, c3, c4];
+    let falls = polynomial_closes(tolerance, &gap, true, 2.0 * diameter, horizon);
+    if separation > tolerance.opening {
+        return falls;
+    }
+    // What presses meets as soon as it closes at a speed that counts: to wait for the rounding of the gap would let the
+    // balls' slips change by what they do meanwhile.
+    let speed = [c1 + 4.0 * diameter * tolerance.opening, 2.0 * c2, 3.0 * c3, 4.0 * c4];
+    let horizon = if let Ahead::Meeting(time) = falls { time } else { horizon };
+    let steepness = [speed[1], 2.0 * speed[2], 3.0 * speed[3]];
+    match first_crossing(|t| horner(&speed, t), &steepness, horizon) {
+        Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Ahead::Meeting(time),
+        _ => falls,
+    }
 }
 
 /// Whether `a + b s + c s² + d s³` is surely positive for all `s` from 0 to 1: its Bernstein coefficients, which bound it,
@@ -193,5 +206,21 @@ mod tests {
         };
         let position = roll.position_after(time);
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
+    }
+
+    /// Two balls side by side of which one begins to press: the wait for a gap of rounding's size to close was 1e-7 s, in
+    /// which the slip of balls that never slip grew back to more than counts as none.
+    #[test]
+    fn touching_balls_that_press_without_resting_meet_as_soon_as_they_close_at_a_speed_that_counts() {
+        let constants = Constants::of(&Table::preset("thesis").unwrap());
+        let (tolerance, diameter) = (&constants.tolerance, constants.diameter);
+        let meets = |dv: DVec2, dk: DVec2| {
+            touching_balls_ahead::<All>(tolerance, DVec2::new(diameter, 0.0), dv, dk, diameter, 1.0, false)
+        };
+        let Ahead::Meeting(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
+        assert!((time * 1.8 - 2.0 * tolerance.opening).abs() < 1e-3 * tolerance.opening, "{time}");
+        // Those that part first meet when they are back, not when they turn.
+        let parting = DVec2::new(0.5 * tolerance.opening, 0.0);
+        assert_eq!(meets(parting, DVec2::new(0.9, 0.0)), Ahead::Nothing);
     }
 }

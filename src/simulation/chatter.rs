@@ -124,7 +124,9 @@ pub fn settles(
     }
     // What the bounces open holds on average, and slips that they make are none.
     let mut contacts = coupled(constants, balls, contact, speed);
-    contacts.retain(|_, other| other.shares_a_ball(contact));
+    // What is in flight does not press, and to stop it its contact would have to pull.
+    let flies = |other: &Contact| other != contact && other.opening_speed(balls) > tolerance.slowest_bounce;
+    contacts.retain(|_, other| other.shares_a_ball(contact) && !flies(other));
     let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
     let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
     let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
@@ -179,5 +181,27 @@ mod tests {
         assert_eq!(told, TOLD);
         assert!(!chatters.are_over(1, now) && chatters.are_over(2, now));
         assert!(chatters.are_over(0, now + 1.0));
+    }
+
+    /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.
+    #[test]
+    fn a_chatter_ends_without_the_contact_that_is_in_flight() {
+        let table = Table::preset("thesis").unwrap();
+        let (constants, law) = (Constants::of(&table), ImpactLaw::of(&table));
+        let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
+        let ends = |up: f64| {
+            let mut balls =
+                [glam::DVec2::ZERO, glam::DVec2::new(0.0, 0.3), glam::DVec2::new(0.0, -0.3)].map(BallState::at_rest);
+            // Spins that press it to both.
+            balls[0] = BallState {
+                position: table.reach(),
+                velocity: glam::DVec2::new(-1e-9, -up),
+                spin: glam::DVec3::new(-100.0, 100.0, 0.0),
+            };
+            settles(&table, &constants, &law, &contact, &balls, 0.3).expect("the chatter ends").as_slice().to_vec()
+        };
+        let other = Contact::with_cushion(0, glam::DVec2::NEG_Y);
+        assert_eq!(ends(3e-9), [contact]);
+        assert!(ends(0.0).contains(&contact) && ends(0.0).contains(&other));
     }
 }

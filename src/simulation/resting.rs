@@ -108,8 +108,8 @@ impl Resting {
         previous: Option<&Self>,
         next_step: f64,
     ) -> Outcome {
-        let Tolerance { slack, slowest_bounce, .. } = constants.tolerance;
-        let contacts = touching(constants, balls, |opening| opening.abs() <= 10.0 * slowest_bounce);
+        let Tolerance { slack, .. } = constants.tolerance;
+        let contacts = touching(constants, balls, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
         let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
             return without_ending_slips(table, constants, balls, &contacts);

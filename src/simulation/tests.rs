@@ -4,9 +4,13 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::{Event, EventKind, Observer, Rail, Segment, simulate};
+use super::{
+    Constants, Event, EventKind, Observer, Rail, Segment,
+    resting::{Outcome, Resting},
+    simulate,
+};
 use crate::{
-    physics::{Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip},
+    physics::{BallState, Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip},
     table::{Layout, OneRail, RailModel, Rails, Table},
 };
 
@@ -248,4 +252,24 @@ fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
             }
         }
     }
+}
+
+/// Two balls met opposite cushions at the same moment; the second's impact, as slow as the end of a chatter, was swallowed by
+/// the resting contact of the first.
+#[test]
+fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
+    let table = Table::preset("thesis").unwrap();
+    let constants = Constants::of(&table);
+    let rests = |closing: f64| {
+        let mut balls = [DVec2::ZERO, DVec2::new(0.5, 0.0), DVec2::new(-0.5, 0.0)].map(BallState::at_rest);
+        balls[0] = BallState {
+            position: DVec2::new(0.0, table.reach().y),
+            velocity: DVec2::new(0.4, closing),
+            spin: DVec3::new(-80.0, 0.0, 0.0),
+        };
+        let outcome = Resting::begin(&table, &constants, 0.0, &balls, None, f64::INFINITY);
+        matches!(outcome, Outcome::Rests(resting) if resting.members[0])
+    };
+    assert!(rests(0.0) && rests(constants.tolerance.opening));
+    assert!(!rests(2.5e-10));
 }
