@@ -75,16 +75,14 @@ fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> 
     }
     let (name, rest) = text.split_at(text.find(|next| !is_of_a_name(next)).unwrap_or(text.len()));
     let path = [start, &[name]].concat();
-    match rest.strip_prefix("::") {
-        Some(rest) => tree(rest, &path, found),
-        None => {
-            // After the last comma stands nothing.
-            if !name.is_empty() || !rest.starts_with('}') {
-                found.push(path);
-            }
-            rest
-        }
+    if let Some(rest) = rest.strip_prefix("::") {
+        return tree(rest, &path, found);
     }
+    // After the last comma stands nothing.
+    if !name.is_empty() || !rest.starts_with('}') {
+        found.push(path);
+    }
+    rest
 }
 
 fn is_of_a_name(character: char) -> bool {

@@ -15,8 +15,8 @@ fn every_size_can_be_drawn() {
     let library = |keys: &str| Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press(keys);
     let coach = ["", "v", "v v", "v v v"].map(shot);
     let drills = ["Left", "Left Enter", "Left Enter Space", "r", "a", "f", "f Enter"].map(library);
-    let runs = [Player::listing(TRUE_COLOUR), Player::watching(TRUE_COLOUR).press("5 6 7 8 9")];
-    let over = [
+    let runs = vec![Player::listing(TRUE_COLOUR), Player::watching(TRUE_COLOUR).press("5 6 7 8 9")];
+    let over = vec![
         refused(Player::new(), &[3, 60, 9]),
         Player::new().press("Left :").press(&"w ".repeat(120)),
         Player::new().press("?"),
