@@ -36,6 +36,13 @@ pub enum DrillTask {
     Film(Box<FilmedShot>),
 }
 
+impl DrillTask {
+    /// Whether it changes what is on the disk, or is needed for that.
+    pub const fn writes(&self) -> bool {
+        !matches!(self, Self::Advise(_) | Self::Estimate(..) | Self::Film(_))
+    }
+}
+
 /// Where a stroke is asked for.
 #[derive(Clone, Debug)]
 pub struct Position {

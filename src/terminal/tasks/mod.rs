@@ -15,7 +15,11 @@ mod worker;
 use std::{
     io,
     path::PathBuf,
-    sync::{atomic::Ordering, mpsc::Sender},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc::Sender,
+    },
     thread,
     time::Duration,
 };
@@ -63,6 +67,8 @@ pub struct Tasks {
     practice: Option<Worker<DrillTask>>,
     /// The thread of the settings' file.
     settings: Option<Worker<SettingsTask>>,
+    /// Set when nobody waits for answers any more.
+    is_closing: Arc<AtomicBool>,
 }
 
 impl Tasks {
@@ -76,6 +82,7 @@ impl Tasks {
             coach: None,
             practice: None,
             settings: None,
+            is_closing: Arc::default(),
         }
     }
 
@@ -150,7 +157,12 @@ impl Tasks {
                 continue;
             }
             let (to_screen, mut practice) = (self.to_screen.clone(), PracticeWorker::default());
-            let work = move |task| practice.work(task, &to_screen);
+            let is_closing = Arc::clone(&self.is_closing);
+            let work = move |task: DrillTask| {
+                if task.writes() || !is_closing.load(Ordering::Relaxed) {
+                    practice.work(task, &to_screen);
+                }
+            };
             // A thread that is gone has told so by its last report.
             started(&mut self.practice, "practice", work)?.give(task);
         }
@@ -171,6 +183,7 @@ impl Tasks {
 
     /// Waits until what the player has noted is on the disk: the screen may close before.
     pub fn finish(self) {
+        self.is_closing.store(true, Ordering::Relaxed);
         if let Some(practice) = self.practice {
             practice.finish();
         }
@@ -305,4 +318,26 @@ fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Exa
         // A screen that is gone needs no shots.
         let _ = to_screen.send(Event::Report(Report::Recorded(folder.clone(), Reel::record(&examples, &table))));
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{storage::Places, study::filmed::bundled};
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn what_writes_nothing_does_not_keep_the_program_from_ending() {
+        let (to_screen, events) = channel();
+        let mut tasks = Tasks::new(to_screen);
+        let film = || DrillTask::Film(Box::new(bundled().swap_remove(0)));
+        let home = tempfile::tempdir().unwrap();
+        tasks.practise(vec![DrillTask::Load(Places::under(home.path()))]).unwrap();
+        tasks.practise((0..40).map(|_| film()).collect()).unwrap();
+        tasks.practise(vec![DrillTask::KeepSkill(crate::coach::Skill::CLUB)]).unwrap();
+        tasks.finish();
+        let reports: Vec<_> = events.try_iter().collect();
+        assert!(reports.len() < 40, "{} of 42 tasks were done", reports.len());
+        assert!(matches!(reports.last(), Some(Event::Drill(drills::DrillReport::SkillKept(_, Ok(()))))));
+    }
 }
