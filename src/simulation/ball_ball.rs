@@ -219,7 +219,7 @@ mod tests {
         };
         let Ahead::Meeting(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
         assert!((time * 1.8 - 2.0 * tolerance.opening).abs() < 1e-3 * tolerance.opening, "{time}");
-        // Those that part first meet when they are back, not when they turn.
+        // Those that part do not meet.
         let parting = DVec2::new(0.5 * tolerance.opening, 0.0);
         assert_eq!(meets(parting, DVec2::new(0.9, 0.0)), Ahead::Nothing);
     }
