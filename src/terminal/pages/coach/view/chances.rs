@@ -11,7 +11,7 @@ use crate::{
         pages::coach::AdviceState,
         tasks::advice::Proposal,
         ui::{
-            Ui,
+            Ui, list,
             panel::{draw_nothing, draw_title},
             text::write_right,
         },
@@ -66,9 +66,7 @@ pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
 
 /// The shots that have a row, and their rows.
 fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u16)> {
-    let (rows, count) = (usize::from(inner.height), advised.choices().len());
-    let first = advised.chosen().saturating_sub(rows / 2).min(count.saturating_sub(rows));
-    (first..count).zip(inner.y..inner.bottom())
+    list::in_view(advised.chosen(), advised.choices().len(), usize::from(inner.height)).zip(inner.y..)
 }
 
 /// What sort of shot it is, or that it makes no point.

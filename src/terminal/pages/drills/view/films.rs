@@ -17,6 +17,7 @@ use crate::terminal::{
     ui::{
         Ui,
         geometry::Mapping,
+        list,
         message::Message,
         panel::draw_title,
         table::{TableView, draw_table},
@@ -66,8 +67,7 @@ fn halves(area: Rect) -> [Rect; 2] {
 
 /// Places in the list of the shots in view: the marked one is among the first `most`.
 fn in_view(mark: usize, most: usize) -> impl Iterator<Item = (usize, &'static Listed)> {
-    let first = mark.saturating_sub(most / 2).min(listed().len().saturating_sub(most));
-    listed().iter().enumerate().skip(first)
+    list::in_view(mark, listed().len(), most).map(|n| (n, &listed()[n]))
 }
 
 /// What the mouse points at.

@@ -19,10 +19,11 @@ use crate::{
         ui::{
             Ui,
             geometry::Mapping,
+            list,
             message::Message,
             panel::draw_title,
             table::{TableView, draw_table},
-            text::{cut, wrap, write_right},
+            text::{shorten, wrap, write_right},
             theme::Theme,
         },
         words,
@@ -133,8 +134,8 @@ fn in_view<'a>(found: &[&'a Exercise], mark: usize, most: usize) -> impl Iterato
         rows.push(Row::Exercise(n, exercise));
     }
     let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == mark)).unwrap_or(0);
-    let first = marked.saturating_sub(most / 2).min(rows.len().saturating_sub(most));
-    rows.into_iter().skip(first)
+    let shown = list::in_view(marked, rows.len(), most);
+    rows.into_iter().skip(shown.start).take(most)
 }
 
 /// How many exercises are listed, and which.
@@ -156,8 +157,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
         ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
     }
     let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
-    let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
-    ui.buffer.set_stringn(area.x + 2, area.y, title, room, style);
+    ui.buffer.set_string(area.x + 2, area.y, shorten(&exercise.title, room, ui.caps), style);
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
     if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
@@ -169,8 +169,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
 
 fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width.saturating_sub(4));
-    let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
-    let title = Line::from(Span::styled(title, ui.theme.text()));
+    let title = Line::from(Span::styled(shorten(&exercise.title, room, ui.caps), ui.theme.text()));
     let inner = draw_title(&title, area, ui);
     let Ok(table) = exercise.table() else { return };
     // The text has the rows that it needs, and the table the others.

@@ -25,7 +25,7 @@ use crate::{
             chart::{Chart, Curve, SeriesId, draw_chart},
             message::Message,
             panel::draw_title,
-            text::{cut, wrap, write_right},
+            text::{shorten, write_right},
         },
         words::chance_words,
     },
@@ -156,8 +156,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
         put(ui.buffer, ENDS[3].0, &average, ui.theme.text());
         let room = usize::from(inner.width.saturating_sub(WHAT));
-        let what = cut(wrap(&what(session, scope), room), 1, room, ui.caps).swap_remove(0);
-        ui.buffer.set_stringn(inner.x + WHAT, y, what, room, ui.theme.faint());
+        ui.buffer.set_string(inner.x + WHAT, y, shorten(&what(session, scope), room, ui.caps), ui.theme.faint());
     }
 }
 

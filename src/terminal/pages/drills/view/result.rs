@@ -16,7 +16,7 @@ use crate::{
             Ui,
             message::Message,
             panel::draw_title,
-            text::{cut, wrap, write_right},
+            text::{shorten, write_right},
         },
     },
 };
@@ -39,7 +39,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         ui.buffer.set_string(inner.x + 4, y, sign, style);
         let chance = attempt.chance.map_or(String::new(), percent);
         let room = usize::from(inner.width.saturating_sub(6 + 7));
-        let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
+        let title = shorten(&exercise.title, room, ui.caps);
         ui.buffer.set_stringn(inner.x + 6, y, title, room, ui.theme.text());
         write_right(ui.buffer, inner.x, inner.right(), y, &chance, ui.theme.faint());
     }

@@ -15,11 +15,7 @@ use crate::terminal::{
         SettingsPage,
         view::{Row, draw_list, write_paragraphs},
     },
-    ui::{
-        Ui,
-        panel::draw_title,
-        text::{cut, wrap},
-    },
+    ui::{Ui, panel::draw_title, text::shorten},
 };
 
 /// Columns of the keys.
@@ -61,20 +57,14 @@ pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'
 fn draw_entry(settings: &SettingsPage, entry: &KeyEntry, is_marked: bool, area: Rect, ui: &mut Ui) {
     let is_changed = !settings.settings.keys.about(&entry.chords).is_empty();
     let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "none".to_owned());
-    let keys = cut(wrap(&keys, usize::from(KEYS - 2)), 1, usize::from(KEYS - 2), ui.caps).swap_remove(0);
+    let keys = shorten(&keys, usize::from(KEYS - 2), ui.caps);
     ui.buffer.set_stringn(area.x, area.y, keys, usize::from(KEYS), ui.theme.accent());
     if is_changed {
         ui.buffer.set_string(area.x + KEYS - 2, area.y, ui.caps.pick("•", "*"), ui.theme.good());
     }
     let room = usize::from(area.width.saturating_sub(KEYS + 1));
-    let text = cut(wrap(entry.words, room), 1, room, ui.caps).swap_remove(0);
-    ui.buffer.set_stringn(
-        area.x + KEYS,
-        area.y,
-        text,
-        room,
-        if is_marked { ui.theme.accent() } else { ui.theme.text() },
-    );
+    let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
+    ui.buffer.set_string(area.x + KEYS, area.y, shorten(entry.words, room, ui.caps), style);
 }
 
 /// The keys that do it now, the user's own first; `None` where none does.

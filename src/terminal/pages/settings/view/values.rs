@@ -14,7 +14,7 @@ use crate::terminal::{
     ui::{
         Ui,
         panel::draw_title,
-        text::{cut, wrap},
+        text::{columns, shorten},
     },
 };
 
@@ -61,14 +61,14 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
     let x = area.x + NAME;
     let room = usize::from(area.right().saturating_sub(x + 5));
-    let text = cut(wrap(&shown(&(entry.get)(&settings.settings)), room), 1, room, ui.caps).swap_remove(0);
+    let text = shorten(&shown(&(entry.get)(&settings.settings)), room, ui.caps);
     let mut spans =
         vec![Span::styled(left, ui.theme.faint()), Span::styled(text, value), Span::styled(right, ui.theme.faint())];
     if let Some(other) = settings.other_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
         let whole = format!(" now; the file has {}", shown(&other));
         // Where there is no room, the words on the marked setting say the rest.
-        let note = if whole.chars().count() <= room { whole } else { " now".to_owned() };
+        let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
     }
     ui.buffer.set_line(x, area.y, &Line::from(spans), area.right().saturating_sub(x));

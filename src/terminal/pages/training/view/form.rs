@@ -10,7 +10,11 @@ use crate::{
     learning::{agents::AGENTS, run::Schedule},
     terminal::{
         pages::training::{Field, Form, TrainingPage},
-        ui::{Ui, panel::draw_title, text::wrap},
+        ui::{
+            Ui,
+            panel::draw_title,
+            text::{columns, wrap},
+        },
         words::count,
     },
 };
@@ -72,7 +76,7 @@ fn command_lines(command: &str, width: usize) -> Vec<String> {
     for (n, option) in command.split(" --").enumerate() {
         let part = if n == 0 { option.to_owned() } else { format!(" --{option}") };
         let last = lines.len() - 1;
-        if lines[last].chars().count() + part.chars().count() + 2 > width && n > 0 {
+        if columns(&lines[last]) + columns(&part) + 2 > width && n > 0 {
             lines[last].push_str(" \\");
             lines.push(format!(" {part}"));
         } else {
@@ -144,6 +148,6 @@ mod tests {
     fn a_long_command_is_broken_so_that_a_shell_still_takes_it() {
         let lines = command_lines("carom train --agent ddpg --steps 10 --from a-long-name", 24);
         assert_eq!(lines, ["carom train \\", "  --agent ddpg \\", "  --steps 10 \\", "  --from a-long-name"]);
-        assert_eq!(lines.iter().map(|line| line.chars().count()).max(), Some(20));
+        assert_eq!(lines.iter().map(|line| columns(line)).max(), Some(20));
     }
 }
