@@ -21,7 +21,7 @@ use carom::{
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
-use ratatui::style::Color;
+use ratatui::{layout::Size, style::Color};
 
 fn check(name: &str, player: &Player) {
     for (width, height) in [(80, 24), (120, 40)] {
@@ -117,10 +117,10 @@ fn a_run_that_trains() {
     }
     insta::assert_snapshot!("watch_200x60", player.text(200, 60));
     check("watch_help", &player.press("?"));
-    let scrolled = Player::watching(TRUE_COLOUR).press("?");
+    let mut scrolled = Player::watching(TRUE_COLOUR);
+    scrolled.app.resize(Size::new(80, 24));
+    let scrolled = scrolled.press("?");
     let keys = |key: &str, times| vec![key; times].join(" ");
-    // Each time it is drawn it tells where its end is.
-    scrolled.text(80, 24);
     let scrolled = scrolled.press(&keys("Down", 60));
     check("watch_help_end", &scrolled);
     let end = scrolled.text(80, 24);

@@ -1,9 +1,6 @@
 //! The panel of chances: the shots that the coach lists, how often the player makes each, and what sort each is.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, text::Span};
 
 use crate::{
     table::CueBall,
@@ -40,7 +37,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: 
             title.push(Span::styled(words, style));
         }
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let Some(advised) = advised else { return draw_nothing(&[empty], inner, ui) };
     for (n, row) in in_view(advised, inner) {
         let is_chosen = n == advised.chosen();

@@ -8,10 +8,7 @@ use ratatui::{
 use crate::terminal::{
     pages::{
         Target,
-        drills::{
-            DrillsPage,
-            view::{READABLE, write_paragraphs},
-        },
+        drills::{DrillsPage, view::READABLE},
     },
     shot::film::{Listed, listed, table},
     ui::{
@@ -19,7 +16,7 @@ use crate::terminal::{
         geometry::Mapping,
         list,
         message::Message,
-        panel::draw_title,
+        panel::{draw_title, write_paragraphs},
         table::{TableView, draw_table},
         text::{wrap, write_right},
     },
@@ -82,8 +79,7 @@ pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
 
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     let mark = drills.film.mark();
-    let title = Line::from(Span::styled(format!("All {}", listed().len()), ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(format!("All {}", listed().len()), area, ui);
     for (end, label) in [(SPEED_END, " m/s "), (LENGTH_END, " seconds ")] {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
     }
@@ -105,7 +101,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
 
 fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
     let title = format!("Shot {}, {}", listed.filmed.number, outcome(listed));
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     let width = inner.width.saturating_sub(2).min(READABLE);
     let paragraphs = [
         (String::new(), ui.theme.text()),
@@ -119,19 +115,7 @@ fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
     ];
     let rows: usize = paragraphs.iter().map(|(text, _)| wrap(text, usize::from(width)).len()).sum();
     let room = Rect { height: inner.height.saturating_sub(rows as u16), ..inner };
-    let view = TableView {
-        table: table(),
-        layout: &listed.layout,
-        shot: None,
-        time: 0.0,
-        is_moving: true,
-        front: 0,
-        is_lean: false,
-        spots: &[],
-        film: None,
-        theme: ui.theme,
-        caps: ui.caps,
-    };
+    let view = TableView::new(table(), &listed.layout, ui);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(table(), room).outer();
     let left = outer.x.min(inner.right().saturating_sub(width + 1)).max(inner.x + 1);

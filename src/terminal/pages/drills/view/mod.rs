@@ -12,7 +12,6 @@ mod score;
 
 use ratatui::{
     layout::{Position, Rect},
-    style::Style,
     text::{Line, Span},
 };
 
@@ -25,7 +24,7 @@ use crate::terminal::{
         Ui,
         message::Message,
         status_line::{draw_question, draw_status},
-        text::{columns, cut, shorten, wrap, write_right},
+        text::{columns, shorten, write_right},
     },
     words::{self, skill_word},
 };
@@ -75,24 +74,6 @@ fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mu
     }
     ui.buffer.set_line(area.x, area.y, &line, room as u16);
     write_right(ui.buffer, area.x, area.right(), area.y, &player, ui.theme.text());
-}
-
-/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
-/// so by its end. Gives the first row that is left.
-fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) -> u16 {
-    let width = usize::from(area.width);
-    let mut row = area.y;
-    for (text, style) in paragraphs {
-        let room = usize::from(area.bottom() - row);
-        if room == 0 {
-            break;
-        }
-        for line in cut(wrap(text, width), room, width, ui.caps) {
-            ui.buffer.set_stringn(area.x, row, line, width, *style);
-            row += 1;
-        }
-    }
-    row
 }
 
 /// A share as people say it, like `55 %`.

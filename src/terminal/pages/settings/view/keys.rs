@@ -1,9 +1,6 @@
 //! What each page of the program can do with its keys, and the marked one in words.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, text::Span};
 
 use crate::terminal::{
     capabilities::Capabilities,
@@ -13,7 +10,7 @@ use crate::terminal::{
     },
     pages::settings::{
         SettingsPage,
-        view::{Row, draw_list, write_paragraphs},
+        view::{Row, draw_list, write_words},
     },
     ui::{Ui, panel::draw_title, text::shorten},
 };
@@ -37,13 +34,13 @@ pub fn rows(settings: &SettingsPage) -> Vec<Row<&KeyEntry>> {
 /// Draws the list and the words; gives what the status line says while there is no news.
 pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let (left, right) = ui.caps.pick(("◂ ", " ▸"), ("< ", " >"));
-    let title = Line::from(vec![
+    let title = vec![
         Span::styled("Keys ", ui.theme.text()),
         Span::styled(left, ui.theme.faint()),
         Span::styled(settings.keys.page().name, ui.theme.accent()),
         Span::styled(right, ui.theme.faint()),
-    ]);
-    let inner = draw_title(&title, list, ui);
+    ];
+    let inner = draw_title(title, list, ui);
     let rows = rows(settings);
     draw_list(&rows, settings.keys.mark(), inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
@@ -75,8 +72,7 @@ fn keys_of(settings: &SettingsPage, entry: &KeyEntry, caps: Capabilities) -> Opt
 }
 
 fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui) {
-    let title = Line::from(Span::styled(entry.section.title(), ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(entry.section.title(), area, ui);
     let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "no key".to_owned());
     let mut paragraphs = vec![
         (entry.words.to_owned(), ui.theme.text()),
@@ -90,7 +86,7 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
             ui.theme.faint(),
         ));
     }
-    write_paragraphs(&paragraphs, inner, ui);
+    write_words(paragraphs, inner, ui);
 }
 
 /// What a key does, page by page.

@@ -6,9 +6,8 @@ mod values;
 use std::ops::Range;
 
 use ratatui::{
-    layout::{Position, Rect},
+    layout::{Margin, Position, Rect},
     style::Style,
-    text::{Line, Span},
 };
 
 use crate::terminal::{
@@ -20,8 +19,9 @@ use crate::terminal::{
     ui::{
         Ui, list,
         message::Message,
+        panel::write_paragraphs,
         status_line::{draw_question, draw_status},
-        text::{cut, end_of, wrap},
+        text::end_of,
     },
 };
 
@@ -131,21 +131,9 @@ fn draw_list<T>(rows: &[Row<T>], mark: usize, area: Rect, ui: &mut Ui, draw: imp
     }
 }
 
-/// Writes paragraphs into a panel from its top on, with blank rows between them where there is room.
-fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) {
-    let gap = u16::from(area.height >= APART);
-    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
-    let width = usize::from(area.width);
-    let mut y = area.y + gap;
-    for (text, style) in paragraphs {
-        let room = usize::from(area.bottom().saturating_sub(y));
-        if room == 0 {
-            return;
-        }
-        for line in cut(wrap(text, width), room, width, ui.caps) {
-            ui.buffer.set_line(area.x, y, &Line::from(Span::styled(line, *style)), area.width);
-            y += 1;
-        }
-        y += gap;
-    }
+/// Writes the words on what is marked into a panel, with blank rows between the paragraphs where there is room.
+fn write_words(paragraphs: Vec<(String, Style)>, area: Rect, ui: &mut Ui) {
+    let blank = (area.height >= APART).then(|| (String::new(), ui.theme.text()));
+    let all: Vec<_> = paragraphs.into_iter().flat_map(|one| blank.clone().into_iter().chain([one])).collect();
+    write_paragraphs(&all, area.inner(Margin::new(1, 0)), ui);
 }

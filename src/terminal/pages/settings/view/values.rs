@@ -9,7 +9,7 @@ use crate::terminal::{
     config::{ENTRIES, Entry, Settings},
     pages::settings::{
         SettingsPage,
-        view::{Row, draw_list, write_paragraphs},
+        view::{Row, draw_list, write_words},
     },
     ui::{
         Ui,
@@ -37,8 +37,8 @@ pub fn rows() -> Vec<Row<&'static Entry>> {
 pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let changed = ENTRIES.iter().filter(|entry| settings.is_changed(entry)).count();
     let of = if changed == 0 { String::new() } else { format!(" {changed} changed") };
-    let title = Line::from(vec![Span::styled("Settings", ui.theme.text()), Span::styled(of, ui.theme.faint())]);
-    let inner = draw_title(&title, list, ui);
+    let title = vec![Span::styled("Settings", ui.theme.text()), Span::styled(of, ui.theme.faint())];
+    let inner = draw_title(title, list, ui);
     draw_list(&rows(), settings.mark(), inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
     });
@@ -81,8 +81,7 @@ fn shown(value: &str) -> String {
 
 fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     let entry = settings.marked();
-    let title = Line::from(Span::styled(entry.key, ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(entry.key, area, ui);
     let default = (entry.get)(&Settings::default());
     let mut paragraphs = vec![
         (entry.about.to_owned(), ui.theme.text()),
@@ -94,5 +93,5 @@ fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
         let keep = if settings.is_writable { " Enter twice keeps it." } else { "" };
         paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), ui.theme.warning()));
     }
-    write_paragraphs(&paragraphs, inner, ui);
+    write_words(paragraphs, inner, ui);
 }

@@ -59,8 +59,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     }
     let rows = 2 * Field::ALL.len() as u16 + 2;
     let below = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
-    let title = Line::from(Span::styled("The same on the command line", ui.theme.text()));
-    let inner = draw_title(&title, below, ui);
+    let inner = draw_title("The same on the command line", below, ui);
     let lines = command_lines(&form.command(), usize::from(area.width.saturating_sub(6)));
     let name =
         Line::from(vec![Span::styled("run           ", ui.theme.faint()), Span::styled(form.name(), ui.theme.text())]);

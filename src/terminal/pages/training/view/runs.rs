@@ -4,7 +4,7 @@ use ratatui::{
     buffer::Buffer,
     layout::{Position, Rect},
     style::Style,
-    text::{Line, Span},
+    text::Span,
 };
 
 use crate::{
@@ -134,8 +134,8 @@ fn kept(widths: &[usize], room: usize) -> Vec<usize> {
 
 fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, ui: &mut Ui) {
     let of = format!(" {} of {}", mark + 1, training.list.runs().len());
-    let title = Line::from(vec![Span::styled("Run", ui.theme.text()), Span::styled(of, ui.theme.faint())]);
-    let inner = draw_title(&title, area, ui);
+    let title = vec![Span::styled("Run", ui.theme.text()), Span::styled(of, ui.theme.faint())];
+    let inner = draw_title(title, area, ui);
     let lines = [
         format!(
             "{} for {} on \"{}\", seed {}: {} of {} shots",
