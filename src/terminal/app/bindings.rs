@@ -21,6 +21,7 @@ use crate::terminal::{
         settings::keys::{self as settings, SettingsAction, SettingsCondition, SettingsContext},
         training::keys::{self as training, TrainingAction, TrainingCondition, TrainingContext},
     },
+    ui::input::is_typed,
 };
 
 use Action as A;
@@ -124,16 +125,16 @@ impl KeyContext {
     /// Whether `pressed` is typed there, whatever work of another key it was given.
     pub fn types(self, pressed: Chord) -> bool {
         let event = pressed.event();
-        let Char(letter) = event.code else { return false };
-        event.modifiers.is_empty()
-            && match self {
-                Self::Training(TrainingContext::Name)
-                | Self::CommandPalette
-                | Self::Drill(DrillContext::Search | DrillContext::Text)
-                | Self::Settings(SettingsContext::Typing) => true,
-                Self::Training(TrainingContext::Form) => letter.is_ascii_digit(),
-                _ => false,
+        match self {
+            Self::Training(TrainingContext::Name)
+            | Self::CommandPalette
+            | Self::Drill(DrillContext::Search | DrillContext::Text)
+            | Self::Settings(SettingsContext::Typing) => is_typed(&event),
+            Self::Training(TrainingContext::Form) => {
+                matches!(event.code, Char('0'..='9')) && event.modifiers.is_empty()
             }
+            _ => false,
+        }
     }
 }
 
@@ -372,6 +373,15 @@ mod tests {
             ),
             (1, 0)
         );
+    }
+
+    #[test]
+    fn no_binding_takes_a_key_of_the_text_that_is_typed() {
+        for place in places().filter(|place| place.types(Chord::char('z'))) {
+            for (chord, ..) in bindings(place).into_iter().flat_map(|binding| binding.keys) {
+                assert!(!place.types(chord), "{place:?}: {chord:?} is typed, and never comes to the binding");
+            }
+        }
     }
 
     #[test]

@@ -8,6 +8,19 @@ use crate::terminal::{
     keymap::chord::keys_text,
 };
 
+/// What [`TextField`](crate::terminal::ui::input::TextField) does with keys.
+const TYPING: &str = "
+## Where text is typed
+
+| keys | what they do |
+|---|---|
+| `← →` | move the cursor |
+| `Ctrl-← →`, `Alt-← →` | move it by a word |
+| `Home`, `End` | to the beginning, to the end |
+| `Backspace`, `Delete` | delete the character before the cursor, the one at it |
+| `Ctrl-w`, `Ctrl-u` | delete the word before the cursor, all before it |
+";
+
 /// A table of all keys in Markdown, page by page; what all pages have comes last, once.
 pub fn document() -> String {
     let mut text = String::from(
@@ -22,6 +35,7 @@ pub fn document() -> String {
     }
     let common = pages.first().into_iter().flatten().filter(|binding| is_everywhere(binding));
     write_page(&mut text, "On every page", common);
+    text.push_str(TYPING);
     text
 }
 

@@ -23,7 +23,6 @@ impl App {
         match action {
             PaletteAction::Open | PaletteAction::Close => self.command_palette = None,
             PaletteAction::Line(lines) => command_palette.move_mark(lines, found.len()),
-            PaletteAction::Erase => command_palette.erase(),
             PaletteAction::Choose => {
                 let command = found.get(command_palette.mark(found.len()))?;
                 if let Some(reason) = self.disabled_reason(command.when) {

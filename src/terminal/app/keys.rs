@@ -10,6 +10,7 @@ use crate::terminal::{
     },
     effect::{Effect, PageId},
     pages::settings::Input,
+    ui::input::Typed,
 };
 
 impl App {
@@ -35,7 +36,7 @@ impl App {
                 _ => None,
             };
         }
-        if typed(key).is_some_and(|letter| self.take_text(letter.encode_utf8(&mut [0; 4]))) {
+        if self.input(Typed::Key(key)) {
             self.toasts.go_on();
             return None;
         }
@@ -64,8 +65,8 @@ impl App {
     }
 
     /// Whether nothing could be seen of what a key does, for want of room.
-    pub(super) fn is_blind(&self) -> bool {
-        !self.area.get().is_empty() && view::is_too_small(self.area.get())
+    pub(super) const fn is_blind(&self) -> bool {
+        !self.area.is_empty() && view::is_too_small(self.area)
     }
 
     const fn is_asked_for_a_key(&self) -> bool {
@@ -76,17 +77,19 @@ impl App {
 
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
-        self.take_text(text);
+        self.input(Typed::Paste(text));
     }
 
-    /// Takes text that was typed or pasted where text is typed; `false` where none is.
-    fn take_text(&mut self, text: &str) -> bool {
+    /// Takes what was typed or pasted where text is typed; `false` where none is, or the key means something else.
+    fn input(&mut self, typed: Typed) -> bool {
         if let Some(command_palette) = &mut self.command_palette {
-            command_palette.take_text(text);
-            *self.page_mut().message_mut() = None;
-            return true;
+            let taken = command_palette.input(typed);
+            if taken {
+                *self.page_mut().message_mut() = None;
+            }
+            return taken;
         }
-        self.help.is_none() && self.page_mut().take_text(text)
+        self.help.is_none() && self.page_mut().input(typed)
     }
 
     /// Why a binding may not be used now; `None` where it may.
@@ -120,10 +123,4 @@ impl App {
             PageId::Settings => KeyContext::Settings(self.settings.place()),
         }
     }
-}
-
-/// The letter that a key types, if it types one.
-fn typed(key: &KeyEvent) -> Option<char> {
-    let KeyCode::Char(letter) = key.code else { return None };
-    (key.modifiers - KeyModifiers::SHIFT).is_empty().then_some(letter)
 }

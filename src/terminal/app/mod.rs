@@ -15,12 +15,12 @@ mod state;
 mod tabs;
 mod view;
 
-use std::{
-    cell::Cell,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
-use ratatui::{Frame, layout::Rect};
+use ratatui::{
+    Frame,
+    layout::{Rect, Size},
+};
 
 use crate::{
     coach::Skill,
@@ -68,13 +68,11 @@ pub struct App {
     before: PageId,
     /// The page that lies over the screen, and its first line.
     help: Option<(Overlay, u16)>,
-    /// The first line of that page when it is scrolled to its end. Only drawing knows: it depends on the terminal's size.
-    help_end: Cell<u16>,
     /// The command palette while it is open.
     command_palette: Option<CommandPalette>,
     toasts: Toasts,
-    /// Where the screen was drawn, to find what the mouse points at.
-    area: Cell<Rect>,
+    /// The screen, nothing before its size is known: where the mouse points, and how far the help can be scrolled.
+    area: Rect,
     /// Whether the mouse is wanted.
     mouse: bool,
     caps: Capabilities,
@@ -105,10 +103,9 @@ impl App {
             in_force: Settings::default(),
             before: PageId::Coach,
             help: None,
-            help_end: Cell::new(u16::MAX),
             command_palette: None,
             toasts: Toasts::default(),
-            area: Cell::default(),
+            area: Rect::default(),
             mouse: true,
             caps,
             full_look: caps,
@@ -211,8 +208,10 @@ impl App {
             Action::OpenMessages => self.lay_over(Overlay::Messages),
             Action::CloseHelp => self.help = None,
             Action::ScrollHelp(lines) => {
-                let end = self.help_end.get();
-                self.help = self.help.map(|(page, top)| (page, top.min(end).saturating_add_signed(lines).min(end)));
+                self.help = self.help.map(|(page, top)| {
+                    let end = view::help_end(self, page, self.area);
+                    (page, top.min(end).saturating_add_signed(lines).min(end))
+                });
             }
             Action::NextGlyphs => self.next_glyphs(),
             Action::NextPalette => self.next_palette(),
@@ -284,9 +283,13 @@ impl App {
         self.page().frame_interval()
     }
 
+    /// The terminal has this size from now on.
+    pub const fn resize(&mut self, size: Size) {
+        self.area = Rect::new(0, 0, size.width, size.height);
+    }
+
     /// Draws the screen.
     pub fn draw(&self, frame: &mut Frame) {
-        self.area.set(frame.area());
         view::draw(self, frame.area(), frame.buffer_mut());
     }
 }

@@ -48,7 +48,7 @@ impl App {
             Kind::ScrollUp => self.wheel(event, -1),
             Kind::ScrollDown => self.wheel(event, 1),
             Kind::Drag(Left) if self.place() == KeyContext::Coach && self.help.is_none() => {
-                let pointer = table_mapping(&self.coach, self.area.get()).nearest_metres(event.column, event.row)?;
+                let pointer = table_mapping(&self.coach, self.area).nearest_metres(event.column, event.row)?;
                 self.coach.drag_ball(pointer)
             }
             Kind::Up(Left) => {
@@ -90,7 +90,7 @@ impl App {
 
     fn target(&self, event: MouseEvent) -> Option<Pointed> {
         let is_covered = self.help.is_some() || self.command_palette.is_some();
-        if is_covered { None } else { pointed_at(self, self.area.get(), (event.column, event.row).into()) }
+        if is_covered { None } else { pointed_at(self, self.area, (event.column, event.row).into()) }
     }
 
     /// Selects the ball that is drawn where the mouse is, and holds it.

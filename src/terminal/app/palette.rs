@@ -10,7 +10,11 @@ use crate::terminal::{
         chord::{Chord, keys_text},
         remap::Keys,
     },
+    ui::input::{TextField, Typed},
 };
+
+/// Most that is typed, bytes.
+const LONGEST: usize = 200;
 
 /// One thing that can be done.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,22 +85,28 @@ pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Comma
 }
 
 /// The palette while it is open: what is typed, and the mark among what is found.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct CommandPalette {
-    typed: String,
+    words: TextField,
     mark: usize,
+}
+
+impl Default for CommandPalette {
+    fn default() -> Self {
+        Self { words: TextField::new(LONGEST), mark: 0 }
+    }
 }
 
 impl CommandPalette {
     /// What is typed.
-    pub fn typed(&self) -> &str {
-        &self.typed
+    pub const fn words(&self) -> &TextField {
+        &self.words
     }
 
     /// The commands that have all typed words, in their order. What a binding's keys do together finds them all, unless the
     /// words are those of some of them alone.
     pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
-        let words: Vec<String> = self.typed.split_whitespace().map(str::to_lowercase).collect();
+        let words: Vec<String> = self.words.text().split_whitespace().map(str::to_lowercase).collect();
         let called: Vec<_> = commands.iter().filter(|one| one.is_called(&words)).map(|one| one.group).collect();
         commands.retain(|one| one.is_called(&words) || !called.contains(&one.group) && one.is_among(&words));
         commands
@@ -112,21 +122,21 @@ impl CommandPalette {
         self.mark = self.mark(count).saturating_add_signed(lines).min(count.saturating_sub(1));
     }
 
-    /// Takes text that was typed or pasted.
-    pub fn take_text(&mut self, text: &str) {
-        self.typed.extend(text.chars().filter(|letter| !letter.is_control()));
-        self.mark = 0;
-    }
-
-    /// Takes the last letter back.
-    pub fn erase(&mut self) {
-        self.typed.pop();
-        self.mark = 0;
+    /// Takes what was typed or pasted; `false` where a key means nothing to it. Other words find something else to mark.
+    pub fn input(&mut self, typed: Typed) -> bool {
+        let before = self.words.text().len();
+        let taken = self.words.take(typed);
+        if self.words.text().len() != before {
+            self.mark = 0;
+        }
+        taken
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::KeyCode;
+
     use super::*;
     use crate::terminal::{
         capabilities::{Depth, Glyphs},
@@ -137,7 +147,7 @@ mod tests {
 
     fn found(typed: &str) -> Vec<Command> {
         let mut command_palette = CommandPalette::default();
-        command_palette.take_text(typed);
+        command_palette.input(Typed::Paste(typed));
         command_palette.found(commands(KeyContext::Coach, &Keys::default(), LOOK))
     }
 
@@ -183,7 +193,9 @@ mod tests {
         command_palette.move_mark(5, 0);
         assert_eq!(command_palette.mark(0), 0);
         command_palette.move_mark(1, 3);
-        command_palette.take_text("x\n");
-        assert_eq!((command_palette.mark(3), command_palette.typed()), (0, "x"));
+        command_palette.input(Typed::Key(&KeyCode::Left.into()));
+        assert_eq!(command_palette.mark(3), 1, "moving the cursor finds nothing else");
+        command_palette.input(Typed::Paste("x\n"));
+        assert_eq!((command_palette.mark(3), command_palette.words().text()), (0, "x "));
     }
 }

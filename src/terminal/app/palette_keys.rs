@@ -1,6 +1,6 @@
 //! The keys of the command palette.
 
-use crossterm::event::KeyCode::{Backspace, Down, End, Enter, Esc, Home, PageDown, PageUp, Up};
+use crossterm::event::KeyCode::{Down, Enter, Esc, PageDown, PageUp, Up};
 
 use super::bindings::{Action, Condition};
 use crate::terminal::keymap::{
@@ -23,8 +23,6 @@ pub enum PaletteAction {
     Choose,
     /// Moves the mark by lines, down where positive.
     Line(isize),
-    /// Takes the last letter back.
-    Erase,
 }
 
 const fn bind(
@@ -50,9 +48,8 @@ pub const OPEN: Binding<Action, Condition> = bind(
 #[rustfmt::skip]
 pub const PALETTE: &[Binding<Action, Condition>] = &[
     bind(&[key(Enter, A::Choose)], Some(("do it", 1)), "do what is marked"),
-    bind(&[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)),
-        key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN))], Some(("choose", 2)), "mark another command"),
-    bind(&[key(Backspace, A::Erase)], None, "take a letter back"),
+    bind(&[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))],
+        Some(("choose", 2)), "mark another command"),
     bind(&[key(Esc, A::Close)], Some(("close", 1)), "close the list"),
 ];
 

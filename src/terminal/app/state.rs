@@ -121,11 +121,6 @@ impl App {
         self.help
     }
 
-    /// Drawing tells that page's first line when it is scrolled to its end.
-    pub fn set_help_end(&self, line: u16) {
-        self.help_end.set(line);
-    }
-
     /// The command palette, while it is open.
     pub const fn command_palette(&self) -> Option<&CommandPalette> {
         self.command_palette.as_ref()

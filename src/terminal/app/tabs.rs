@@ -9,7 +9,6 @@ impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {
         self.command_palette = None;
         self.help = Some((page, 0));
-        self.help_end.set(u16::MAX);
     }
 
     /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.

@@ -182,7 +182,10 @@ impl Runner {
 
     fn draw(&mut self) -> io::Result<()> {
         self.session.want_mouse(self.app.wants_mouse())?;
-        self.session.draw(|frame| self.app.draw(frame))
+        self.session.draw(|frame| {
+            self.app.resize(frame.area().as_size());
+            self.app.draw(frame);
+        })
     }
 
     fn take(&mut self, news: Event) -> io::Result<Next> {

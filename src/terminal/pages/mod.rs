@@ -10,7 +10,7 @@ pub mod training;
 
 use ratatui::layout::{Position, Rect};
 
-use super::ui::{Ui, geometry::Mapping, message::Message};
+use super::ui::{Ui, geometry::Mapping, input::Typed, message::Message};
 use crate::table::CueBall;
 
 /// What the app asks of every page. What its keys do is typed: each page has actions of its own.
@@ -27,8 +27,8 @@ pub trait Page {
     /// The same, to be changed.
     fn message_mut(&mut self) -> &mut Option<Message>;
 
-    /// Takes text that was typed or pasted; `false` where none is typed.
-    fn take_text(&mut self, _: &str) -> bool {
+    /// Takes what was typed or pasted; `false` where nothing is typed, or the key means something else.
+    fn input(&mut self, _: Typed) -> bool {
         false
     }
 

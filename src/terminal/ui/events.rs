@@ -1,9 +1,6 @@
 //! The panel of the shot's events: what has happened, what comes next and when.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, text::Span};
 
 use crate::{
     simulation::Event,
@@ -32,7 +29,7 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut 
     if shot.is_some() {
         title.push(Span::styled(format!(" {present}/{}", events.len()), ui.theme.faint()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     if shot.is_none() || inner.is_empty() {
         return;
     }

@@ -58,6 +58,11 @@ impl Mapping {
         DVec2::new(place.x + 0.5 * self.extent.x, 0.5 * self.extent.y - place.y) * self.scale()
     }
 
+    /// Whether a place is over the bed.
+    pub fn is_on_bed(&self, place: DVec2) -> bool {
+        (2.0 * place.abs()).cmple(self.extent).all()
+    }
+
     /// The screen cell at a place on the table, or the nearest one on the bed.
     pub fn to_cell(&self, place: DVec2) -> (u16, u16) {
         let at = self.to_cells(place);

@@ -5,6 +5,8 @@ pub mod chart;
 pub mod events;
 pub mod field;
 pub mod geometry;
+pub mod input;
+pub mod list;
 pub mod message;
 pub mod panel;
 pub mod sight;

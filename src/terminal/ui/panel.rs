@@ -1,26 +1,27 @@
-//! What panels have in common: a title on a rule, a frame, and words where there is nothing to show.
+//! What panels have in common: a title on a rule, a frame, paragraphs, and words where there is nothing to show.
 
-use ratatui::{
-    layout::Rect,
-    symbols::border,
-    text::{Line, Span},
-    widgets::Block,
+use ratatui::{layout::Rect, style::Style, symbols::border, text::Line, widgets::Block};
+
+use crate::terminal::{
+    capabilities::Capabilities,
+    ui::{
+        Ui,
+        text::{cut, wrap},
+    },
 };
 
-use crate::terminal::{capabilities::Capabilities, ui::Ui};
-
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.
-pub fn draw_title(title: &Line, area: Rect, ui: &mut Ui) -> Rect {
+pub fn draw_title<'a>(title: impl Into<Line<'a>>, area: Rect, ui: &mut Ui) -> Rect {
     if area.is_empty() {
         return area;
     }
     let rule = ui.caps.pick("─", "-").repeat(usize::from(area.width));
-    ui.buffer.set_stringn(area.x, area.y, rule, usize::from(area.width), ui.theme.rule());
+    ui.buffer.set_string(area.x, area.y, rule, ui.theme.rule());
+    let mut title = title.into();
     if !title.spans.is_empty() {
-        let mut spans = vec![Span::styled(" ", ui.theme.text())];
-        spans.extend(title.spans.iter().cloned());
-        spans.push(Span::styled(" ", ui.theme.text()));
-        ui.buffer.set_line(area.x + 1, area.y, &Line::from(spans), area.width.saturating_sub(1));
+        title.spans.insert(0, " ".into());
+        title.push_span(" ");
+        ui.buffer.set_line(area.x + 1, area.y, &title.style(ui.theme.text()), area.width.saturating_sub(1));
     }
     Rect { y: area.y + 1, height: area.height - 1, ..area }
 }
@@ -40,6 +41,24 @@ const ASCII_FRAME: border::Set = border::Set {
 /// `block` with a frame of characters that the terminal has.
 pub fn frame(block: Block, caps: Capabilities) -> Block {
     if caps.unicode { block } else { block.border_set(ASCII_FRAME) }
+}
+
+/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
+/// so by its end. Gives the first row that is left.
+pub fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) -> u16 {
+    let width = usize::from(area.width);
+    let mut row = area.y;
+    for (text, style) in paragraphs {
+        let room = usize::from(area.bottom() - row);
+        if room == 0 {
+            break;
+        }
+        for line in cut(wrap(text, width), room, width, ui.caps) {
+            ui.buffer.set_stringn(area.x, row, line, width, *style);
+            row += 1;
+        }
+    }
+    row
 }
 
 /// Says in a panel why it is empty: after a blank row, a line a row.

@@ -1,10 +1,6 @@
 //! The shooter's view of the first object ball: how much of it the cue ball covers where they meet.
 
-use ratatui::{
-    layout::Rect,
-    style::Modifier,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, style::Modifier, text::Span};
 
 use crate::{
     coach::Hit,
@@ -36,7 +32,7 @@ pub fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     if let Some(Meeting::Ball(hit)) = meeting.filter(|_| is_low) {
         title.push(Span::styled(format!(" {} %", percent(&hit)), ui.theme.accent()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let Some(Meeting::Ball(hit)) = meeting else {
         return draw_words(&words_without_ball(meeting, ui.theme), inner, ui);
     };

@@ -1,9 +1,6 @@
 //! The panel of the cue ball's spin while a shot plays: a face, and words.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::layout::Rect;
 
 use crate::terminal::{
     shot::spin::Spin,
@@ -18,7 +15,7 @@ const LOW: u16 = 5;
 
 /// Draws the panel. The spot is where a level cue would have had to meet the ball to give it this spin at this speed.
 pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
-    let inner = draw_title(&Line::from(Span::styled("Spin", ui.theme.text())), area, ui);
+    let inner = draw_title("Spin", area, ui);
     let is_low = inner.height <= LOW;
     let face = face_in(if is_low {
         Rect { width: inner.width.saturating_sub(WORDS_WIDTH), ..inner }

@@ -7,26 +7,30 @@ use ratatui::{
 
 use crate::terminal::ui::{
     Ui,
+    input::TextField,
     message::{Message, Tone},
-    text::{cut, wrap},
+    text::{columns, cut, wrap},
 };
 
 /// Most rows that a long sentence on the status line may take, and a question with what was answered wrongly.
 const STATUS_ROWS: u16 = 3;
 const QUESTION_ROWS: u16 = 8;
+/// Columns that a text which is typed has at least; where a question leaves fewer, it has a row of its own.
+const FIELD: u16 = 20;
 
 /// Draws a sentence into the row `area`; one that is longer takes some rows above it as well.
 /// Gives the first of them.
 pub fn draw_status(message: &Message, area: Rect, ui: &mut Ui) -> u16 {
-    draw_rows(message, STATUS_ROWS, area, ui)
+    draw_rows(message, None, STATUS_ROWS, area, ui)
 }
 
-/// Draws a question like a sentence; its end, which is answered, is to be seen however long it is.
-pub fn draw_question(question: &Message, area: Rect, ui: &mut Ui) -> u16 {
-    draw_rows(question, QUESTION_ROWS, area, ui)
+/// Draws a question like a sentence, and behind it what is typed; its end, which is answered, is to be seen however long it
+/// is.
+pub fn draw_question(question: &Message, typed: Option<&TextField>, area: Rect, ui: &mut Ui) -> u16 {
+    draw_rows(question, typed, QUESTION_ROWS, area, ui)
 }
 
-fn draw_rows(message: &Message, most: u16, area: Rect, ui: &mut Ui) -> u16 {
+fn draw_rows(message: &Message, typed: Option<&TextField>, most: u16, area: Rect, ui: &mut Ui) -> u16 {
     let style = match message.tone {
         Tone::Plain => ui.theme.text(),
         Tone::Good => ui.theme.good(),
@@ -34,13 +38,21 @@ fn draw_rows(message: &Message, most: u16, area: Rect, ui: &mut Ui) -> u16 {
     };
     let width = area.width.saturating_sub(2);
     let most = most.min(area.bottom());
-    let lines = cut(wrap(&message.text, usize::from(width)), usize::from(most), usize::from(width), ui.caps);
+    let mut lines = cut(wrap(&message.text, usize::from(width)), usize::from(most), usize::from(width), ui.caps);
+    let end = lines.last().map_or(0, |last| columns(last) as u16 + 1);
+    let start = if end + FIELD <= width { end } else { 0 };
+    if typed.is_some() && start == 0 {
+        lines.push(String::new());
+    }
     let rows = lines.len() as u16;
     let place = Rect::new(area.x, area.bottom() - rows, area.width, rows);
     Clear.render(place, ui.buffer);
     ui.buffer.set_style(place, ui.theme.text());
     for (line, row) in lines.iter().zip(place.y..place.bottom()) {
         ui.buffer.set_stringn(place.x + 1, row, line, usize::from(width), style);
+    }
+    if let Some(typed) = typed {
+        typed.draw(Rect::new(place.x + 1 + start, area.bottom() - 1, width - start, 1), ui);
     }
     place.y
 }

@@ -1,8 +1,47 @@
-//! Text in columns: wrapped, cut, or set to the right.
+//! Text in columns of the terminal: measured, wrapped, cut, or set to the right.
+//!
+//! A column is not a character: Hangul and emoji take two, a combining mark none. What belongs together is never taken
+//! apart.
 
-use ratatui::{buffer::Buffer, style::Style, text::Span};
+use ratatui::{
+    buffer::{Buffer, CellWidth},
+    style::Style,
+};
+use unicode_segmentation::UnicodeSegmentation;
 
 use crate::terminal::capabilities::Capabilities;
+
+/// Columns that drawing `text` takes.
+pub fn columns(text: &str) -> usize {
+    text.graphemes(true).map(grapheme_columns).sum()
+}
+
+/// Columns of one character with all that belongs to it; control characters are not drawn.
+pub fn grapheme_columns(grapheme: &str) -> usize {
+    if grapheme.contains(char::is_control) { 0 } else { usize::from(grapheme.cell_width()) }
+}
+
+/// As much of the beginning of `text` as fits into `room` columns.
+pub fn beginning(text: &str, room: usize) -> &str {
+    let mut taken = 0;
+    let mut fits = |grapheme: &str| {
+        taken += grapheme_columns(grapheme);
+        taken <= room
+    };
+    let end = text.grapheme_indices(true).find(|(_, grapheme)| !fits(grapheme));
+    &text[..end.map_or(text.len(), |(end, _)| end)]
+}
+
+/// As much of the end of `text` as fits into `room` columns.
+pub fn ending(text: &str, room: usize) -> &str {
+    let mut taken = 0;
+    let mut fits = |grapheme: &str| {
+        taken += grapheme_columns(grapheme);
+        taken <= room
+    };
+    let last_hidden = text.grapheme_indices(true).rev().find(|(_, grapheme)| !fits(grapheme));
+    &text[last_hidden.map_or(0, |(start, grapheme)| start + grapheme.len())..]
+}
 
 /// The first `rows` lines; the last of them says by its end if there are more.
 pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities) -> Vec<String> {
@@ -10,57 +49,73 @@ pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities
         return lines;
     }
     lines.truncate(rows);
-    let more = caps.pick("…", "...");
+    let more = beginning(caps.pick("…", "..."), width);
     if let Some(last) = lines.last_mut() {
-        let room = width.saturating_sub(more.chars().count());
-        *last = last.chars().take(room).collect::<String>().trim_end().to_owned() + more;
+        *last = beginning(last, width.saturating_sub(columns(more))).trim_end().to_owned() + more;
     }
     lines
 }
 
-/// The words of `text` in lines of at most `width` characters; a longer word begins a line and is broken.
+/// The words of `text` in one line of at most `room` columns, which says by its end if there are more.
+pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
+    cut(wrap(text, room), 1, room, caps).swap_remove(0)
+}
+
+/// The words of `text` in lines of at most `width` columns; a longer word begins a line and is broken. A character that is
+/// wider than that stands alone.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
+    let mut taken = 0;
     for word in text.split_whitespace() {
+        let wide = columns(word);
         let last = lines.len() - 1;
-        let line = &mut lines[last];
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() <= width {
-            line.push(' ');
-            line.push_str(word);
-            continue;
+        if lines[last].is_empty() || taken + 1 + wide <= width {
+            if !lines[last].is_empty() {
+                lines[last].push(' ');
+                taken += 1;
+            }
+        } else {
+            lines.push(String::new());
+            taken = 0;
         }
-        let letters: Vec<char> = word.chars().collect();
-        let mut pieces = letters.chunks(width.max(1)).map(String::from_iter);
-        if line.is_empty() {
-            line.extend(pieces.next());
+        for grapheme in word.graphemes(true) {
+            let wide = grapheme_columns(grapheme);
+            if taken + wide > width && taken > 0 {
+                lines.push(String::new());
+                taken = 0;
+            }
+            let last = lines.len() - 1;
+            lines[last].push_str(grapheme);
+            taken += wide;
         }
-        lines.extend(pieces);
     }
     lines
 }
 
 /// The end of `text`, as much as fits into `room` columns: the ends of names differ where their beginnings do not.
 pub fn end_of(text: &str, room: usize, caps: Capabilities) -> String {
-    let count = text.chars().count();
-    if count <= room {
+    if columns(text) <= room {
         return text.to_owned();
     }
-    let more = caps.pick("…", "...");
-    let kept = room.saturating_sub(more.chars().count());
-    format!("{more}{}", text.chars().skip(count - kept).collect::<String>()).chars().take(room).collect()
+    let more = beginning(caps.pick("…", "..."), room);
+    format!("{more}{}", ending(text, room - columns(more)))
 }
 
 /// Writes `text` so that it ends before column `end`, but never left of `start`.
 pub fn write_right(buffer: &mut Buffer, start: u16, end: u16, row: u16, text: &str, style: Style) {
-    let width = Span::raw(text).width() as u16;
-    let x = end.saturating_sub(width).max(start);
+    let x = end.saturating_sub(columns(text) as u16).max(start);
     buffer.set_stringn(x, row, text, usize::from(end.saturating_sub(x)), style);
 }
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
     use crate::terminal::capabilities::{Depth, Glyphs};
+
+    const UNICODE: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+    const ASCII: Capabilities = Capabilities { unicode: false, ..UNICODE };
 
     #[test]
     fn long_sentences_are_broken_between_words() {
@@ -71,10 +126,45 @@ mod tests {
 
     #[test]
     fn what_is_cut_says_so() {
-        let unicode = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
         let lines = wrap("one two three four", 7);
-        assert_eq!(cut(lines.clone(), 2, 7, unicode), ["one two", "three\u{2026}"]);
-        assert_eq!(cut(lines.clone(), 1, 7, Capabilities { unicode: false, ..unicode }), ["one..."]);
-        assert_eq!(cut(lines.clone(), 3, 7, unicode), lines);
+        assert_eq!(cut(lines.clone(), 2, 7, UNICODE), ["one two", "three\u{2026}"]);
+        assert_eq!(cut(lines.clone(), 1, 7, ASCII), ["one..."]);
+        assert_eq!(cut(lines.clone(), 3, 7, UNICODE), lines);
+        assert_eq!(shorten("one two three four", 7, ASCII), "one...");
+    }
+
+    #[test]
+    fn hangul_takes_two_columns_an_emoji_too_and_a_combining_mark_none() {
+        let family = "\u{1f468}\u{200d}\u{1f469}\u{200d}\u{1f467}";
+        for (text, wide) in [("당구", 4), ("a\u{301}b", 2), (family, 2), ("\u{1f3b1}", 2), ("", 0), ("tab\u{7}", 3)] {
+            assert_eq!(columns(text), wide, "{text}");
+        }
+        assert_eq!(wrap("당구 연습 쿠션", 9), ["당구 연습", "쿠션"]);
+        assert_eq!(wrap("당구연습", 5), ["당구", "연습"], "half of a syllable cannot be drawn");
+        assert_eq!(cut(wrap("당구 연습 쿠션", 9), 1, 9, UNICODE), ["당구 연…"]);
+        assert_eq!(end_of("runs/당구연습", 6, UNICODE), "…연습");
+        assert_eq!(end_of("당구연습", 8, UNICODE), "당구연습");
+        assert_eq!(end_of("runs", 2, ASCII), "..");
+        assert_eq!(beginning("e\u{301}e\u{301}", 1), "e\u{301}", "a letter keeps its accent");
+        assert_eq!(wrap(&family.repeat(2), 3), [family, family]);
+    }
+
+    proptest! {
+        #[test]
+        fn no_line_is_wider_than_asked_and_nothing_is_lost_but_blanks(
+            text in "([a-z ]|[가-힣]|[\u{1f3b1}\u{301}\u{200d}\u{fe0f}\u{ff9e}]|\\PC){0,60}", width in 2..30_usize,
+        ) {
+            let lines = wrap(&text, width);
+            // A few scripts have characters that are wider than two columns, which cannot be divided.
+            let widest = text.graphemes(true).map(grapheme_columns).max().unwrap_or(0).max(width);
+            for line in &lines {
+                prop_assert!(columns(line) <= widest, "{line:?} is {} wide", columns(line));
+            }
+            let letters = |text: &str| text.split_whitespace().collect::<String>();
+            prop_assert_eq!(letters(&lines.concat()), letters(&text));
+            prop_assert!(columns(&end_of(&text, width, UNICODE)) <= width);
+            prop_assert!(columns(beginning(&text, width)) <= width && columns(ending(&text, width)) <= width);
+            prop_assert!(columns(&shorten(&text, width, UNICODE)) <= widest);
+        }
     }
 }

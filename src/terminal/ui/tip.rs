@@ -1,10 +1,7 @@
 //! The cue ball's face: where the tip meets it and the circle beyond which it slips off, or how the ball spins.
 
 use glam::DVec2;
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::layout::Rect;
 
 use crate::{
     physics::CueInputs,
@@ -27,8 +24,7 @@ const FACE_WEIGHT: u8 = 3;
 
 /// Draws the panel: where the tip meets the ball in the stroke `cue`, if there is one.
 pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, ui: &mut Ui) {
-    let title = Line::from(Span::styled("Tip", ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title("Tip", area, ui);
     // In radii, right and up as the shooter sees it: positive `a` is on the left.
     let tip = cue.map(|cue| DVec2::new(-cue.a, cue.b));
     draw_face(tip, Some(table.miscue_limit.sqrt()), face_in(inner), ui);

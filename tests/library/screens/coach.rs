@@ -14,7 +14,7 @@ use carom::{
     terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
 };
 use proptest::prelude::*;
-use ratatui::style::Color;
+use ratatui::{layout::Size, style::Color};
 
 #[test]
 fn the_start() {
@@ -221,15 +221,15 @@ fn too_small_a_terminal_names_both_sizes() {
 
 #[test]
 fn keys_do_nothing_that_nobody_can_see() {
-    let player = Player::new();
-    player.picture(60, 20);
+    let mut player = Player::new();
+    player.app.resize(Size::new(60, 20));
     let before = *player.app.layout();
     let mut player = player.press("Right Enter d F5 :");
     assert_eq!((*player.app.layout(), player.app.screen()), (before, PageId::Coach));
     assert!(player.asked.is_none());
     player.event(&key("q"));
     assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
-    player.picture(80, 24);
+    player.app.resize(Size::new(80, 24));
     assert_ne!(*player.press("Right").app.layout(), before);
 }
 

@@ -3,6 +3,7 @@
 mod advice;
 mod coach;
 mod drills;
+mod edges;
 mod film;
 mod finder;
 mod keys;

@@ -11,10 +11,11 @@ use carom::{
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
 use proptest::prelude::*;
-use ratatui::layout::Rect;
+use ratatui::layout::{Rect, Size};
 
 const PRESS: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
 const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
+const SIZE: Size = Size::new(120, 40);
 const RELEASE: MouseEventKind = MouseEventKind::Up(MouseButton::Left);
 
 /// The table of the coach's screen at 120×40.
@@ -34,8 +35,8 @@ impl Player {
 }
 
 /// At 120×40, with what the program asks for taken.
-fn at_the_table(player: Player) -> Player {
-    player.picture(120, 40);
+fn at_the_table(mut player: Player) -> Player {
+    player.app.resize(SIZE);
     player
 }
 
@@ -134,14 +135,14 @@ fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
     for width in [80, 120, 200] {
         let mut player = Player::new();
         for screen in [PageId::Settings, PageId::Drills, PageId::Training, PageId::Coach] {
-            player.picture(width, 40);
+            player.app.resize(Size::new(width, 40));
             let row = player.text(width, 40).lines().next().unwrap().to_owned();
             // The text has quotes around its lines.
             let column = row.find(screen.title()).unwrap() as u16 - 1;
             player = player.point(PRESS, (column, 0));
             assert_eq!(player.app.screen(), screen, "{width}");
         }
-        player.picture(width, 40);
+        player.app.resize(Size::new(width, 40));
         assert_eq!(player.point(PRESS, (width - 2, 0)).app.screen(), PageId::Coach);
     }
 }
@@ -149,6 +150,7 @@ fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
 #[test]
 fn the_mark_of_the_library_follows_wheel_and_click() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]);
+    player.app.resize(SIZE);
     let text = player.text(120, 40);
     let marked = |app: &App| app.drills().catalogue.mark();
     assert_eq!(marked(&player.app), 0);
@@ -179,6 +181,7 @@ fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
 #[test]
 fn the_mark_of_the_runs_follows_wheel_and_click() {
     let mut player = Player::listing(TRUE_COLOUR);
+    player.app.resize(SIZE);
     let text = player.text(120, 40);
     let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
     let (first, second) = (row(NAME), row(OTHER));

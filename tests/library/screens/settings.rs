@@ -143,7 +143,7 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     assert_eq!((player.app.coach().query.plan, player.app.step_mm()), (false, 50.0));
     // What is in force is kept as it is.
     let player = player.press("Down Down Enter");
-    player.says("plan = _ Enter alone keeps false");
+    player.says("plan (Enter alone keeps false) = ");
     let player = player.press("Enter");
     assert!(player.settings_text().contains("plan = false\n"), "{}", player.settings_text());
     assert!(!player.settings_text().contains("skill"));

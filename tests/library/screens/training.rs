@@ -23,6 +23,7 @@ use carom::{
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
+use ratatui::layout::Size;
 
 fn failure(process: Option<u32>, sentence: &str) -> Failure {
     Failure { process, sentence: sentence.to_owned() }
@@ -111,10 +112,10 @@ fn a_run_that_trains() {
         assert!(large.contains(part), "{part}\n{large}");
     }
     player.press("?").shows(&["enlarge", "more lines below"]);
-    let scrolled = Player::watching(TRUE_COLOUR).press("?");
+    let mut scrolled = Player::watching(TRUE_COLOUR);
+    scrolled.app.resize(Size::new(80, 24));
+    let scrolled = scrolled.press("?");
     let keys = |key: &str, times| vec![key; times].join(" ");
-    // Each time it is drawn it tells where its end is.
-    scrolled.text(80, 24);
     let scrolled = scrolled.press(&keys("Down", 60));
     scrolled.shows(&["q Ctrl-c              quit", "Ctrl-z                back to the shell; fg continues"]);
     let end = scrolled.text(80, 24);

@@ -96,14 +96,8 @@ fn notes(place: KeyContext) -> Vec<String> {
 
 /// Draws the page `what` from its line `top` on; gives the first row of what stands below it.
 pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -> u16 {
-    let area = parts.screen;
-    let page = Rect::new(area.x + 2, area.y + 2, area.width.saturating_sub(4), area.height.saturating_sub(4));
-    let lines = match what {
-        Overlay::Help => lines(app, usize::from(page.width)),
-        Overlay::Messages => messages(app, usize::from(page.width)),
-    };
+    let (page, lines) = (page(parts.screen), lines(app, what, parts.screen));
     let last = lines.len().saturating_sub(usize::from(page.height));
-    app.set_help_end(last as u16);
     let first = usize::from(top).min(last);
     for (line, row) in lines[first..].iter().zip(page.y..page.bottom()) {
         ui.buffer.set_line(page.x, row, line, page.width);
@@ -114,6 +108,24 @@ pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -
         ui.buffer.set_string(page.x, page.bottom(), more, ui.theme.faint());
     }
     page.bottom()
+}
+
+/// The first line of the page when it is scrolled to its end.
+pub fn end(app: &App, what: Overlay, area: Rect) -> u16 {
+    lines(app, what, area).len().saturating_sub(usize::from(page(area).height)) as u16
+}
+
+/// The lines' part of the screen.
+const fn page(area: Rect) -> Rect {
+    Rect::new(area.x + 2, area.y + 2, area.width.saturating_sub(4), area.height.saturating_sub(4))
+}
+
+fn lines(app: &App, what: Overlay, area: Rect) -> Vec<Line<'static>> {
+    let width = usize::from(page(area).width);
+    match what {
+        Overlay::Help => help(app, width),
+        Overlay::Messages => messages(app, width),
+    }
 }
 
 /// What was refused or has failed so far, the newest first.
@@ -138,7 +150,7 @@ fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
     lines
 }
 
-fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
+fn help(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps());
     let (mut lines, all) = (Vec::new(), bindings(app.place()));
     for section in Section::ALL {

@@ -30,7 +30,8 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
         .filter(|binding| app.disabled_reason(binding.when).is_none())
         .filter_map(|binding| Some((binding, hint(app, binding)?)))
         .collect();
-    let room = usize::from(area.width.saturating_sub(1));
+    // A blank at either end.
+    let room = usize::from(area.width.saturating_sub(2));
     let width = |hints: &[(&Bound, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
     // The keys of the program itself stay to the last, but for the command palette's and the way from the coach to another
     // screen; the others go from the end.

@@ -13,7 +13,10 @@ use ratatui::{buffer::Buffer, layout::Rect};
 use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
 use crate::terminal::{app::App, pages::PageArea, ui::Ui};
 
-pub use self::target::{Pointed, pointed_at};
+pub use self::{
+    help::end as help_end,
+    target::{Pointed, pointed_at},
+};
 
 /// Columns and rows below which there is no room for the table and its panels.
 pub const SMALLEST: (u16, u16) = (80, 24);

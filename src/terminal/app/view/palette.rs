@@ -3,7 +3,7 @@
 use ratatui::{
     layout::Rect,
     style::Modifier,
-    text::{Line, Span},
+    text::Span,
     widgets::{Block, Clear, Widget},
 };
 
@@ -14,10 +14,11 @@ use crate::terminal::{
     },
     ui::{
         Ui,
+        list::in_view,
         message::Message,
         panel::frame,
         status_line::draw_status,
-        text::{cut, wrap, write_right},
+        text::{shorten, write_right},
     },
 };
 
@@ -31,8 +32,9 @@ const FRAME: u16 = 3;
 const BELOW: u16 = 3;
 /// Columns of the keys.
 const KEYS: u16 = 16;
-/// Columns of the row of what is typed that are the prompt's and the counts'.
-const COUNTS: usize = 16;
+/// Columns of the counts beside what is typed.
+const COUNTS: u16 = 13;
+
 /// Draws the palette over the screen in `area`, which has the smallest size at least; gives the first row of what stands
 /// below it.
 pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui) -> u16 {
@@ -43,29 +45,24 @@ pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui
     let height = (count as u16 + FRAME).min(HEIGHT).min(area.height - BELOW - 1);
     let width = WIDTH.min(area.width - 2 * BESIDE);
     let place = Rect::new(area.x + (area.width - width) / 2, area.y + 1, width, height);
-    Clear.render(place, ui.buffer);
-    ui.buffer.set_style(place, ui.theme.text());
+    // Scraps of what lies below, cut off in the middle, say nothing.
+    let below = Rect { y: area.y + 1, height: area.height - 2, ..area };
+    Clear.render(below, ui.buffer);
+    ui.buffer.set_style(below, ui.theme.text());
     let title = Span::styled(" What can be done here ", ui.theme.text());
     let frame = frame(Block::bordered(), ui.caps).border_style(ui.theme.faint()).title(title);
     let inner = frame.inner(place);
     frame.render(place, ui.buffer);
-    // Of what is typed the end is to be seen.
-    let typed = command_palette.typed();
-    let hidden = typed.chars().count().saturating_sub(usize::from(inner.width) - COUNTS);
-    let prompt = Line::from(vec![
-        Span::styled(" : ", ui.theme.accent()),
-        Span::styled(typed.chars().skip(hidden).collect::<String>(), ui.theme.text()),
-        Span::styled(" ", ui.theme.text().add_modifier(Modifier::REVERSED)),
-    ]);
-    ui.buffer.set_line(inner.x, inner.y, &prompt, inner.width);
+    ui.buffer.set_string(inner.x, inner.y, " : ", ui.theme.accent());
+    let prompt = inner.x + 3;
+    command_palette.words().draw(Rect { x: prompt, width: inner.right() - prompt - COUNTS, height: 1, ..inner }, ui);
     let of = format!("{} of {count} ", found.len());
     write_right(ui.buffer, inner.x, inner.right(), inner.y, &of, ui.theme.faint());
 
     let rows = Rect { y: inner.y + 1, height: inner.height - 1, ..inner };
-    let (mark, most) = (command_palette.mark(found.len()), usize::from(rows.height));
-    let first = mark.saturating_sub(most / 2).min(found.len().saturating_sub(most));
-    for ((n, command), y) in found.iter().enumerate().skip(first).zip(rows.y..rows.bottom()) {
-        draw_command(app, command, n == mark, Rect { y, height: 1, ..rows }, ui);
+    let mark = command_palette.mark(found.len());
+    for (n, y) in in_view(mark, found.len(), usize::from(rows.height)).zip(rows.y..) {
+        draw_command(app, &found[n], n == mark, Rect { y, height: 1, ..rows }, ui);
     }
     let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);
     draw_status(&standing(app, found.get(mark)), status, ui)
@@ -81,13 +78,7 @@ fn draw_command(app: &App, command: &Command, is_marked: bool, area: Rect, ui: &
     let text = sentence(command, reason);
     let room = usize::from(area.width.saturating_sub(KEYS + 4));
     ui.buffer.set_stringn(area.x + 2, area.y, &command.keys, usize::from(KEYS), keys);
-    ui.buffer.set_stringn(
-        area.x + KEYS + 3,
-        area.y,
-        cut(wrap(&text, room), 1, room, ui.caps).swap_remove(0),
-        room,
-        words,
-    );
+    ui.buffer.set_string(area.x + KEYS + 3, area.y, shorten(&text, room, ui.caps), words);
     if is_marked {
         ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
         ui.buffer.set_style(area, words.add_modifier(Modifier::REVERSED));

@@ -9,7 +9,8 @@ use crate::terminal::{
     ui::Ui,
 };
 
-/// Columns of the screen from which on neighbours do not share a blank, and from which on each tab has its key.
+/// Columns of the screen from which on neighbours do not share a blank, so that the open tab has its own on either side, and
+/// from which on each tab has its key.
 const LOOSE: u16 = 100;
 const WIDE: u16 = 120;
 /// The program's name, where there are no tabs.
@@ -44,7 +45,8 @@ pub fn draw_tabs(app: &App, area: Rect, ui: &mut Ui) {
     for (screen, place, key) in tabs {
         let is_open = screen == app.screen();
         let (faint, text) = if is_open { (open, open) } else { (ui.theme.faint(), ui.theme.text()) };
-        if is_open {
+        // A blank that is the neighbour's too stays as it is: the neighbour's name would touch the open tab.
+        if is_open && area.width >= LOOSE {
             ui.buffer.set_string(place.x, place.y, " ".repeat(usize::from(place.width)), text);
         }
         let mut x = place.x + 1;

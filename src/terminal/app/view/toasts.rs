@@ -11,7 +11,7 @@ use crate::terminal::{
     ui::{
         Ui,
         panel::frame,
-        text::{cut, wrap},
+        text::{columns, cut, wrap},
     },
 };
 
@@ -29,7 +29,7 @@ pub fn draw_toasts(app: &App, area: Rect, ui: &mut Ui) {
         let all = wrap(&toast.text, room);
         let is_cut = all.len() > LINES;
         let lines = cut(all, LINES, room, ui.caps);
-        let width = lines.iter().map(|line| line.chars().count()).max().unwrap_or(0) as u16 + 4;
+        let width = lines.iter().map(|line| columns(line)).max().unwrap_or(0) as u16 + 4;
         let height = lines.len() as u16 + 2;
         if bottom < area.y + area.height / 2 + height && bottom < area.bottom() || bottom < area.y + height {
             break;

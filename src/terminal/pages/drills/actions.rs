@@ -28,7 +28,7 @@ impl DrillsPage {
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
             Action::All => self.catalogue.show_all(),
-            Action::Search => self.question = Some(Question::Search(String::new())),
+            Action::Search => self.question = Some(Question::search()),
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
             Action::Record => return Some(self.open_records()),
@@ -37,7 +37,7 @@ impl DrillsPage {
                 return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::KeepSkill(skill)]));
             }
             Action::Share => return self.share(),
-            Action::Add => self.question = Some(Question::Code(String::new())),
+            Action::Add => self.question = Some(Question::code()),
             Action::Remove => {
                 self.question = self.catalogue.marked().map(|exercise| Question::Remove(exercise.name.clone()));
             }
@@ -48,12 +48,6 @@ impl DrillsPage {
             Action::ToCoach => self.send_to_coach(),
             Action::Yes => return self.yes(),
             Action::No => self.no(),
-            Action::Erase => {
-                if let Some(typed) = self.question.as_mut().and_then(Question::typed_mut) {
-                    typed.pop();
-                }
-                self.search();
-            }
             other => return self.update_turn(other),
         }
         None
@@ -189,8 +183,8 @@ impl DrillsPage {
         let question = self.question.take()?;
         let answer = match &question {
             Question::Search(_) => return None,
-            Question::Code(typed) => self.decoded(typed),
-            Question::Name(typed, position) => self.named(typed, position),
+            Question::Code(typed) => self.decoded(typed.text()),
+            Question::Name(typed, position) => self.named(typed.text(), position),
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),
             Question::Leave(..) => {

@@ -1,8 +1,6 @@
 //! The keys of the drill screens, a table for each page and for what is typed or answered there.
 
-use crossterm::event::KeyCode::{
-    BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
-};
+use crossterm::event::KeyCode::{BackTab, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up};
 
 use crate::terminal::keymap::{
     Binding,
@@ -96,8 +94,6 @@ pub enum DrillAction {
     Yes,
     /// Says no.
     No,
-    /// Takes the last character back.
-    Erase,
 }
 
 /// When a binding of the drill screens may be used.
@@ -232,7 +228,6 @@ pub const LIBRARY: &[Binding<A, W>] = &[
 pub const SEARCH: &[Binding<A, W>] = &[
     bind(Library, W::Here, &[key(Enter, A::Yes)], Some(("choose from these", 1)), "choose from what is found"),
     bind(Library, W::Here, &[key(Esc, A::No)], Some(("all", 1)), "list everything again"),
-    bind(Library, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
     bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise"),
 ];
 
@@ -314,7 +309,6 @@ pub const QUESTION: &[Binding<A, W>] = &[
 pub const TEXT: &[Binding<A, W>] = &[
     bind(Program, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
     bind(Program, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
-    bind(Program, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
 ];
 
 /// The words of `action` by itself, where its binding does several things.

@@ -209,7 +209,7 @@ impl DrillsPage {
         match position.table() {
             Ok(known) if known == table => {
                 self.catalogue.show_own("");
-                self.question = Some(Question::Name(String::new(), Box::new(position)));
+                self.question = Some(Question::name(position));
             }
             _ => {
                 let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
@@ -259,7 +259,7 @@ impl DrillsPage {
     /// Lists what has the words that are being typed.
     fn search(&mut self) {
         if let Some(Question::Search(typed)) = &self.question {
-            self.catalogue.find_text(typed.trim());
+            self.catalogue.find_text(typed.text().trim());
         }
     }
 

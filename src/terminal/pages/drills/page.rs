@@ -2,12 +2,12 @@
 
 use ratatui::layout::Position;
 
-use super::{DrillsPage, Screen, Turn, view};
+use super::{DrillsPage, Question, Screen, Turn, view};
 use crate::{
     table::CueBall,
     terminal::{
         pages::{Page, PageArea, Target},
-        ui::{Ui, message::Message},
+        ui::{Ui, input::Typed, message::Message},
     },
 };
 
@@ -28,8 +28,8 @@ impl Page for DrillsPage {
         &mut self.message
     }
 
-    fn take_text(&mut self, text: &str) -> bool {
-        let taken = self.question.as_mut().is_some_and(|question| question.type_in(text));
+    fn input(&mut self, typed: Typed) -> bool {
+        let taken = self.question.as_mut().and_then(Question::field_mut).is_some_and(|field| field.take(typed));
         if taken {
             self.message = None;
             self.search();

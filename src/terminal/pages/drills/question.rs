@@ -1,6 +1,6 @@
 //! What the drill screens ask before they do something.
 
-use crate::{drills::Exercise, learning::policy::kept::is_name};
+use crate::{drills::Exercise, learning::policy::kept::is_name, terminal::ui::input::TextField};
 
 /// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
 const LONGEST: usize = 4000;
@@ -11,11 +11,11 @@ const LONGEST_NAME: usize = 40;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
     /// Words to look for.
-    Search(String),
+    Search(TextField),
     /// A share code.
-    Code(String),
+    Code(TextField),
     /// What the position is to be called, and tags.
-    Name(String, Box<Exercise>),
+    Name(TextField, Box<Exercise>),
     /// Whether the position of the same name may be replaced.
     Replace(Box<Exercise>),
     /// Whether the position of this name may be removed.
@@ -25,12 +25,27 @@ pub enum Question {
 }
 
 impl Question {
-    /// The question as it stands on the status line.
+    /// Asks for words to look for.
+    pub(super) const fn search() -> Self {
+        Self::Search(TextField::new(LONGEST))
+    }
+
+    /// Asks for a share code.
+    pub(super) const fn code() -> Self {
+        Self::Code(TextField::new(LONGEST))
+    }
+
+    /// Asks what a position is to be called.
+    pub(super) fn name(position: Exercise) -> Self {
+        Self::Name(TextField::new(LONGEST), Box::new(position))
+    }
+
+    /// The question as it stands on the status line, without what is typed.
     pub fn text(&self) -> String {
         match self {
-            Self::Search(typed) => format!("find: {typed}_"),
-            Self::Code(typed) => format!("paste or type the code of a position: {typed}_"),
-            Self::Name(typed, _) => format!("save the balls as (a title, and #tags if you like): {typed}_"),
+            Self::Search(_) => "find: ".to_owned(),
+            Self::Code(_) => "paste or type the code of a position: ".to_owned(),
+            Self::Name(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it? y/n", exercise.name)
             }
@@ -42,22 +57,19 @@ impl Question {
     }
 
     /// The text that is typed, where some is.
-    pub(super) fn typed_mut(&mut self) -> Option<&mut String> {
+    pub fn field(&self) -> Option<&TextField> {
         match self {
             Self::Search(typed) | Self::Code(typed) | Self::Name(typed, _) => Some(typed),
             _ => None,
         }
     }
 
-    /// Takes what was typed or pasted; `false` where nothing is.
-    pub(super) fn type_in(&mut self, text: &str) -> bool {
-        let Some(typed) = self.typed_mut() else { return false };
-        for letter in text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }) {
-            if typed.len() + letter.len_utf8() <= LONGEST {
-                typed.push(letter);
-            }
+    /// The same, to be changed.
+    pub(super) fn field_mut(&mut self) -> Option<&mut TextField> {
+        match self {
+            Self::Search(typed) | Self::Code(typed) | Self::Name(typed, _) => Some(typed),
+            _ => None,
         }
-        true
     }
 }
 
@@ -99,14 +111,5 @@ mod tests {
         for bad in ["", " #tag ", "(?)", "---"] {
             assert!(named(bad).is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn pasted_lines_are_one_line_and_nothing_is_typed_into_a_yes_or_no() {
-        let mut code = Question::Code(String::new());
-        assert!(code.type_in("carom:abc\r\ndef") && code == Question::Code("carom:abc  def".to_owned()));
-        code.type_in(&"x".repeat(9000));
-        assert_eq!(code.typed_mut().unwrap().len(), LONGEST);
-        assert!(!Question::Remove("mine".to_owned()).type_in("y"));
     }
 }

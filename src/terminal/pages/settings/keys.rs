@@ -36,8 +36,6 @@ pub enum SettingsAction {
     Yes,
     /// Leaves all as it is.
     No,
-    /// Takes the last character back.
-    Erase,
 }
 
 /// When a binding of the settings may be used.
@@ -123,7 +121,6 @@ pub const KEYS: &[Binding<A, W>] = &[
 pub const TYPING: &[Binding<A, W>] = &[
     bind(Settings, W::Here, &[key(Enter, A::Yes)], Some(("take it", 1)), "take what is typed"),
     bind(Settings, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave all as it is"),
-    bind(Settings, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
 ];
 
 /// A key that is to be pressed.

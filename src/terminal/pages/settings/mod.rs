@@ -20,7 +20,7 @@ use crate::terminal::{
         keys::{SettingsAction as Action, SettingsCondition, SettingsContext},
         own_keys::OwnKeys,
     },
-    ui::message::Message,
+    ui::{input::TextField, message::Message},
 };
 
 /// Longest value that is typed, bytes: the path of a table is one.
@@ -39,7 +39,7 @@ pub enum Screen {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
     /// A value, as far as it is typed.
-    Value(String),
+    Value(TextField),
     /// A key that is to be pressed.
     Key,
     /// Whether this key may give up what it does otherwise.
@@ -168,7 +168,7 @@ impl SettingsPage {
             Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
             Action::KeyContext(pages) => self.keys.choose_place(pages),
             Action::Value(step) => return self.step(step),
-            Action::Type => self.input = Some(Input::Value(String::new())),
+            Action::Type => self.input = Some(Input::Value(TextField::new(LONGEST))),
             Action::Press => self.input = Some(Input::Key),
             Action::Default if self.page == Screen::Keys => {
                 self.before.clone_from(&self.settings);
@@ -181,11 +181,6 @@ impl SettingsPage {
                 return self.take(&default, Change::Default(entry.key, default.clone()));
             }
             Action::No => self.input = None,
-            Action::Erase => {
-                if let Some(Input::Value(typed)) = &mut self.input {
-                    typed.pop();
-                }
-            }
             Action::Yes => return self.yes(),
         }
         None
@@ -196,12 +191,12 @@ impl SettingsPage {
             Input::Taken(pressed) => Some(self.give(pressed)),
             Input::Key => None,
             // Nothing was typed: what is in force is meant, where the file does not have it already.
-            Input::Value(typed) if typed.trim().is_empty() => {
+            Input::Value(typed) if typed.text().trim().is_empty() => {
                 let entry = self.marked();
                 self.other_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
             }
             Input::Value(typed) => {
-                let effect = self.set(typed.trim());
+                let effect = self.set(typed.text().trim());
                 if effect.is_none() {
                     // What was typed stays, to be mended.
                     self.input = Some(Input::Value(typed));

@@ -2,10 +2,10 @@
 
 use ratatui::layout::Position;
 
-use super::{Input, LONGEST, SettingsPage, view};
+use super::{Input, SettingsPage, view};
 use crate::terminal::{
     pages::{Page, PageArea, Target},
-    ui::{Ui, message::Message},
+    ui::{Ui, input::Typed, message::Message},
 };
 
 impl Page for SettingsPage {
@@ -25,14 +25,12 @@ impl Page for SettingsPage {
         &mut self.message
     }
 
-    fn take_text(&mut self, text: &str) -> bool {
-        let Some(Input::Value(typed)) = &mut self.input else { return false };
-        for letter in text.chars().filter(|letter| !letter.is_control()) {
-            if typed.len() + letter.len_utf8() <= LONGEST {
-                typed.push(letter);
-            }
+    fn input(&mut self, typed: Typed) -> bool {
+        let Some(Input::Value(value)) = &mut self.input else { return false };
+        let taken = value.take(typed);
+        if taken {
+            self.message = None;
         }
-        self.message = None;
-        true
+        taken
     }
 }

@@ -12,7 +12,6 @@ use crate::{
         pages::training::{
             Form, Question, Screen, TrainingPage, Watch,
             keys::{TrainingAction as Action, TrainingCondition as Condition},
-            question::proposed_name,
             watch::Named,
         },
         tasks::training::{Keeping, Launch, NO_POLICY},
@@ -77,10 +76,7 @@ impl TrainingPage {
             Action::Resume => return self.resume(),
             Action::Field(fields) => self.form.move_mark(fields),
             Action::Value(step) => self.form.choose(step, self.list.runs()),
-            Action::Erase => match &mut self.question {
-                Some(question) => question.erase(),
-                None => self.form.erase(),
-            },
+            Action::Erase => self.form.erase(),
             Action::Start => return self.start(),
             Action::Yes => return self.yes(),
             Action::No => self.question = None,
@@ -159,7 +155,7 @@ impl TrainingPage {
             Action::Stop => *question = Some(Question::Stop),
             Action::Abandon => *question = Some(Question::Abandon),
             Action::Use => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
-            Action::Keep => *question = Some(Question::Name(proposed_name(&watch.own.name))),
+            Action::Keep => *question = Some(Question::name(&watch.own.name)),
             Action::Play => replay.toggle(),
             Action::Shot(shots) => replay.step(shots),
             _ => {}
@@ -180,7 +176,7 @@ impl TrainingPage {
             Question::Abandon => Some(Effect::Send(Request::Abandon, folder)),
             Question::Replace(name) => Some(self.keep(name, true)),
             Question::Name(typed) => {
-                let name = typed.trim().to_owned();
+                let name = typed.text().trim().to_owned();
                 if is_name(&name) {
                     return Some(self.keep(name, false));
                 }

@@ -30,7 +30,7 @@ pub enum TrainingAction {
     Field(isize),
     /// Takes the next value of the marked field, or the one before.
     Value(isize),
-    /// Takes the last character back.
+    /// Takes the last digit back.
     Erase,
     /// Starts the new run.
     Start,
@@ -223,7 +223,6 @@ pub const QUESTION: &[Binding<A, W>] = &[
 pub const NAME: &[Binding<A, W>] = &[
     bind(Run, W::Here, &[key(Enter, A::Yes)], Some(("keep", 1)), "keep the weights under this name"),
     bind(Run, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "do not keep them"),
-    bind(Run, W::Here, &[key(Backspace, A::Erase)], None, "take a character back"),
 ];
 
 /// The words of `action` by itself, where its binding does several things.

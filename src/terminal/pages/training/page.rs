@@ -2,10 +2,10 @@
 
 use ratatui::layout::Position;
 
-use super::{Screen, TrainingPage, replay, view};
+use super::{Question, Screen, TrainingPage, replay, view};
 use crate::terminal::{
     pages::{Page, PageArea, Target},
-    ui::{Ui, message::Message},
+    ui::{Ui, input::Typed, message::Message},
 };
 
 impl Page for TrainingPage {
@@ -25,14 +25,13 @@ impl Page for TrainingPage {
         &mut self.message
     }
 
-    fn take_text(&mut self, text: &str) -> bool {
-        let taken = text.chars().fold(false, |taken, letter| {
-            taken
-                | match &mut self.question {
-                    Some(question) => question.typed(letter),
-                    None => self.page() == Screen::Form && self.form.typed(letter),
-                }
-        });
+    fn input(&mut self, typed: Typed) -> bool {
+        let is_form = self.page() == Screen::Form;
+        let taken = match &mut self.question {
+            Some(Question::Name(name)) => name.take(typed),
+            Some(_) => false,
+            None => typed.letters().chars().fold(false, |taken, letter| taken | (is_form && self.form.typed(letter))),
+        };
         if taken {
             self.message = None;
         }

@@ -4,6 +4,7 @@ use crate::{
     learning::policy::kept::{LONGEST_NAME, is_letter},
     terminal::{
         pages::training::{keys::TrainingCondition, watch::Watch},
+        ui::input::TextField,
         words::count,
     },
 };
@@ -16,13 +17,13 @@ pub enum Question {
     /// Whether to abandon the run.
     Abandon,
     /// Under which name the policy is kept, as far as it is typed.
-    Name(String),
+    Name(TextField),
     /// Whether the policy that has this name already may be replaced.
     Replace(String),
 }
 
 impl Question {
-    /// The question about the run that is watched.
+    /// The question about the run that is watched, without what is typed.
     pub fn text(&self, watch: &Watch) -> String {
         let name = &watch.own.name;
         match self {
@@ -33,7 +34,7 @@ impl Question {
                 let best = best.map_or(String::new(), |best| format!(", with a best held-out reward of {best:.3}"));
                 format!("abandon {name}: end it now and delete its folder? {shots} shots are lost{best}. y/n")
             }
-            Self::Name(typed) => format!("keep the weights under the name: {typed}_"),
+            Self::Name(_) => "keep the weights under the name: ".to_owned(),
             Self::Replace(name) => format!("there is a policy called {name} already; replace it? y/n"),
         }
     }
@@ -46,35 +47,25 @@ impl Question {
         }
     }
 
-    /// A letter was typed; `false` where none is taken.
-    pub fn typed(&mut self, letter: char) -> bool {
-        let Self::Name(name) = self else { return false };
-        if !letter.is_control() && name.len() + letter.len_utf8() <= LONGEST_NAME {
-            name.push(letter);
-        }
-        true
+    /// The question under which name the policy of the run called `run` is kept.
+    pub fn name(run: &str) -> Self {
+        Self::Name(TextField::new(LONGEST_NAME).with(&proposed_name(run)))
     }
 
-    /// Takes the last letter back.
-    pub fn erase(&mut self) {
-        if let Self::Name(name) = self {
-            name.pop();
-        }
+    /// The text that is typed, where some is.
+    pub const fn field(&self) -> Option<&TextField> {
+        if let Self::Name(typed) = self { Some(typed) } else { None }
     }
 }
 
 /// A name for the policy of the run called `run`: the last part of that, as far as it may stand in a name.
-pub fn proposed_name(run: &str) -> String {
+fn proposed_name(run: &str) -> String {
     let last = run.rsplit(['/', '\\']).find(|part| !part.is_empty()).unwrap_or_default();
     let letters = last.chars().enumerate().map(|(n, letter)| {
         let is_kept = is_letter(letter) && (n > 0 || letter != '.');
         if is_kept { letter } else { '-' }
     });
-    let mut name: String = letters.collect();
-    while name.len() > LONGEST_NAME {
-        name.pop();
-    }
-    name
+    TextField::new(LONGEST_NAME).with(&letters.collect::<String>()).text().to_owned()
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ use crate::{
                 step::Step,
                 trace::Frame,
             },
-            text::write_right,
+            text::{columns, write_right},
             theme::Theme,
         },
     },
@@ -179,7 +179,7 @@ pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
             (true, false) => "no finite values",
         };
         let row = plot.y + (plot.height - 1) / 2;
-        let x = plot.x + plot.width.saturating_sub(words.chars().count() as u16) / 2;
+        let x = plot.x + plot.width.saturating_sub(columns(words) as u16) / 2;
         ui.buffer.set_stringn(x, row, words, usize::from(plot.right() - x), ui.theme.faint());
     }
 }

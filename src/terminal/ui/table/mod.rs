@@ -22,6 +22,8 @@ use crate::{
     },
 };
 
+pub use self::scene::cue_sign;
+
 /// Dots and rings nearer to a ball than this, in radii, are left out: three colours do not fit a cell.
 const CLEAR_RADII: f64 = 2.2;
 /// The same against the pictures of the balls, where they are enlarged, in halves of their width.
@@ -66,6 +68,25 @@ pub struct TableView<'a> {
     pub theme: &'a Theme,
     /// What the terminal can show.
     pub caps: Capabilities,
+}
+
+impl<'a> TableView<'a> {
+    /// The balls as they lie, with nothing else.
+    pub const fn new<'b: 'a>(table: &'a Table, layout: &'a Layout, ui: &Ui<'b>) -> Self {
+        Self {
+            table,
+            layout,
+            shot: None,
+            time: 0.0,
+            is_moving: true,
+            front: 0,
+            is_lean: false,
+            spots: &[],
+            film: None,
+            theme: ui.theme,
+            caps: ui.caps,
+        }
+    }
 }
 
 /// Draws the table in the upper middle of `area`, as large as fits.

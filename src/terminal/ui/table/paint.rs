@@ -63,7 +63,7 @@ fn in_blocks(scene: &Scene, ui: &mut Ui) {
         if spot.is_ball { ring(&mut canvas, spot.place, spot.color) } else { dot(&mut canvas, spot.place, spot.color) }
     }
     scene.each_dot(|ball, place, age| dot(&mut canvas, place, path_color(theme, ball, age)));
-    scene.each_cue_dot(|place| dot(&mut canvas, place, theme.cue));
+    scene.each_cue_dot(|place, _| dot(&mut canvas, place, theme.cue));
     for ghost in scene.ghosts() {
         ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
     }
@@ -99,6 +99,7 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
         let sign = if age == Age::Trail { trail } else { dots[ball] };
         put(place, sign, path_color(theme, ball, age));
     });
+    scene.each_cue_dot(|place, sign| put(place, sign, theme.cue));
     for ghost in scene.ghosts() {
         put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
     }

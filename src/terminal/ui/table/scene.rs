@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::{
     table::BALLS,
     terminal::{
-        capabilities::Glyphs,
+        capabilities::{Capabilities, Glyphs},
         shot::DOT_SPACING,
         ui::{
             geometry::Mapping,
@@ -120,15 +120,16 @@ impl Scene<'_> {
         contacts.chain(ends.map(|(ball, place)| Ghost { ball, place, age: Age::Ahead })).collect()
     }
 
-    /// Calls `draw` along the cue, as long as it has not struck.
-    pub fn each_cue_dot(&self, mut draw: impl FnMut(DVec2)) {
+    /// Calls `draw` along the cue, as far as it is over the cloth, and with the sign of its direction, as long as it has not
+    /// struck.
+    pub fn each_cue_dot(&self, mut draw: impl FnMut(DVec2, char)) {
         let Some(shot) = self.view.shot.filter(|_| self.view.time == 0.0) else { return };
-        let back = -DVec2::from_angle(shot.cue.phi);
-        let tip = 1.2 * self.reach();
-        let dots = (CUE_LENGTH / CUE_DOTS) as u32;
-        for dot in 0..=dots {
-            draw(self.balls[0] + back * (tip + f64::from(dot) * CUE_DOTS));
-        }
+        let ahead = DVec2::from_angle(shot.cue.phi);
+        let (tip, sign) = (1.2 * self.reach(), cue_sign(ahead, self.view.caps));
+        let places = (0..=(CUE_LENGTH / CUE_DOTS) as u32)
+            .map(|dot| self.balls[0] - ahead * (tip + f64::from(dot) * CUE_DOTS))
+            .take_while(|place| self.mapping.is_on_bed(*place));
+        places.for_each(|place| draw(place, sign));
     }
 
     /// The balls, the selected one last, so that it lies on top.
@@ -138,6 +139,14 @@ impl Scene<'_> {
     }
 }
 
+/// The sign of a line in this direction: of the four that there are, the one whose slope is nearest on the screen.
+pub fn cue_sign(direction: DVec2, caps: Capabilities) -> char {
+    let signs = caps.pick(['─', '╱', '│', '╲'], ['-', '/', '|', '\\']);
+    // A row is as high as two columns are wide.
+    let eighths = (direction * DVec2::new(1.0, 0.5)).to_angle() / std::f64::consts::FRAC_PI_4;
+    signs[(eighths.round() as i32).rem_euclid(4) as usize]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,7 +154,7 @@ mod tests {
         physics::CueInputs,
         table::{Layout, Table},
         terminal::{
-            capabilities::{Capabilities, Depth},
+            capabilities::Depth,
             shot::Shot,
             ui::{
                 table::{CLEAR_PICTURES, CLEAR_RADII, apart},

@@ -44,8 +44,10 @@ pub struct Theme {
     pub cue_ball: CueBall,
     /// The cue ball, the opponent's and the red ball.
     pub balls: [Color; 3],
-    /// Behind a ball's sign among words, where it has to be seen as well.
-    pub behind_ball: Color,
+    /// Their signs among words, which have to be seen on the background.
+    pub signs: [Color; 3],
+    /// The sign of the cue ball's way among words.
+    pub way_sign: Color,
     /// The dots of their paths.
     pub paths: [Color; 3],
     /// The dots of the cue ball's way in the shot after this one.
@@ -74,6 +76,11 @@ impl Theme {
     /// The dark theme for `depth`.
     pub fn new(depth: Depth) -> Self {
         let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
+        let balls = [
+            ink(0x00f7_f3e8, 255, Color::White),
+            ink(0x00f6_c324, 220, Color::LightYellow),
+            ink(0x00d9_3636, 160, Color::Red),
+        ];
         Self {
             depth,
             background: ink(0x0010_1418, 233, Color::Black),
@@ -90,12 +97,9 @@ impl Theme {
             sight: ink(0x00f3_e3bf, 223, Color::White),
             cue: ink(0x00e2_bb82, 180, Color::Gray),
             cue_ball: CueBall::White,
-            balls: [
-                ink(0x00f7_f3e8, 255, Color::White),
-                ink(0x00f6_c324, 220, Color::LightYellow),
-                ink(0x00d9_3636, 160, Color::Red),
-            ],
-            behind_ball: ink(0x0010_1418, 233, Color::Black),
+            balls,
+            signs: balls,
+            way_sign: ink(0x007e_e787, 114, Color::LightGreen),
             paths: [
                 ink(0x00b9_d3d8, 152, Color::Gray),
                 ink(0x00d8_c05a, 179, Color::Yellow),
@@ -127,8 +131,9 @@ impl Theme {
             return *self;
         }
         // Changing twice changes nothing.
-        let [balls, paths] = [self.balls, self.paths].map(|colours| CueBall::Yellow.ordered(colours));
-        Self { cue_ball, balls, paths, face: balls[0], ..*self }
+        let [balls, signs, paths] =
+            [self.balls, self.signs, self.paths].map(|colours| CueBall::Yellow.ordered(colours));
+        Self { cue_ball, balls, signs, paths, face: balls[0], ..*self }
     }
 
     /// What the balls are called.
@@ -196,7 +201,13 @@ impl Theme {
 
     /// Style of the sign of `ball` among words.
     pub fn ball(&self, ball: usize) -> Style {
-        Style::new().fg(self.balls[ball]).bg(self.behind_ball)
+        self.text().fg(self.signs[ball])
+    }
+
+    /// That sign: on paper, where it has another colour than the ball, the white one is an outline.
+    pub fn ball_sign(&self, ball: usize) -> char {
+        let is_white = self.letters()[ball] == 'W';
+        if is_white && self.signs[ball] != self.balls[ball] { '○' } else { '●' }
     }
 }
 

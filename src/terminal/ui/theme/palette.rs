@@ -92,7 +92,12 @@ fn light(depth: Depth) -> Theme {
         good: ink(0x0016_6b30, 22, Color::Blue),
         warning: ink(0x00b4_2a1e, 124, Color::Red),
         // A white ball and a yellow one are seen on the cloth alone.
-        behind_ball: dark.cloth,
+        signs: [
+            ink(0x0022_282e, 235, Color::Black),
+            ink(0x00ad_7b00, 136, Color::Yellow),
+            ink(0x00c2_2424, 160, Color::Red),
+        ],
+        way_sign: ink(0x0016_6b30, 22, Color::Blue),
         face: ink(0x00ff_fdf6, 231, Color::White),
         miscue: ink(0x00a9_aaa4, 248, Color::DarkGray),
         curves: [ink(0x0000_6685, 24, Color::Blue), ink(0x00a2_5200, 130, Color::Magenta)],
@@ -114,6 +119,11 @@ fn light(depth: Depth) -> Theme {
 
 fn high_contrast(depth: Depth) -> Theme {
     let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
+    let balls = [
+        ink(0x00ff_ffff, 231, Color::White),
+        ink(0x00ff_d700, 220, Color::LightYellow),
+        ink(0x00ff_4d40, 203, Color::LightRed),
+    ];
     Theme {
         background: ink(0x0000_0000, 16, Color::Black),
         text: ink(0x00ff_ffff, 231, Color::White),
@@ -128,18 +138,15 @@ fn high_contrast(depth: Depth) -> Theme {
         wood: ink(0x0080_5020, 94, Color::DarkGray),
         sight: ink(0x00ff_ffff, 231, Color::White),
         cue: ink(0x00ff_d7a0, 223, Color::Gray),
-        balls: [
-            ink(0x00ff_ffff, 231, Color::White),
-            ink(0x00ff_d700, 220, Color::LightYellow),
-            ink(0x00ff_4d40, 203, Color::LightRed),
-        ],
-        behind_ball: ink(0x0000_0000, 16, Color::Black),
+        balls,
+        signs: balls,
         paths: [
             ink(0x00d7_ffff, 195, Color::Gray),
             ink(0x00ff_ea80, 228, Color::Yellow),
             ink(0x00ff_a8a0, 217, Color::LightMagenta),
         ],
         way: ink(0x005f_ff87, 84, Color::LightGreen),
+        way_sign: ink(0x005f_ff87, 84, Color::LightGreen),
         face: ink(0x00ff_ffff, 231, Color::White),
         miscue: ink(0x009a_9a9a, 247, Color::DarkGray),
         tip: ink(0x0000_40ff, 27, Color::Blue),
@@ -153,6 +160,11 @@ fn high_contrast(depth: Depth) -> Theme {
 
 fn colour_blind(depth: Depth) -> Theme {
     let ink = |rgb, index, ansi| resolve(depth, rgb, index, ansi);
+    let balls = [
+        ink(0x00ff_ffff, 231, Color::White),
+        ink(0x00f0_d942, 221, Color::LightYellow),
+        ink(0x00d5_5e00, 166, Color::Red),
+    ];
     Theme {
         accent: ink(0x00f0_e442, 227, Color::LightYellow),
         mark: ink(0x00f0_e442, 227, Color::LightYellow),
@@ -160,11 +172,8 @@ fn colour_blind(depth: Depth) -> Theme {
         warning: ink(0x00e6_9f00, 172, Color::LightRed),
         cloth: ink(0x000b_4f7a, 24, Color::Blue),
         cushion: ink(0x0007_3550, 23, Color::Cyan),
-        balls: [
-            ink(0x00ff_ffff, 231, Color::White),
-            ink(0x00f0_d942, 221, Color::LightYellow),
-            ink(0x00d5_5e00, 166, Color::Red),
-        ],
+        balls,
+        signs: balls,
         paths: [
             ink(0x00b9_d3e8, 152, Color::Gray),
             ink(0x00d8_ca6a, 185, Color::Yellow),

@@ -165,7 +165,9 @@ fn things_that_mean_something_are_told_apart_in_every_palette_at_every_depth() {
         };
         let [white, yellow, red] = theme.balls;
         check("balls", &[white, yellow, red, theme.cloth], 30.0);
-        check("balls among words", &[white, yellow, red, theme.behind_ball], 30.0);
+        let [white_sign, yellow_sign, red_sign] = theme.signs;
+        check("balls among words", &[white_sign, yellow_sign, red_sign, theme.background], 20.0);
+        check("the way among words", &[theme.way_sign, theme.background], 30.0);
         check("table", &[theme.cloth, theme.cushion, theme.wood], 12.0);
         check("marks on the rails", &[theme.mark, theme.cushion, theme.wood], 30.0);
         let [white, yellow, red] = theme.paths;

@@ -24,7 +24,7 @@ const MOTION: u16 = 31;
 
 /// Draws the panel; below the balls, if there is room, more about the layout or the shot.
 pub fn draw_balls(coach: &CoachPage, area: Rect, ui: &mut Ui) {
-    let inner = draw_title(&Line::from(Span::styled("Balls", ui.theme.text())), area, ui);
+    let inner = draw_title("Balls", area, ui);
     for (end, label) in [(X_END, " x mm "), (Y_END, " y mm "), (SPEED_END, " m/s ")] {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
     }
@@ -42,7 +42,8 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
     if selected {
         style = ui.theme.accent();
     }
-    let marker = if ui.theme.is_mono() || !ui.caps.unicode { ui.theme.letters()[ball] } else { '●' };
+    let marker =
+        if ui.theme.is_mono() || !ui.caps.unicode { ui.theme.letters()[ball] } else { ui.theme.ball_sign(ball) };
     let pointer = if selected { ui.caps.pick("▸", ">") } else { " " };
     ui.buffer.set_string(area.x, area.y, pointer, ui.theme.accent());
     ui.buffer.set_string(area.x + 1, area.y, marker.to_string(), ui.theme.ball(ball).add_modifier(Modifier::BOLD));

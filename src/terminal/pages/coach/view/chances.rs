@@ -1,9 +1,6 @@
 //! The panel of chances: the shots that the coach lists, how often the player makes each, and what sort each is.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, text::Span};
 
 use crate::{
     table::CueBall,
@@ -11,7 +8,7 @@ use crate::{
         pages::coach::AdviceState,
         tasks::advice::Proposal,
         ui::{
-            Ui,
+            Ui, list,
             panel::{draw_nothing, draw_title},
             text::write_right,
         },
@@ -40,7 +37,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: 
             title.push(Span::styled(words, style));
         }
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let Some(advised) = advised else { return draw_nothing(&[empty], inner, ui) };
     for (n, row) in in_view(advised, inner) {
         let is_chosen = n == advised.chosen();
@@ -66,9 +63,7 @@ pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
 
 /// The shots that have a row, and their rows.
 fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u16)> {
-    let (rows, count) = (usize::from(inner.height), advised.choices().len());
-    let first = advised.chosen().saturating_sub(rows / 2).min(count.saturating_sub(rows));
-    (first..count).zip(inner.y..inner.bottom())
+    list::in_view(advised.chosen(), advised.choices().len(), usize::from(inner.height)).zip(inner.y..)
 }
 
 /// What sort of shot it is, or that it makes no point.

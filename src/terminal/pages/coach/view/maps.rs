@@ -67,7 +67,7 @@ enum Sign {
 pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, area: Rect, ui: &mut Ui) {
     let reach = map.columns.last().copied().unwrap_or_default();
     let title = format!("Tip {}{} mm", ui.caps.pick("±", "+-"), fixed(reach, 0));
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     // How far the tip is from the middle of the map, as a share of its half; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
     let face = face_in(inner);
@@ -90,7 +90,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, ui: &mut Ui) {
         let reach = format!(" {}{}", ui.caps.pick("±", "+-"), fixed(span(&map.rows), 1));
         title.push(Span::styled(reach, ui.theme.faint()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     if inner.height < 2 {
         return;
     }
@@ -132,7 +132,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, area: Rect, ui: &mut Ui) {
 
 /// Draws what the colours or letters mean.
 pub fn draw_legend(area: Rect, ui: &mut Ui) {
-    let inner = draw_title(&Line::from(Span::styled("The maps", ui.theme.text())), area, ui);
+    let inner = draw_title("The maps", area, ui);
     let letters = ui.caps.glyphs == Glyphs::Letters;
     let mut lines = vec![Line::default()];
     let mut add = |spans: [Span<'static>; 2]| {

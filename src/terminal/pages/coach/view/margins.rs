@@ -42,7 +42,7 @@ pub fn draw_margins(study: Option<&ShotAnalysis>, skill: Skill, empty: &str, are
         let units = ui.caps.pick(" less, more, ± yours mm ° m/s", " less, more, yours mm deg m/s");
         title.push(Span::styled(units, ui.theme.faint()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let margins = match study {
         None => return draw_nothing(&[empty], inner, ui),
         Some(ShotAnalysis { margins: None, .. }) => {

@@ -56,8 +56,6 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let planned = choice.filter(|_| coach.view == View::Plan);
     let spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
     let view = TableView {
-        table: coach.table(),
-        layout: coach.layout(),
         shot: coach.shot().map(AsRef::as_ref),
         time: coach.playback.time,
         is_moving: coach.mode == Mode::Watching,
@@ -65,9 +63,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         // While the coach thinks each better shot would move them all.
         is_lean: planned.is_some() || coach.spinner().is_some(),
         spots: &spots,
-        film: None,
-        theme: ui.theme,
-        caps: ui.caps,
+        ..TableView::new(coach.table(), coach.layout(), ui)
     };
     draw_table(&view, panes.table, ui);
     draw_panels(coach, &panes, ui);

@@ -2,7 +2,6 @@
 
 use ratatui::{
     layout::Rect,
-    style::Style,
     text::{Line, Span},
 };
 
@@ -36,7 +35,7 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) 
         title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
         title.push(Span::styled(format!("the point after it {} %", percent(next)), ui.theme.text()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let Some(choice) = choice else { return draw_nothing(&[empty], inner, ui) };
     let rows = [
         ("now", shot_words(&choice.proposal, ui.theme)),
@@ -60,7 +59,7 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) 
         let sign = if ui.caps.glyphs == Glyphs::Letters { WAY_LETTER } else { '•' };
         lines.push(Line::from(vec![
             Span::raw(" "),
-            Span::styled(sign.to_string(), Style::new().fg(ui.theme.way).bg(ui.theme.behind_ball)),
+            Span::styled(sign.to_string(), ui.theme.text().fg(ui.theme.way_sign)),
             Span::styled(" the cue ball's way then; n goes on", ui.theme.faint()),
         ]));
     }

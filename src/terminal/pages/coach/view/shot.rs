@@ -16,6 +16,7 @@ use crate::{
         ui::{
             Ui,
             panel::{draw_nothing, draw_title},
+            text::columns,
             theme::Theme,
         },
         words::{across_word, chance_words, fixed, height_word, percent, rail_word},
@@ -24,6 +25,8 @@ use crate::{
 
 /// Columns from which on the panel explains the numbers.
 const WIDE: u16 = 30;
+/// Columns of a row where there are fewest: the last column of the screen stays free.
+const NARROW: usize = 14;
 /// Columns of the spin where its three numbers share a narrow row.
 const SPIN_WIDTH: usize = 12;
 
@@ -38,7 +41,7 @@ pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], table: &Table, area: Rect,
             title.push(Span::styled(format!(" {}", shot.source), ui.theme.faint()));
         }
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     match shot {
         Some(shot) => draw_rows(shot, String::from("from the x axis"), table, inner, ui),
         None => draw_nothing(empty, inner, ui),
@@ -67,7 +70,7 @@ pub fn draw_proposal(proposal: &Proposal, table: &Table, layout: &Layout, area: 
     if wide && taken <= usize::from(area.width) {
         title.push(Span::styled(source, ui.theme.faint()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 1));
     let [ahead, behind] = line_of_aim(table, layout, shot.cue.phi).map(mark);
     let aim = format!("{behind}{}{ahead}", ui.caps.pick("→", ">"));
@@ -82,7 +85,7 @@ fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, ui: &mut Ui) 
     let lines = if is_low {
         low_lines(shot, rows, ui.theme, ui.caps)
     } else {
-        rows.into_iter().map(|row| line(row, ui.theme)).collect()
+        rows.into_iter().map(|row| line(row, if wide { 3 } else { 2 }, ui.theme)).collect()
     };
     for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
         let indent = u16::from(wide);
@@ -92,9 +95,10 @@ fn draw_rows(shot: &Shot, aim: String, table: &Table, inner: Rect, ui: &mut Ui) 
 
 type Row = (&'static str, String, String);
 
-fn line((name, value, note): Row, theme: &Theme) -> Line<'static> {
+/// A row whose name takes so many columns.
+fn line((name, value, note): Row, columns: usize, theme: &Theme) -> Line<'static> {
     Line::from(vec![
-        Span::styled(format!("{name:<3}"), theme.faint()),
+        Span::styled(format!("{name:<columns$}"), theme.faint()),
         Span::styled(value, theme.text()),
         Span::styled(format!(" {note}"), theme.faint()),
     ])
@@ -103,12 +107,18 @@ fn line((name, value, note): Row, theme: &Theme) -> Line<'static> {
 /// The narrow rows in two fewer: both angles stand in one, and the spin in another.
 fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> Vec<Line<'static>> {
     let degree = caps.pick("°", "");
-    let angle = |angle: f64, width: usize| format!("{:>width$}{degree}", fixed(angle.to_degrees(), 1));
+    let angle = |angle: f64| fixed(angle.to_degrees(), 1) + degree;
+    let (phi, theta) = (caps.pick("φ", "ph"), caps.pick("θ", "th"));
+    let room = NARROW - columns(phi) - columns(theta);
+    let [phi_angle, theta_angle] = [shot.cue.phi, shot.cue.theta].map(angle);
+    // Blanks go where the numbers leave them room.
+    let phi_width = (room.saturating_sub(columns(&theta_angle) + 1)).min(6 + columns(degree));
+    let gap = usize::from(columns(&phi_angle).max(phi_width) + columns(&theta_angle) < room);
     let angles = Line::from(vec![
-        Span::styled(caps.pick("φ", "ph"), theme.faint()),
-        Span::styled(angle(shot.cue.phi, 6), theme.text()),
-        Span::styled(caps.pick(" θ", " th"), theme.faint()),
-        Span::styled(angle(shot.cue.theta, 4), theme.text()),
+        Span::styled(phi, theme.faint()),
+        Span::styled(format!("{phi_angle:>phi_width$}"), theme.text()),
+        Span::styled(format!("{:gap$}{theta}", ""), theme.faint()),
+        Span::styled(theta_angle, theme.text()),
     ]);
     let w = shot.impulse.spin;
     let spin = [w.x, w.y, w.z].map(|part| fixed(part, 0));
@@ -116,14 +126,14 @@ fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> 
     let blank = |part: &String| if part.starts_with('-') { part.clone() } else { format!(" {part}") };
     let close: String = spin.iter().map(blank).collect();
     let apart = spin.join(" ");
-    let spin = if apart.len() <= SPIN_WIDTH { apart } else { close };
+    let spin = if apart.len() < SPIN_WIDTH { apart } else { close };
     let mut rows = rows.into_iter();
-    let mut take = |count: usize| rows.by_ref().take(count).map(|row| line(row, theme)).collect::<Vec<_>>();
+    let mut take = |count: usize| rows.by_ref().take(count).map(|row| line(row, 2, theme)).collect::<Vec<_>>();
     let tip = take(2);
     take(2);
     let speeds = take(2);
     let spin = (caps.pick("ω0", "w0"), format!("{spin:>SPIN_WIDTH$}"), String::new());
-    tip.into_iter().chain([angles]).chain(speeds).chain([line(spin, theme)]).collect()
+    tip.into_iter().chain([angles]).chain(speeds).chain([line(spin, 2, theme)]).collect()
 }
 
 fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<Row> {
@@ -161,8 +171,8 @@ fn narrow_rows(shot: &Shot, caps: Capabilities) -> Vec<Row> {
         (caps.pick("θ", "th"), format!("{:>6}", fixed(cue.theta.to_degrees(), 1)) + degree, none()),
         (caps.pick("φ", "ph"), format!("{:>6}", fixed(cue.phi.to_degrees(), 1)) + degree, none()),
         ("V", format!("{:>6}", fixed(cue.speed, 2)), "m/s".into()),
-        ("V0", format!("{:>5} {:>5}", fixed(v.x, 2), fixed(v.y, 2)), none()),
-        (caps.pick("ω0", "w0"), format!("{:>5} {:>5}", fixed(w.x, 0), fixed(w.y, 0)), none()),
-        ("", format!("{:>5}", fixed(w.z, 0)), "rad/s".into()),
+        ("V0", format!("{:>6}{:>6}", fixed(v.x, 2), fixed(v.y, 2)), none()),
+        (caps.pick("ω0", "w0"), format!("{:>6}{:>6}", fixed(w.x, 0), fixed(w.y, 0)), none()),
+        ("", format!("{:>6}", fixed(w.z, 0)), "rad/s".into()),
     ]
 }

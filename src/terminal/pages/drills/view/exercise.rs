@@ -15,7 +15,7 @@ use crate::terminal::{
         message::Message,
         sight::draw_sight,
         spin::draw_spin,
-        table::{Spot, TableView, draw_table},
+        table::{Spot, TableView, cue_sign, draw_table},
         theme::Theme,
         tip::draw_tip,
     },
@@ -33,19 +33,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let panes = Panes::new(&turn.table, area);
     let spots = turn.sight().map_or_else(Vec::new, |sight| spots(turn, &sight, ui.theme, ui.caps));
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
-    let view = TableView {
-        table: &turn.table,
-        layout: &turn.layout,
-        shot: turn.shot(),
-        time,
-        is_moving: true,
-        front: 0,
-        is_lean: false,
-        spots: &spots,
-        film: None,
-        theme: ui.theme,
-        caps: ui.caps,
-    };
+    let view = TableView { shot: turn.shot(), time, spots: &spots, ..TableView::new(&turn.table, &turn.layout, ui) };
     draw_table(&view, panes.table, ui);
     panels::draw_stroke(turn, panes.stroke, ui);
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
@@ -104,14 +92,6 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, caps: Capabilities) -> Vec<S
         letter: theme.letters()[0].to_ascii_lowercase(),
     };
     cue.filter(on_table).chain(line).chain([ghost]).collect()
-}
-
-/// The sign of a line in this direction: of the four that there are, the one whose slope is nearest on the screen.
-fn cue_sign(direction: DVec2, caps: Capabilities) -> char {
-    let signs = caps.pick(['─', '╱', '│', '╲'], ['-', '/', '|', '\\']);
-    // A row is as high as two columns are wide.
-    let eighths = (direction * DVec2::new(1.0, 0.5)).to_angle() / std::f64::consts::FRAC_PI_4;
-    signs[(eighths.round() as i32).rem_euclid(4) as usize]
 }
 
 fn standing(turn: &Turn) -> Message {

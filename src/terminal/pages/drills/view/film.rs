@@ -15,7 +15,6 @@ use crate::{
             view::{
                 films::{draw_film_header, outcome},
                 panes::Panes,
-                write_paragraphs,
             },
         },
         shot::film::{FilmScene, Listed, table},
@@ -23,7 +22,7 @@ use crate::{
             Ui,
             events::draw_events,
             message::Message,
-            panel::draw_title,
+            panel::{draw_title, write_paragraphs},
             sight::draw_sight,
             spin::draw_spin,
             table::{TableView, draw_table},
@@ -42,17 +41,10 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let panes = Panes::new(table(), area);
     let scene = film.scene();
     let view = TableView {
-        table: table(),
-        layout: &listed.layout,
         shot: scene.map(|scene| scene.shot.as_ref()),
         time: film.playback.time,
-        is_moving: true,
-        front: 0,
-        is_lean: false,
-        spots: &[],
         film: scene.map(|scene| scene.replay.filmed_places(film.playback.time)),
-        theme: ui.theme,
-        caps: ui.caps,
+        ..TableView::new(table(), &listed.layout, ui)
     };
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;
@@ -96,7 +88,7 @@ fn standing(scene: &FilmScene, listed: &Listed, time: f64) -> Message {
 
 /// Draws what the stroke gave the cue ball, by the fit.
 fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
-    let inner = draw_title(&Line::from(Span::styled("The stroke", ui.theme.text())), area, ui);
+    let inner = draw_title("The stroke", area, ui);
     let Some(scene) = scene else { return };
     let tip = |radii: f64, [more, less]: [&str; 2]| {
         let word = if radii > 0.0 { more } else { less };
@@ -125,7 +117,7 @@ fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
 /// Draws how far each simulated ball is from the filmed one, and which is which.
 fn draw_distances(scene: Option<&FilmScene>, time: f64, area: Rect, ui: &mut Ui) {
     let title = scene.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     let Some(scene) = scene else { return };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let apart = scene.replay.apart(time);

@@ -8,17 +8,15 @@ use ratatui::{
 use crate::terminal::{
     pages::{
         Target,
-        drills::{
-            DrillsPage,
-            view::{READABLE, write_paragraphs},
-        },
+        drills::{DrillsPage, view::READABLE},
     },
     shot::film::{Listed, listed, table},
     ui::{
         Ui,
         geometry::Mapping,
+        list,
         message::Message,
-        panel::draw_title,
+        panel::{draw_title, write_paragraphs},
         table::{TableView, draw_table},
         text::{wrap, write_right},
     },
@@ -66,8 +64,7 @@ fn halves(area: Rect) -> [Rect; 2] {
 
 /// Places in the list of the shots in view: the marked one is among the first `most`.
 fn in_view(mark: usize, most: usize) -> impl Iterator<Item = (usize, &'static Listed)> {
-    let first = mark.saturating_sub(most / 2).min(listed().len().saturating_sub(most));
-    listed().iter().enumerate().skip(first)
+    list::in_view(mark, listed().len(), most).map(|n| (n, &listed()[n]))
 }
 
 /// What the mouse points at.
@@ -82,8 +79,7 @@ pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
 
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     let mark = drills.film.mark();
-    let title = Line::from(Span::styled(format!("All {}", listed().len()), ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(format!("All {}", listed().len()), area, ui);
     for (end, label) in [(SPEED_END, " m/s "), (LENGTH_END, " seconds ")] {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
     }
@@ -105,7 +101,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
 
 fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
     let title = format!("Shot {}, {}", listed.filmed.number, outcome(listed));
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     let width = inner.width.saturating_sub(2).min(READABLE);
     let paragraphs = [
         (String::new(), ui.theme.text()),
@@ -119,19 +115,7 @@ fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
     ];
     let rows: usize = paragraphs.iter().map(|(text, _)| wrap(text, usize::from(width)).len()).sum();
     let room = Rect { height: inner.height.saturating_sub(rows as u16), ..inner };
-    let view = TableView {
-        table: table(),
-        layout: &listed.layout,
-        shot: None,
-        time: 0.0,
-        is_moving: true,
-        front: 0,
-        is_lean: false,
-        spots: &[],
-        film: None,
-        theme: ui.theme,
-        caps: ui.caps,
-    };
+    let view = TableView::new(table(), &listed.layout, ui);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(table(), room).outer();
     let left = outer.x.min(inner.right().saturating_sub(width + 1)).max(inner.x + 1);

@@ -3,7 +3,6 @@
 use ratatui::{
     layout::{Position, Rect},
     style::Style,
-    text::{Line, Span},
 };
 
 use crate::{
@@ -13,16 +12,17 @@ use crate::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, draw_header, percent, write_paragraphs},
+                view::{READABLE, draw_header, percent},
             },
         },
         ui::{
             Ui,
             geometry::Mapping,
+            list,
             message::Message,
-            panel::draw_title,
+            panel::{draw_title, write_paragraphs},
             table::{TableView, draw_table},
-            text::{cut, wrap, write_right},
+            text::{columns, shorten, wrap, write_right},
             theme::Theme,
         },
         words,
@@ -101,14 +101,14 @@ enum Row<'a> {
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     let catalogue = &drills.catalogue;
     let found = catalogue.found();
-    let title = Line::from(Span::styled(filter_words(drills, found.len()), ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let title = filter_words(drills, found.len());
+    let inner = draw_title(title.as_str(), area, ui);
     if found.is_empty() {
         return;
     }
     for (end, label) in [(GRADE_END, " grade "), (MADE_END, " made "), (RUN_END, " run ")] {
         let end = (area.right() + 1).saturating_sub(end);
-        if area.x + 2 + title.width() as u16 + 12 < end {
+        if area.x + 2 + columns(&title) as u16 + 12 < end {
             write_right(ui.buffer, area.x, end, area.y, label, ui.theme.faint());
         }
     }
@@ -133,8 +133,8 @@ fn in_view<'a>(found: &[&'a Exercise], mark: usize, most: usize) -> impl Iterato
         rows.push(Row::Exercise(n, exercise));
     }
     let marked = rows.iter().position(|row| matches!(row, Row::Exercise(n, _) if *n == mark)).unwrap_or(0);
-    let first = marked.saturating_sub(most / 2).min(rows.len().saturating_sub(most));
-    rows.into_iter().skip(first)
+    let shown = list::in_view(marked, rows.len(), most);
+    rows.into_iter().skip(shown.start).take(most)
 }
 
 /// How many exercises are listed, and which.
@@ -156,8 +156,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
         ui.buffer.set_string(area.x, area.y, ui.caps.pick("▸", ">"), ui.theme.accent());
     }
     let room = usize::from(area.width.saturating_sub(4 + GRADE_END));
-    let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
-    ui.buffer.set_stringn(area.x + 2, area.y, title, room, style);
+    ui.buffer.set_string(area.x + 2, area.y, shorten(&exercise.title, room, ui.caps), style);
     let grade = if exercise.grade == 0 { "-".to_owned() } else { exercise.grade.to_string() };
     write_right(ui.buffer, area.x, area.right() - GRADE_END, area.y, &grade, ui.theme.faint());
     if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
@@ -169,9 +168,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
 
 fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width.saturating_sub(4));
-    let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
-    let title = Line::from(Span::styled(title, ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(shorten(&exercise.title, room, ui.caps), area, ui);
     let Ok(table) = exercise.table() else { return };
     // The text has the rows that it needs, and the table the others.
     let mut paragraphs = about(drills, exercise, ui.theme);
@@ -188,19 +185,7 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     }
     let room =
         Rect { height: inner.height.saturating_sub(rows(&paragraphs)).max(TABLE_ROWS.min(inner.height)), ..inner };
-    let view = TableView {
-        table: &table,
-        layout: &exercise.layout,
-        shot: None,
-        time: 0.0,
-        is_moving: true,
-        front: 0,
-        is_lean: false,
-        spots: &[],
-        film: None,
-        theme: ui.theme,
-        caps: ui.caps,
-    };
+    let view = TableView::new(&table, &exercise.layout, ui);
     draw_table(&view, room, ui);
     let outer = Mapping::fit(&table, room).outer();
     let left = outer.x.min(inner.right() - width - 1).max(inner.x + 1);

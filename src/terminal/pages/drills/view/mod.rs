@@ -12,7 +12,6 @@ mod score;
 
 use ratatui::{
     layout::{Position, Rect},
-    style::Style,
     text::{Line, Span},
 };
 
@@ -25,7 +24,7 @@ use crate::terminal::{
         Ui,
         message::Message,
         status_line::{draw_question, draw_status},
-        text::{cut, wrap, write_right},
+        text::{columns, shorten, write_right},
     },
     words::{self, skill_word},
 };
@@ -48,7 +47,7 @@ pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     match &drills.question {
         Some(question) => {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            draw_question(&Message::plain(before + &question.text()), status, ui)
+            draw_question(&Message::plain(before + &question.text()), question.field(), status, ui)
         }
         None => draw_status(&message.unwrap_or(standing), status, ui),
     }
@@ -66,8 +65,8 @@ pub fn target(drills: &DrillsPage, area: &PageArea, at: Position) -> Option<Targ
 /// The first row of a page behind the tabs: what it is, more about that, and who plays.
 fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mut Ui) {
     let player = format!("player: {} ", skill_word(drills.skill()));
-    let room = usize::from(area.width).saturating_sub(player.chars().count() + 2);
-    let title = cut(wrap(title, room.saturating_sub(1)), 1, room.saturating_sub(1), ui.caps).swap_remove(0);
+    let room = usize::from(area.width).saturating_sub(columns(&player) + 2);
+    let title = shorten(title, room.saturating_sub(1), ui.caps);
     let mut line = Line::from(Span::styled(format!(" {title}"), ui.theme.text()));
     let more = Span::styled(format!("  {more}"), ui.theme.faint());
     if line.width() + more.width() <= room {
@@ -75,24 +74,6 @@ fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mu
     }
     ui.buffer.set_line(area.x, area.y, &line, room as u16);
     write_right(ui.buffer, area.x, area.right(), area.y, &player, ui.theme.text());
-}
-
-/// Writes lines of text from the top of `area`, wrapped to its width, each paragraph in its style; one that has no room says
-/// so by its end. Gives the first row that is left.
-fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) -> u16 {
-    let width = usize::from(area.width);
-    let mut row = area.y;
-    for (text, style) in paragraphs {
-        let room = usize::from(area.bottom() - row);
-        if room == 0 {
-            break;
-        }
-        for line in cut(wrap(text, width), room, width, ui.caps) {
-            ui.buffer.set_stringn(area.x, row, line, width, *style);
-            row += 1;
-        }
-    }
-    row
 }
 
 /// A share as people say it, like `55 %`.

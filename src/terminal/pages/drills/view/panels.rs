@@ -11,12 +11,12 @@ use crate::{
     table::CueBall,
     terminal::{
         capabilities::Capabilities,
-        pages::drills::{
-            Lesson, Meets, Sight, Turn, Watched,
-            view::{percent, write_paragraphs},
-        },
+        pages::drills::{Lesson, Meets, Sight, Turn, Watched, view::percent},
         tasks::drills::Taught,
-        ui::{Ui, panel::draw_title},
+        ui::{
+            Ui,
+            panel::{draw_title, write_paragraphs},
+        },
         words::{fixed, rail_name},
     },
 };
@@ -30,7 +30,7 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
     // In a match one plays both sides.
     let title =
         if turn.session.is_match() { format!("The stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     let degree = ui.caps.pick("°", " deg");
     let millimetres = |radii: f64, [more, less]: [&str; 2]| {
         let offset = 1000.0 * turn.table.radius * radii;
@@ -65,7 +65,7 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
 pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {

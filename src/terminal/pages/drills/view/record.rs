@@ -18,14 +18,14 @@ use crate::{
     terminal::{
         pages::drills::{
             DrillsPage, Estimate, record_of,
-            view::{READABLE, draw_header, percent, write_paragraphs},
+            view::{READABLE, draw_header, percent},
         },
         ui::{
             Ui,
             chart::{Chart, Curve, SeriesId, draw_chart},
             message::Message,
-            panel::draw_title,
-            text::{cut, wrap, write_right},
+            panel::{draw_title, write_paragraphs},
+            text::{shorten, write_right},
         },
         words::chance_words,
     },
@@ -77,7 +77,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 
 fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
     let title = if scope.is_some() { "This exercise" } else { "All" };
-    let inner = draw_title(&Line::from(Span::styled(title, ui.theme.text())), area, ui);
+    let inner = draw_title(title, area, ui);
     let record = Record::of(sessions.iter().copied(), |session, attempt| match scope {
         Some(name) => attempt.exercise == name,
         None => !session.attempts.is_empty(),
@@ -133,8 +133,8 @@ const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "a
 const WHAT: u16 = 48;
 
 fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
-    let title = Line::from(vec![Span::styled("Sessions", ui.theme.text()), Span::styled(" UTC", ui.theme.faint())]);
-    let inner = draw_title(&title, area, ui);
+    let title = vec![Span::styled("Sessions", ui.theme.text()), Span::styled(" UTC", ui.theme.faint())];
+    let inner = draw_title(title, area, ui);
     if sessions.is_empty() {
         let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2).min(READABLE), ..inner };
         write_paragraphs(&[(EMPTY.to_owned(), ui.theme.faint())], text, ui);
@@ -156,8 +156,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
         put(ui.buffer, ENDS[3].0, &average, ui.theme.text());
         let room = usize::from(inner.width.saturating_sub(WHAT));
-        let what = cut(wrap(&what(session, scope), room), 1, room, ui.caps).swap_remove(0);
-        ui.buffer.set_stringn(inner.x + WHAT, y, what, room, ui.theme.faint());
+        ui.buffer.set_string(inner.x + WHAT, y, shorten(&what(session, scope), room, ui.caps), ui.theme.faint());
     }
 }
 

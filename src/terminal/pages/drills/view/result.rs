@@ -1,22 +1,19 @@
 //! The result of an exam: every exercise with what came of it, and what the score is worth.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::layout::Rect;
 
 use crate::{
     drills::exam,
     terminal::{
         pages::drills::{
             DrillsPage, Turn,
-            view::{draw_header, percent, write_paragraphs},
+            view::{draw_header, percent},
         },
         ui::{
             Ui,
             message::Message,
-            panel::draw_title,
-            text::{cut, wrap, write_right},
+            panel::{draw_title, write_paragraphs},
+            text::{shorten, write_right},
         },
     },
 };
@@ -30,7 +27,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     draw_header(drills, "exam", "", header, ui);
     let score = SCORE.max(area.width * 2 / 5);
     let list = Rect { width: area.width - score - 1, ..area };
-    let inner = draw_title(&Line::from(Span::styled("Exercises", ui.theme.text())), list, ui);
+    let inner = draw_title("Exercises", list, ui);
     let signs = ui.caps.pick(["●", "○"], ["x", "o"]);
     for (n, (attempt, y)) in session.attempts.iter().zip(inner.y..inner.bottom()).enumerate() {
         let Some(exercise) = session.exercise_of(attempt) else { continue };
@@ -39,14 +36,14 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         ui.buffer.set_string(inner.x + 4, y, sign, style);
         let chance = attempt.chance.map_or(String::new(), percent);
         let room = usize::from(inner.width.saturating_sub(6 + 7));
-        let title = cut(wrap(&exercise.title, room), 1, room, ui.caps).swap_remove(0);
+        let title = shorten(&exercise.title, room, ui.caps);
         ui.buffer.set_stringn(inner.x + 6, y, title, room, ui.theme.text());
         write_right(ui.buffer, inner.x, inner.right(), y, &chance, ui.theme.faint());
     }
     let end = list.right();
     write_right(ui.buffer, list.x, end + 1, list.y, " your stroke makes ", ui.theme.faint());
     let score = Rect { x: end + 1, width: score, ..area };
-    let inner = draw_title(&Line::from(Span::styled("Score", ui.theme.text())), score, ui);
+    let inner = draw_title("Score", score, ui);
     let text = Rect { x: inner.x + 1, y: inner.y + 1, width: inner.width - 2, height: inner.height.saturating_sub(1) };
     let Some(mark) = exam::mark(session) else { return Message::plain("nothing was played") };
     let expected = |name: &str, points: f64| format!("{name:<10}{points:>5.1} of {}", mark.tried);

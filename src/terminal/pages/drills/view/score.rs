@@ -9,11 +9,11 @@ use ratatui::{
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue, exam},
     terminal::{
-        pages::drills::{
-            DrillsPage, Turn,
-            view::{percent, write_paragraphs},
+        pages::drills::{DrillsPage, Turn, view::percent},
+        ui::{
+            Ui,
+            panel::{draw_title, write_paragraphs},
         },
-        ui::{Ui, panel::draw_title},
         words::chance_words,
     },
 };
@@ -22,8 +22,7 @@ use crate::{
 pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
     let session = turn.told();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
-    let title = Line::from(Span::styled(format!("{place}{}", goal_words(session.goal)), ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(format!("{place}{}", goal_words(session.goal)), area, ui);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let top = draw_marks(&session, text, ui);
     let text = Rect { y: top, height: text.bottom() - top, ..text };

@@ -1,9 +1,6 @@
 //! What each page of the program can do with its keys, and the marked one in words.
 
-use ratatui::{
-    layout::Rect,
-    text::{Line, Span},
-};
+use ratatui::{layout::Rect, text::Span};
 
 use crate::terminal::{
     capabilities::Capabilities,
@@ -13,13 +10,9 @@ use crate::terminal::{
     },
     pages::settings::{
         SettingsPage,
-        view::{Row, draw_list, write_paragraphs},
+        view::{Row, draw_list, write_words},
     },
-    ui::{
-        Ui,
-        panel::draw_title,
-        text::{cut, wrap},
-    },
+    ui::{Ui, panel::draw_title, text::shorten},
 };
 
 /// Columns of the keys.
@@ -41,13 +34,13 @@ pub fn rows(settings: &SettingsPage) -> Vec<Row<&KeyEntry>> {
 /// Draws the list and the words; gives what the status line says while there is no news.
 pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let (left, right) = ui.caps.pick(("◂ ", " ▸"), ("< ", " >"));
-    let title = Line::from(vec![
+    let title = vec![
         Span::styled("Keys ", ui.theme.text()),
         Span::styled(left, ui.theme.faint()),
         Span::styled(settings.keys.page().name, ui.theme.accent()),
         Span::styled(right, ui.theme.faint()),
-    ]);
-    let inner = draw_title(&title, list, ui);
+    ];
+    let inner = draw_title(title, list, ui);
     let rows = rows(settings);
     draw_list(&rows, settings.keys.mark(), inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
@@ -61,20 +54,14 @@ pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'
 fn draw_entry(settings: &SettingsPage, entry: &KeyEntry, is_marked: bool, area: Rect, ui: &mut Ui) {
     let is_changed = !settings.settings.keys.about(&entry.chords).is_empty();
     let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "none".to_owned());
-    let keys = cut(wrap(&keys, usize::from(KEYS - 2)), 1, usize::from(KEYS - 2), ui.caps).swap_remove(0);
+    let keys = shorten(&keys, usize::from(KEYS - 2), ui.caps);
     ui.buffer.set_stringn(area.x, area.y, keys, usize::from(KEYS), ui.theme.accent());
     if is_changed {
         ui.buffer.set_string(area.x + KEYS - 2, area.y, ui.caps.pick("•", "*"), ui.theme.good());
     }
     let room = usize::from(area.width.saturating_sub(KEYS + 1));
-    let text = cut(wrap(entry.words, room), 1, room, ui.caps).swap_remove(0);
-    ui.buffer.set_stringn(
-        area.x + KEYS,
-        area.y,
-        text,
-        room,
-        if is_marked { ui.theme.accent() } else { ui.theme.text() },
-    );
+    let style = if is_marked { ui.theme.accent() } else { ui.theme.text() };
+    ui.buffer.set_string(area.x + KEYS, area.y, shorten(entry.words, room, ui.caps), style);
 }
 
 /// The keys that do it now, the user's own first; `None` where none does.
@@ -85,8 +72,7 @@ fn keys_of(settings: &SettingsPage, entry: &KeyEntry, caps: Capabilities) -> Opt
 }
 
 fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui) {
-    let title = Line::from(Span::styled(entry.section.title(), ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(entry.section.title(), area, ui);
     let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "no key".to_owned());
     let mut paragraphs = vec![
         (entry.words.to_owned(), ui.theme.text()),
@@ -100,7 +86,7 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
             ui.theme.faint(),
         ));
     }
-    write_paragraphs(&paragraphs, inner, ui);
+    write_words(paragraphs, inner, ui);
 }
 
 /// What a key does, page by page.

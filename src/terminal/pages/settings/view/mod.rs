@@ -3,10 +3,11 @@
 mod keys;
 mod values;
 
+use std::ops::Range;
+
 use ratatui::{
-    layout::{Position, Rect},
+    layout::{Margin, Position, Rect},
     style::Style,
-    text::{Line, Span},
 };
 
 use crate::terminal::{
@@ -16,10 +17,11 @@ use crate::terminal::{
         settings::{Input, Screen, SettingsPage},
     },
     ui::{
-        Ui,
+        Ui, list,
         message::Message,
+        panel::write_paragraphs,
         status_line::{draw_question, draw_status},
-        text::{cut, end_of, wrap},
+        text::end_of,
     },
 };
 
@@ -50,20 +52,25 @@ pub fn draw(settings: &SettingsPage, area: &PageArea, ui: &mut Ui) -> u16 {
         Screen::Keys => keys::draw(settings, list, words, ui),
     };
     if let Some(question) = question(settings, ui.caps) {
-        return draw_question(&Message::plain(question), status, ui);
+        let field = if let Some(Input::Value(typed)) = &settings.input { Some(typed) } else { None };
+        return draw_question(&Message::plain(question), field, status, ui);
     }
     let message = settings.message.clone().unwrap_or(Message::plain(standing));
     draw_status(&message, status, ui)
 }
 
-/// What is being put in, as it stands on the status line.
+/// What is being put in, as it stands on the status line, without what is typed.
 fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
     match settings.input.as_ref()? {
-        Input::Value(typed) if typed.is_empty() && settings.other_in_file(settings.marked()).is_some() => {
-            let entry = settings.marked();
-            Some(format!("{} = _ Enter alone keeps {}", entry.key, (entry.get)(&settings.settings)))
+        Input::Value(typed) => {
+            let (entry, is_other) = (settings.marked(), settings.other_in_file(settings.marked()).is_some());
+            let keeps = if typed.text().is_empty() && is_other {
+                format!(" (Enter alone keeps {})", (entry.get)(&settings.settings))
+            } else {
+                String::new()
+            };
+            Some(format!("{}{keeps} = ", entry.key))
         }
-        Input::Value(typed) => Some(format!("{} = {typed}_", settings.marked().key)),
         Input::Key => Some(keys::press(settings)),
         Input::Taken(chord) => Some(keys::taken(settings, *chord, caps)),
     }
@@ -88,8 +95,8 @@ pub fn target(settings: &SettingsPage, area: &PageArea, at: Position) -> Option<
     };
     // The first row is the title's.
     let inner = list.y + 1..list.bottom();
-    let first = first_in_view(&places, mark, inner.len());
-    let line = inner.zip(places.into_iter().skip(first)).find(|(y, _)| *y == at.y).and_then(|(_, place)| place);
+    let shown = in_view(&places, mark, inner.len());
+    let line = inner.zip(&places[shown]).find(|(y, _)| *y == at.y).and_then(|(_, place)| *place);
     list.contains(at).then(|| Target::list(line, mark))
 }
 
@@ -99,16 +106,16 @@ fn places<T>(rows: &[Row<T>]) -> Vec<Option<usize>> {
     rows.iter().map(place).collect()
 }
 
-/// The first row of a list that is shown, so that the marked one is among the first `most`.
-fn first_in_view(places: &[Option<usize>], mark: usize, most: usize) -> usize {
+/// The rows of a list that are shown of `most`, the marked one among them.
+fn in_view(places: &[Option<usize>], mark: usize, most: usize) -> Range<usize> {
     let marked = places.iter().position(|place| *place == Some(mark)).unwrap_or(0);
-    marked.saturating_sub(most / 2).min(places.len().saturating_sub(most))
+    list::in_view(marked, places.len(), most)
 }
 
 /// Draws the rows of a list that are in view; `draw` draws those that can be marked into theirs.
 fn draw_list<T>(rows: &[Row<T>], mark: usize, area: Rect, ui: &mut Ui, draw: impl Fn(&T, bool, Rect, &mut Ui)) {
-    let first = first_in_view(&places(rows), mark, usize::from(area.height));
-    for (row, y) in rows.iter().skip(first).zip(area.y..area.bottom()) {
+    let shown = in_view(&places(rows), mark, usize::from(area.height));
+    for (row, y) in rows[shown].iter().zip(area.y..) {
         match row {
             Row::Heading(title) => {
                 ui.buffer.set_stringn(area.x + 1, y, title, usize::from(area.width), ui.theme.good());
@@ -124,21 +131,9 @@ fn draw_list<T>(rows: &[Row<T>], mark: usize, area: Rect, ui: &mut Ui, draw: imp
     }
 }
 
-/// Writes paragraphs into a panel from its top on, with blank rows between them where there is room.
-fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui) {
-    let gap = u16::from(area.height >= APART);
-    let area = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
-    let width = usize::from(area.width);
-    let mut y = area.y + gap;
-    for (text, style) in paragraphs {
-        let room = usize::from(area.bottom().saturating_sub(y));
-        if room == 0 {
-            return;
-        }
-        for line in cut(wrap(text, width), room, width, ui.caps) {
-            ui.buffer.set_line(area.x, y, &Line::from(Span::styled(line, *style)), area.width);
-            y += 1;
-        }
-        y += gap;
-    }
+/// Writes the words on what is marked into a panel, with blank rows between the paragraphs where there is room.
+fn write_words(paragraphs: Vec<(String, Style)>, area: Rect, ui: &mut Ui) {
+    let blank = (area.height >= APART).then(|| (String::new(), ui.theme.text()));
+    let all: Vec<_> = paragraphs.into_iter().flat_map(|one| blank.clone().into_iter().chain([one])).collect();
+    write_paragraphs(&all, area.inner(Margin::new(1, 0)), ui);
 }

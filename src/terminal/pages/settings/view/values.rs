@@ -9,12 +9,12 @@ use crate::terminal::{
     config::{ENTRIES, Entry, Settings},
     pages::settings::{
         SettingsPage,
-        view::{Row, draw_list, write_paragraphs},
+        view::{Row, draw_list, write_words},
     },
     ui::{
         Ui,
         panel::draw_title,
-        text::{cut, wrap},
+        text::{columns, shorten},
     },
 };
 
@@ -37,8 +37,8 @@ pub fn rows() -> Vec<Row<&'static Entry>> {
 pub fn draw(settings: &SettingsPage, list: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let changed = ENTRIES.iter().filter(|entry| settings.is_changed(entry)).count();
     let of = if changed == 0 { String::new() } else { format!(" {changed} changed") };
-    let title = Line::from(vec![Span::styled("Settings", ui.theme.text()), Span::styled(of, ui.theme.faint())]);
-    let inner = draw_title(&title, list, ui);
+    let title = vec![Span::styled("Settings", ui.theme.text()), Span::styled(of, ui.theme.faint())];
+    let inner = draw_title(title, list, ui);
     draw_list(&rows(), settings.mark(), inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
     });
@@ -61,14 +61,14 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     let (left, right) = if is_marked { ui.caps.pick(("◂ ", " ▸"), ("< ", " >")) } else { ("  ", "") };
     let x = area.x + NAME;
     let room = usize::from(area.right().saturating_sub(x + 5));
-    let text = cut(wrap(&shown(&(entry.get)(&settings.settings)), room), 1, room, ui.caps).swap_remove(0);
+    let text = shorten(&shown(&(entry.get)(&settings.settings)), room, ui.caps);
     let mut spans =
         vec![Span::styled(left, ui.theme.faint()), Span::styled(text, value), Span::styled(right, ui.theme.faint())];
     if let Some(other) = settings.other_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
         let whole = format!(" now; the file has {}", shown(&other));
         // Where there is no room, the words on the marked setting say the rest.
-        let note = if whole.chars().count() <= room { whole } else { " now".to_owned() };
+        let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
     }
     ui.buffer.set_line(x, area.y, &Line::from(spans), area.right().saturating_sub(x));
@@ -81,8 +81,7 @@ fn shown(value: &str) -> String {
 
 fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     let entry = settings.marked();
-    let title = Line::from(Span::styled(entry.key, ui.theme.text()));
-    let inner = draw_title(&title, area, ui);
+    let inner = draw_title(entry.key, area, ui);
     let default = (entry.get)(&Settings::default());
     let mut paragraphs = vec![
         (entry.about.to_owned(), ui.theme.text()),
@@ -94,5 +93,5 @@ fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
         let keep = if settings.is_writable { " Enter twice keeps it." } else { "" };
         paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), ui.theme.warning()));
     }
-    write_paragraphs(&paragraphs, inner, ui);
+    write_words(paragraphs, inner, ui);
 }

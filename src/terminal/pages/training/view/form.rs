@@ -10,7 +10,11 @@ use crate::{
     learning::{agents::AGENTS, run::Schedule},
     terminal::{
         pages::training::{Field, Form, TrainingPage},
-        ui::{Ui, panel::draw_title, text::wrap},
+        ui::{
+            Ui,
+            panel::draw_title,
+            text::{columns, wrap},
+        },
         words::count,
     },
 };
@@ -55,8 +59,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     }
     let rows = 2 * Field::ALL.len() as u16 + 2;
     let below = Rect { y: area.y + rows, height: area.height.saturating_sub(rows), ..area };
-    let title = Line::from(Span::styled("The same on the command line", ui.theme.text()));
-    let inner = draw_title(&title, below, ui);
+    let inner = draw_title("The same on the command line", below, ui);
     let lines = command_lines(&form.command(), usize::from(area.width.saturating_sub(6)));
     let name =
         Line::from(vec![Span::styled("run           ", ui.theme.faint()), Span::styled(form.name(), ui.theme.text())]);
@@ -72,7 +75,7 @@ fn command_lines(command: &str, width: usize) -> Vec<String> {
     for (n, option) in command.split(" --").enumerate() {
         let part = if n == 0 { option.to_owned() } else { format!(" --{option}") };
         let last = lines.len() - 1;
-        if lines[last].chars().count() + part.chars().count() + 2 > width && n > 0 {
+        if columns(&lines[last]) + columns(&part) + 2 > width && n > 0 {
             lines[last].push_str(" \\");
             lines.push(format!(" {part}"));
         } else {
@@ -144,6 +147,6 @@ mod tests {
     fn a_long_command_is_broken_so_that_a_shell_still_takes_it() {
         let lines = command_lines("carom train --agent ddpg --steps 10 --from a-long-name", 24);
         assert_eq!(lines, ["carom train \\", "  --agent ddpg \\", "  --steps 10 \\", "  --from a-long-name"]);
-        assert_eq!(lines.iter().map(|line| line.chars().count()).max(), Some(20));
+        assert_eq!(lines.iter().map(|line| columns(line)).max(), Some(20));
     }
 }

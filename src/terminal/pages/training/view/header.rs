@@ -9,7 +9,10 @@ use crate::{
     learning::run::{follow::Condition, status::Phase},
     terminal::{
         pages::training::Watch,
-        ui::{Ui, text::end_of},
+        ui::{
+            Ui,
+            text::{columns, end_of},
+        },
     },
 };
 
@@ -32,13 +35,13 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let share = watch.planned().map(|planned| (watch.own.run.shots() as f64 / planned.max(1) as f64).min(1.0));
     let percent = share.map_or("     -".to_owned(), |share| format!("{:>4.0} %", (100.0 * share).floor()));
     // The condition and the percentage come first: what they leave is the name's, then of what it is, then the bar's.
-    let fixed = (words.chars().count() + percent.len() + 2) as u16;
+    let fixed = (columns(&words) + percent.len() + 2) as u16;
     let room = area.width.saturating_sub(fixed + 1);
     let mut left =
         Line::from(Span::styled(format!(" {}", end_of(&watch.own.name, usize::from(room), ui.caps)), ui.theme.text()));
     if let Some(config) = &watch.own.run.config {
         let what = format!("  {} for {} on \"{}\"", config.agent, config.plan.reward, config.table.name);
-        if left.width() + what.chars().count() + usize::from(BAR.0) + 2 <= usize::from(room) {
+        if left.width() + columns(&what) + usize::from(BAR.0) + 2 <= usize::from(room) {
             left.push_span(Span::styled(what, ui.theme.faint()));
         }
     }

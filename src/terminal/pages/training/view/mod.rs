@@ -49,8 +49,7 @@ pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
     match (&training.question, &training.watch) {
         (Some(question), Some(watch)) => {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            let question = Message::warning(before + &question.text(watch));
-            draw_question(&question, status, ui)
+            draw_question(&Message::warning(before + &question.text(watch)), question.field(), status, ui)
         }
         _ => draw_status(&message.unwrap_or(standing), status, ui),
     }

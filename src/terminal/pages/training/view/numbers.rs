@@ -39,7 +39,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
         let name = path.strip_prefix(&training.places.runs).unwrap_or(path).display();
         title.push(Span::styled(format!(" from {name}"), ui.theme.faint()));
     }
-    let inner = draw_title(&Line::from(title), area, ui);
+    let inner = draw_title(title, area, ui);
     let inner = draw_legend(watch, inner, ui);
     let mut columns = columns(watch);
     if !watch.is_at_work() {

@@ -23,7 +23,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let dot = ui.caps.pick(" · ", " - ");
     let (Some(table), Some(reel), Some(Scene { example, shot })) = (watch.table(), replay.reel(), replay.scene())
     else {
-        let inner = draw_title(&Line::from(Span::styled("Shots", ui.theme.text())), area, ui);
+        let inner = draw_title("Shots", area, ui);
         let words = if watch.lacks_config() {
             ["", "shots need the run's", "configuration"]
         } else {
@@ -44,24 +44,12 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         Span::styled(dot, ui.theme.faint()),
         Span::styled(outcome, style),
     ]);
-    let inner = draw_title(&title, area, ui);
-    let after = format!(" after {} shots ", short_count(reel.after));
     let free = area.x + title.width() as u16 + 5;
+    let inner = draw_title(title, area, ui);
+    let after = format!(" after {} shots ", short_count(reel.after));
     if usize::from(area.right().saturating_sub(free)) > after.len() {
         write_right(ui.buffer, free, area.right().saturating_sub(1), area.y, &after, ui.theme.faint());
     }
-    let view = TableView {
-        table,
-        layout: &example.layout,
-        shot: shot.as_ref(),
-        time: replay.time(),
-        is_moving: true,
-        front: 0,
-        is_lean: false,
-        spots: &[],
-        film: None,
-        theme: ui.theme,
-        caps: ui.caps,
-    };
+    let view = TableView { shot: shot.as_ref(), time: replay.time(), ..TableView::new(table, &example.layout, ui) };
     draw_table(&view, inner, ui);
 }

@@ -4,7 +4,7 @@ use ratatui::{
     buffer::Buffer,
     layout::{Position, Rect},
     style::Style,
-    text::{Line, Span},
+    text::Span,
 };
 
 use crate::{
@@ -14,7 +14,12 @@ use crate::{
             Target,
             training::{Screen, TrainingPage},
         },
-        ui::{Ui, message::Message, panel::draw_title, text::write_right},
+        ui::{
+            Ui, list,
+            message::Message,
+            panel::draw_title,
+            text::{columns, write_right},
+        },
         words::{count, short_count},
     },
 };
@@ -62,14 +67,14 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let widths: Vec<usize> = COLUMNS
         .iter()
         .map(|column| {
-            let cells = runs.iter().map(|run| (column.text)(run).chars().count());
+            let cells = runs.iter().map(|run| columns(&(column.text)(run)));
             cells.chain([column.heading.len()]).max().unwrap_or(0)
         })
         .collect();
-    let columns = kept(&widths, usize::from(area.width).saturating_sub(3));
+    let shown = kept(&widths, usize::from(area.width).saturating_sub(3));
     let mut x = area.x + 3;
     let mut places = Vec::new();
-    for &column in &columns {
+    for column in shown {
         // A name that is too long for all is cut.
         let width = (widths[column] as u16).min(area.right().saturating_sub(x));
         places.push((&COLUMNS[column], x, width));
@@ -106,9 +111,7 @@ fn in_view(training: &TrainingPage, area: Rect) -> impl Iterator<Item = (usize, 
     let list = &training.list;
     // Above it are a blank row and the headings, below it what is told of the marked run.
     let rows = area.height.saturating_sub(6);
-    let (most, count) = (usize::from(rows), list.runs().len());
-    let first = list.mark().saturating_sub(most / 2).min(count.saturating_sub(most));
-    (first..count).zip(area.y + 2..area.y + 2 + rows)
+    list::in_view(list.mark(), list.runs().len(), usize::from(rows)).zip(area.y + 2..)
 }
 
 /// What the mouse points at.
@@ -131,8 +134,8 @@ fn kept(widths: &[usize], room: usize) -> Vec<usize> {
 
 fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, ui: &mut Ui) {
     let of = format!(" {} of {}", mark + 1, training.list.runs().len());
-    let title = Line::from(vec![Span::styled("Run", ui.theme.text()), Span::styled(of, ui.theme.faint())]);
-    let inner = draw_title(&title, area, ui);
+    let title = vec![Span::styled("Run", ui.theme.text()), Span::styled(of, ui.theme.faint())];
+    let inner = draw_title(title, area, ui);
     let lines = [
         format!(
             "{} for {} on \"{}\", seed {}: {} of {} shots",

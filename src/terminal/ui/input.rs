@@ -1,0 +1,291 @@
+//! A line of text that is typed: the words of a search, a name, a value.
+
+use crossterm::event::{
+    KeyCode::{Backspace, Char, Delete, End, Home, Left, Right},
+    KeyEvent, KeyModifiers,
+};
+use ratatui::{layout::Rect, style::Modifier};
+use unicode_segmentation::UnicodeSegmentation;
+
+use crate::terminal::ui::{
+    Ui,
+    text::{columns, ending},
+};
+
+/// What the user gives: a key, or text from the clipboard.
+#[derive(Clone, Copy, Debug)]
+pub enum Typed<'a> {
+    /// A key that was pressed.
+    Key(&'a KeyEvent),
+    /// Text that was pasted.
+    Paste(&'a str),
+}
+
+/// What a key does to a line of text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Edit {
+    Insert(char),
+    Move(Way),
+    Delete(Way),
+}
+
+/// A way from the cursor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    Left,
+    Right,
+    WordLeft,
+    WordRight,
+    Start,
+    End,
+}
+
+/// A line of text with a cursor. Its keys are those of most terminal programs; Up, Down, Tab, Enter and Esc mean nothing to it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextField {
+    text: String,
+    /// Where the next letter goes, bytes.
+    cursor: usize,
+    /// Most bytes of the text.
+    limit: usize,
+}
+
+impl TextField {
+    /// An empty line that takes `limit` bytes.
+    pub const fn new(limit: usize) -> Self {
+        Self { text: String::new(), cursor: 0, limit }
+    }
+
+    /// The same with `text` in it, as far as that fits, and the cursor behind it.
+    #[must_use]
+    pub fn with(mut self, text: &str) -> Self {
+        self.insert(text);
+        self
+    }
+
+    /// What is typed.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Takes what was typed; `false` where a key means nothing here.
+    pub fn take(&mut self, typed: Typed) -> bool {
+        match typed {
+            Typed::Paste(text) => self.insert(text),
+            Typed::Key(key) => match Edit::of(key) {
+                None => return false,
+                Some(Edit::Insert(letter)) => self.insert(letter.encode_utf8(&mut [0; 4])),
+                Some(Edit::Move(way)) => self.cursor = self.at(way),
+                Some(Edit::Delete(way)) => {
+                    let end = self.at(way);
+                    let gone = self.cursor.min(end)..self.cursor.max(end);
+                    self.cursor = gone.start;
+                    self.text.drain(gone);
+                }
+            },
+        }
+        true
+    }
+
+    /// Puts `text` before the cursor, as far as there is room: a line's end is a blank, other control characters are refused.
+    fn insert(&mut self, text: &str) {
+        for letter in text.chars() {
+            let letter = if matches!(letter, '\n' | '\r' | '\t') { ' ' } else { letter };
+            if !letter.is_control() && self.text.len() + letter.len_utf8() <= self.limit {
+                self.text.insert(self.cursor, letter);
+                self.cursor += letter.len_utf8();
+            }
+        }
+    }
+
+    /// Where that way leads from the cursor.
+    fn at(&self, way: Way) -> usize {
+        let (before, after) = self.text.split_at(self.cursor);
+        let word = |letter: char| letter.is_alphanumeric();
+        match way {
+            Way::Left => before.grapheme_indices(true).next_back().map_or(0, |(start, _)| start),
+            Way::Right => self.cursor + after.graphemes(true).next().map_or(0, str::len),
+            Way::WordLeft => before.trim_end_matches(|letter| !word(letter)).trim_end_matches(word).len(),
+            Way::WordRight => {
+                self.text.len() - after.trim_start_matches(|letter| !word(letter)).trim_start_matches(word).len()
+            }
+            Way::Start => 0,
+            Way::End => self.text.len(),
+        }
+    }
+
+    /// Draws the line into the row `area`: all of it where there is room, or the part around the cursor, which is reversed.
+    pub fn draw(&self, area: Rect, ui: &mut Ui) {
+        let width = usize::from(area.width);
+        let (before, after) = self.text.split_at(self.cursor);
+        // What comes next is to be seen as well.
+        let ahead = columns(after).max(1).min(width / 3 + 1);
+        let shown = ending(before, width.saturating_sub(ahead));
+        let hidden = before.len() - shown.len();
+        ui.buffer.set_stringn(area.x, area.y, &self.text[hidden..], width, ui.theme.text());
+        let letter = after.graphemes(true).next().map_or(1, |letter| columns(letter).max(1));
+        let cursor = Rect { x: area.x + columns(shown) as u16, width: letter as u16, height: 1, ..area };
+        ui.buffer.set_style(cursor.intersection(area), ui.theme.text().add_modifier(Modifier::REVERSED));
+    }
+}
+
+impl Edit {
+    fn of(key: &KeyEvent) -> Option<Self> {
+        let by_word = key.modifiers == KeyModifiers::CONTROL || key.modifiers == KeyModifiers::ALT;
+        Some(match key.code {
+            Char(letter) if (key.modifiers - KeyModifiers::SHIFT).is_empty() => Self::Insert(letter),
+            Char('w') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Way::WordLeft),
+            Char('u') if key.modifiers == KeyModifiers::CONTROL => Self::Delete(Way::Start),
+            // What many terminals send for Alt with an arrow.
+            Char('b') if key.modifiers == KeyModifiers::ALT => Self::Move(Way::WordLeft),
+            Char('f') if key.modifiers == KeyModifiers::ALT => Self::Move(Way::WordRight),
+            Left if by_word => Self::Move(Way::WordLeft),
+            Right if by_word => Self::Move(Way::WordRight),
+            Backspace if by_word => Self::Delete(Way::WordLeft),
+            Delete if by_word => Self::Delete(Way::WordRight),
+            _ if !key.modifiers.is_empty() => return None,
+            Left => Self::Move(Way::Left),
+            Right => Self::Move(Way::Right),
+            Home => Self::Move(Way::Start),
+            End => Self::Move(Way::End),
+            Backspace => Self::Delete(Way::Left),
+            Delete => Self::Delete(Way::Right),
+            _ => return None,
+        })
+    }
+}
+
+impl Typed<'_> {
+    /// The letters that are typed; none for keys that do something else.
+    pub fn letters(&self) -> String {
+        match self {
+            Self::Paste(text) => (*text).to_owned(),
+            Self::Key(key) => match Edit::of(key) {
+                Some(Edit::Insert(letter)) => letter.to_string(),
+                _ => String::new(),
+            },
+        }
+    }
+}
+
+/// Whether a key is one of a line of text.
+pub fn is_typed(key: &KeyEvent) -> bool {
+    Edit::of(key).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use crossterm::event::KeyCode::{self, Enter, Esc, F, Tab, Up};
+    use proptest::prelude::*;
+    use ratatui::buffer::Buffer;
+
+    use super::*;
+    use crate::terminal::{
+        capabilities::{Capabilities, Depth, Glyphs},
+        keymap::remap::Keys,
+        ui::theme::Theme,
+    };
+
+    /// `text` with a bar where the cursor is, after these keys.
+    fn after(text: &str, keys: &[(KeyModifiers, KeyCode)]) -> String {
+        let mut field = TextField::new(100).with(text);
+        for (modifiers, code) in keys {
+            assert!(field.take(Typed::Key(&KeyEvent::new(*code, *modifiers))), "{code}");
+        }
+        let (before, after) = field.text.split_at(field.cursor);
+        format!("{before}|{after}")
+    }
+
+    /// What is seen of a field of `width` columns, and the columns that are reversed.
+    fn drawn(field: &TextField, width: u16) -> (String, Vec<u16>) {
+        let area = Rect::new(0, 0, width, 1);
+        let mut buffer = Buffer::empty(area);
+        let caps = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
+        let (theme, keys) = (Theme::new(caps.depth), Keys::default());
+        field.draw(area, &mut Ui { theme: &theme, caps, keys: &keys, buffer: &mut buffer });
+        let text = buffer.content().iter().map(|cell| cell.symbol().to_owned()).collect::<String>();
+        let is_reversed = |x: &u16| buffer[(*x, 0)].modifier.contains(Modifier::REVERSED);
+        (text, (0..width).filter(is_reversed).collect())
+    }
+
+    const NONE: KeyModifiers = KeyModifiers::NONE;
+    const CONTROL: KeyModifiers = KeyModifiers::CONTROL;
+    const ALT: KeyModifiers = KeyModifiers::ALT;
+
+    #[test]
+    fn letters_go_where_the_cursor_is() {
+        assert_eq!(after("ac", &[(NONE, Left), (NONE, Char('b'))]), "ab|c");
+        assert_eq!(after("bc", &[(NONE, Home), (KeyModifiers::SHIFT, Char('A')), (NONE, End)]), "Abc|");
+        assert_eq!(after("abc", &[(NONE, Left), (NONE, Backspace), (NONE, Delete), (NONE, Delete)]), "a|");
+        assert_eq!(after("", &[(NONE, Left), (NONE, Right), (NONE, Backspace), (NONE, Delete)]), "|");
+    }
+
+    #[test]
+    fn words_are_passed_and_deleted_as_one() {
+        let text = "draw to the #corner";
+        assert_eq!(after(text, &[(CONTROL, Left)]), "draw to the #|corner");
+        assert_eq!(after(text, &[(ALT, Left), (ALT, Char('b'))]), "draw to |the #corner");
+        assert_eq!(after(text, &[(NONE, Home), (CONTROL, Right), (ALT, Char('f'))]), "draw to| the #corner");
+        assert_eq!(after(text, &[(CONTROL, Char('w'))]), "draw to the #|");
+        assert_eq!(after(text, &[(CONTROL, Left), (CONTROL, Char('u'))]), "|corner");
+        assert_eq!(after(text, &[(NONE, Home), (CONTROL, Delete)]), "| to the #corner");
+    }
+
+    #[test]
+    fn a_letter_with_its_accents_is_one() {
+        assert_eq!(after("e\u{301}당", &[(NONE, Left), (NONE, Left)]), "|e\u{301}당");
+        assert_eq!(after("ae\u{301}", &[(NONE, Backspace)]), "a|");
+    }
+
+    #[test]
+    fn pasted_lines_are_one_line_without_control_characters_and_no_longer_than_the_limit() {
+        let mut field = TextField::new(12);
+        field.take(Typed::Paste("a\r\nb\u{1b}\u{7}\tc"));
+        assert_eq!(field.text(), "a  b c");
+        field.take(Typed::Paste(&"당".repeat(9)));
+        assert_eq!(field.text(), "a  b c당당");
+    }
+
+    #[test]
+    fn keys_of_the_page_are_not_taken() {
+        let page =
+            [(NONE, Up), (NONE, Enter), (NONE, Esc), (NONE, Tab), (NONE, F(1)), (CONTROL, Char('c')), (CONTROL, Up)];
+        for (modifiers, code) in page {
+            let key = KeyEvent::new(code, modifiers);
+            assert!(!TextField::new(9).take(Typed::Key(&key)) && !is_typed(&key), "{code}");
+        }
+    }
+
+    #[test]
+    fn the_cursor_is_reversed_and_seen_however_long_the_text_is() {
+        let field = TextField::new(100).with("ab");
+        assert_eq!(drawn(&field, 6), ("ab    ".to_owned(), vec![2]));
+        let mut field = TextField::new(100).with("0123456789abcdef");
+        assert_eq!(drawn(&field, 6), ("bcdef ".to_owned(), vec![5]));
+        field.take(Typed::Key(&KeyEvent::from(Home)));
+        assert_eq!(drawn(&field, 6), ("012345".to_owned(), vec![0]));
+        let mut hangul = TextField::new(100).with("당구당구");
+        hangul.take(Typed::Key(&KeyEvent::from(Left)));
+        assert_eq!(drawn(&hangul, 8).1, [6, 7], "both columns of a wide letter");
+    }
+
+    proptest! {
+        #[test]
+        fn no_series_of_keys_breaks_the_text_or_hides_the_cursor(
+            text in "\\PC{0,20}", keys in prop::collection::vec(0..14_usize, 0..20), width in 2..12_u16,
+        ) {
+            let all = [
+                (NONE, Left), (NONE, Right), (CONTROL, Left), (CONTROL, Right), (NONE, Home), (NONE, End), (NONE, Backspace),
+                (NONE, Delete), (CONTROL, Char('w')), (CONTROL, Char('u')), (NONE, Char('\u{301}')), (NONE, Char('구')),
+                (NONE, Char('x')), (CONTROL, Delete),
+            ];
+            let mut field = TextField::new(40).with(&text);
+            for key in keys {
+                let (modifiers, code) = all[key];
+                field.take(Typed::Key(&KeyEvent::new(code, modifiers)));
+                prop_assert!(field.text.len() <= 40 && field.text.is_char_boundary(field.cursor));
+                prop_assert!(!drawn(&field, width).1.is_empty());
+            }
+        }
+    }
+}

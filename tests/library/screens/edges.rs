@@ -1,0 +1,138 @@
+//! What all screens keep to: room at the right edge, nothing left of what lies below, signs that are seen in every theme.
+
+use carom::{
+    table::Table,
+    terminal::{App, Capabilities, Mapping},
+};
+use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, layout::Rect, style::Modifier};
+
+use super::{
+    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR},
+    practice::exercise,
+};
+
+fn picture(app: &App, (width, height): (u16, u16)) -> Buffer {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+    terminal.draw(|frame| app.draw(frame)).unwrap();
+    terminal.backend().buffer().clone()
+}
+
+/// Every page, with whatever fills it.
+fn apps(caps: Capabilities) -> Vec<(&'static str, App)> {
+    let coach = || Player::with(caps).press("Enter").answer();
+    let drills = || Player::at_library(caps, &[], &[]);
+    let mut all = vec![
+        ("placing", Player::with(caps).app),
+        ("advice", coach().app),
+        ("playing", coach().press("Space").wait(1.0).app),
+        ("balls", coach().press("v v v").app),
+        ("commands", Player::with(caps).press(":").app),
+        ("help", Player::with(caps).press("?").app),
+        ("settings", Player::with(caps).press("F5").app),
+        ("keys", Player::with(caps).press("F5 Tab").app),
+        ("library", drills().app),
+        ("exercise", Player::practising(caps).app),
+        ("played", Player::practising(caps).press("Space").wait(60.0).app),
+        ("record", drills().press("r").app),
+        ("form", Player::at_runs(caps).press("n").app),
+        ("watch", Player::watching(caps).app),
+    ];
+    all.extend((1..4).map(|views| ("view", coach().press(&"v ".repeat(views)).app)));
+    all
+}
+
+#[test]
+fn no_word_touches_the_right_edge() {
+    let mut found = Vec::new();
+    for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
+        for (page, app) in apps(caps) {
+            for size in [(80, 24), (90, 28), (100, 30), (120, 40), (160, 50)] {
+                let picture = picture(&app, size);
+                for y in 0..size.1 {
+                    let end: String = (size.0 - 8..size.0).map(|x| picture[(x, y)].symbol()).collect();
+                    let last = end.chars().last().unwrap();
+                    if last.is_alphanumeric() {
+                        found.push(format!("{page} {size:?}, row {y}: {end}"));
+                    }
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn the_commands_and_the_help_leave_nothing_of_what_lies_below() {
+    for size in [(80, 24), (120, 40)] {
+        let paper = picture(&Player::new().app, size)[(size.0 - 1, size.1 - 1)].bg;
+        for keys in [":", "?"] {
+            let picture = picture(&Player::new().press(keys).app, size);
+            for y in 1..size.1 - 2 {
+                let is_table =
+                    |x: u16| picture[(x, y)].bg != paper && !picture[(x, y)].modifier.contains(Modifier::REVERSED);
+                assert_eq!((0..size.0).find(|x| is_table(*x)), None, "{keys} {size:?}, row {y}");
+                if keys == ":" {
+                    let beside: String = [0, 1, size.0 - 2, size.0 - 1].map(|x| picture[(x, y)].symbol()).concat();
+                    assert_eq!(beside.trim(), "", "{size:?}, row {y}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_piece_of_cloth_stands_among_words_in_the_light_theme() {
+    let player = Player::new().press("T");
+    let light = picture(&player.app, (80, 24));
+    let (paper, text) = (light[(79, 23)].bg, 18);
+    for y in text..24 {
+        for x in 0..40 {
+            assert_eq!(light[(x, y)].bg, paper, "column {x}, row {y}");
+        }
+    }
+    let signs: Vec<&str> = (19..22).map(|y| light[(1, y)].symbol()).collect();
+    assert_eq!(signs, ["○", "●", "●"], "a white disc would not be seen on paper");
+}
+
+#[test]
+fn the_cue_is_drawn_where_there_are_only_letters_until_it_has_struck() {
+    for (caps, signs) in [(NO_COLOUR, ["╱", "╲", "│", "─"]), (ASCII, ["/", "\\", "|", "-"])] {
+        let size = (120, 40);
+        let bed = Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29)).bed;
+        let cue = |app: &App| {
+            let picture = picture(app, size);
+            bed.positions().filter(|at| signs.contains(&picture[*at].symbol())).count()
+        };
+        let ready = Player::with(caps).press("Enter").answer();
+        assert!(cue(&ready.app) >= 4, "{}", ready.text(120, 40));
+        assert_eq!(cue(&ready.press("Space").wait(0.5).app), 0);
+    }
+}
+
+#[test]
+fn titles_in_hangul_keep_to_their_columns() {
+    let own = exercise("own", &"당구 연습 ".repeat(8));
+    let player = Player::at_library(TRUE_COLOUR, &[own], &[]).press("Left");
+    let picture = picture(&player.app, (80, 24));
+    let y = (0..24).find(|y| picture[(2, *y)].symbol() == "당").expect("the position is listed");
+    assert_eq!(picture[(33, y)].symbol(), "-", "the grade has its place");
+    assert!((26..32).any(|x| picture[(x, y)].symbol() == "…"), "the title is cut");
+}
+
+#[test]
+fn what_is_typed_is_mended_where_the_cursor_is() {
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("/").type_in("xhalf balls");
+    let player = player.press("Home Delete End Backspace");
+    assert_eq!(player.app.drills().catalogue.filter.text.as_deref(), Some("half ball"));
+    let player = player.press("C-w C-w");
+    assert_eq!(player.app.drills().catalogue.filter.text, None);
+    let player = Player::new().press(": n d o Home u C-Right");
+    assert_eq!(player.app.command_palette().unwrap().words().text(), "undo");
+    let picture = picture(&player.app, (80, 24));
+    let reversed = (0..40).filter(|x| picture[(*x, 2)].modifier.contains(Modifier::REVERSED));
+    assert_eq!(reversed.collect::<Vec<_>>(), [11], "the cursor is seen behind the words");
+    let kept = Player::watching(TRUE_COLOUR).press("k C-u a c Left b");
+    assert!(kept.text(80, 24).contains("under the name: abc"), "{}", kept.text(80, 24));
+    let set = Player::new().press("F5 Enter l i g t Left h Enter");
+    assert!(set.app.settings().settings.palette.name() == "light", "{}", set.text(80, 24));
+}
