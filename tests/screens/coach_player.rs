@@ -144,4 +144,9 @@ impl Player {
     pub fn warns(&self, part: &str) {
         assert!(is_toast(&self.app, part), "{part}\n{}", self.text(120, 40));
     }
+
+    /// No toast is shown: nothing was refused.
+    pub fn warns_nothing(&self) {
+        assert!(self.app.toasts().shown().is_empty(), "{}", self.text(120, 40));
+    }
 }

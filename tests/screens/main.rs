@@ -5,6 +5,7 @@ mod coach;
 mod coach_player;
 mod drill_player;
 mod drills;
+mod faults;
 mod film;
 mod finder;
 mod keys;

@@ -28,6 +28,14 @@ impl Page for CoachPage {
         &mut self.message
     }
 
+    fn take_text(&mut self, text: &str) -> bool {
+        let taken = self.saving.type_in(text);
+        if taken {
+            self.message = None;
+        }
+        taken
+    }
+
     fn tick(&mut self, seconds: f64) {
         if let Some(pending) = &mut self.pending {
             pending.waited += seconds;

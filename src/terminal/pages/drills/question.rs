@@ -1,11 +1,9 @@
 //! What the drill screens ask before they do something.
 
-use crate::{drills::Exercise, learning::policy::kept::is_name};
+use crate::drills::Exercise;
 
 /// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
 const LONGEST: usize = 4000;
-/// Longest name that is made of a title, letters.
-const LONGEST_NAME: usize = 40;
 
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +12,6 @@ pub enum Question {
     Search(String),
     /// A share code.
     Code(String),
-    /// What the position is to be called, and tags.
-    Name(String, Box<Exercise>),
     /// Whether the position of the same name may be replaced.
     Replace(Box<Exercise>),
     /// Whether the position of this name may be removed.
@@ -30,13 +26,12 @@ impl Question {
         match self {
             Self::Search(typed) => format!("find: {typed}_"),
             Self::Code(typed) => format!("paste or type the code of a position: {typed}_"),
-            Self::Name(typed, _) => format!("save the balls as (a title, and #tags if you like): {typed}_"),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it? y/n", exercise.name)
             }
             Self::Remove(name) => format!("remove your position {name}? Its results stay. y/n"),
             Self::Leave(made, all) => {
-                format!("leave the exam after {made} of {all} exercises? It cannot be gone on with. y/n")
+                format!("leave the exam after {made} of {all} exercises? c on the coach's page goes on with it. y/n")
             }
         }
     }
@@ -44,7 +39,7 @@ impl Question {
     /// The text that is typed, where some is.
     pub(super) fn typed_mut(&mut self) -> Option<&mut String> {
         match self {
-            Self::Search(typed) | Self::Code(typed) | Self::Name(typed, _) => Some(typed),
+            Self::Search(typed) | Self::Code(typed) => Some(typed),
             _ => None,
         }
     }
@@ -61,45 +56,9 @@ impl Question {
     }
 }
 
-/// The title, the name that is made of it, and the tags of a position, from what was typed.
-///
-/// # Errors
-/// A sentence where no name comes of it.
-pub fn named(typed: &str) -> Result<(String, String, Vec<String>), String> {
-    let (tags, words): (Vec<&str>, Vec<&str>) = typed.split_whitespace().partition(|word| word.starts_with('#'));
-    let title = words.join(" ");
-    let mut name = String::new();
-    for letter in title.to_lowercase().chars() {
-        match letter {
-            _ if letter.is_alphanumeric() => name.push(letter),
-            // One hyphen between two words, whatever else stands there.
-            _ if !name.is_empty() && !name.ends_with('-') => name.push('-'),
-            _ => {}
-        }
-    }
-    let name: String = name.chars().take(LONGEST_NAME).collect();
-    let name = name.trim_end_matches('-').to_owned();
-    if !is_name(&name) {
-        return Err(format!("\"{title}\" makes no name; accepted is a title with letters or digits in it"));
-    }
-    let tags = tags.iter().map(|tag| tag.trim_start_matches('#').to_owned()).filter(|tag| !tag.is_empty()).collect();
-    Ok((title, name, tags))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_title_makes_a_name_that_is_accepted_and_tags_are_told_from_it() {
-        let (title, name, tags) = named("  Draw to the #draw  corner, (hard!)  #club #").unwrap();
-        assert_eq!((title.as_str(), name.as_str()), ("Draw to the corner, (hard!)", "draw-to-the-corner-hard"));
-        assert_eq!(tags, ["draw", "club"]);
-        assert!(is_name(&named(&"a very long title ".repeat(20)).unwrap().1));
-        for bad in ["", " #tag ", "(?)", "---"] {
-            assert!(named(bad).is_err(), "{bad}");
-        }
-    }
 
     #[test]
     fn pasted_lines_are_one_line_and_nothing_is_typed_into_a_yes_or_no() {
