@@ -32,6 +32,11 @@ pub enum ExamError {
     },
 }
 
+/// The grades of the exercises in an exam of `level`; `None` where there is no such level.
+pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
+    GRADES.get(usize::from(level).wrapping_sub(1)).cloned()
+}
+
 /// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread over the categories and
 /// grades as evenly as the library allows; the player's own positions, for which nobody has measured a par, have no
 /// part. The same seed draws the same.
@@ -39,13 +44,13 @@ pub enum ExamError {
 /// # Errors
 /// [`ExamError`].
 pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>, ExamError> {
-    let grades = GRADES.get(usize::from(level).wrapping_sub(1)).ok_or(ExamError::Level(level))?;
+    let grades = grades(level).ok_or(ExamError::Level(level))?;
     let fits = |exercise: &&Exercise| {
         exercise.category != Category::Own && exercise.par.is_some() && grades.contains(&exercise.grade)
     };
     let mut left: Vec<&Exercise> = library.iter().filter(fits).collect();
     if left.len() < LENGTH {
-        return Err(ExamError::TooFew { level, grades: grades.clone(), found: left.len() });
+        return Err(ExamError::TooFew { level, grades, found: left.len() });
     }
     left.shuffle(&mut Xoshiro256PlusPlus::seed_from_u64(seed));
     let mut drawn: Vec<&Exercise> = Vec::with_capacity(LENGTH);

@@ -71,7 +71,7 @@ impl Category {
             Self::OneCushion => "One cushion",
             Self::Gather => "Gather and rappel",
             Self::ThreeCushion => "Three-cushion patterns",
-            Self::Own => "Your own",
+            Self::Own => "My positions",
         }
     }
 }

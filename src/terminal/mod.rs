@@ -40,7 +40,8 @@ pub use app::{
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
 pub use config::{
-    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, saved_session::SavedSession,
+    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask,
+    saved_session::{SavedSession, SessionParts},
 };
 pub use effect::{Effect, PageId};
 pub use keymap::remap::Keys;

@@ -28,8 +28,8 @@ pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
         EventKind::BallRail(ball, rail) => format!("{} - {}", name(ball), rail_name(rail)),
         EventKind::SlidingRolling(ball) => format!("{} rolls", name(ball)),
         EventKind::RollingStationary(ball) => format!("{} stops", name(ball)),
-        EventKind::ContactBegins(ball) => format!("{} leans", name(ball)),
-        EventKind::ContactEnds(ball) => format!("{} comes free", name(ball)),
+        EventKind::ContactBegins(ball) => format!("{} contact begins", name(ball)),
+        EventKind::ContactEnds(ball) => format!("{} contact ends", name(ball)),
     }
 }
 
@@ -66,7 +66,7 @@ pub const fn rule_word(rule: Rule) -> &'static str {
 
 /// The player's name: that of one of the skills that have one.
 pub fn skill_word(skill: Skill) -> &'static str {
-    Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("own skill", |(name, _)| name)
+    Skill::NAMED.iter().find(|(_, named)| *named == skill).map_or("my skill", |(name, _)| name)
 }
 
 /// A probability in per cent, to a tenth where it is almost certain, never 100 before it is.
@@ -116,6 +116,12 @@ pub fn time_words(seconds: f64) -> String {
         () if minutes > 0 => format!("{minutes} min {} s", seconds % 60),
         () => format!("{seconds} s"),
     }
+}
+
+/// The same where it may be years.
+pub fn long_time_words(seconds: f64) -> String {
+    let years = seconds / (365.25 * 86_400.0);
+    if years < 2.0 { time_words(seconds) } else { format!("{} years", count(years as u64)) }
 }
 
 /// Metres as millimetres with one decimal.
@@ -169,6 +175,11 @@ mod tests {
         assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1,000", "1,234,567"]);
         assert_eq!([999, 12_500, 5_000_000].map(short_count), ["999", "12.5k", "5M"]);
         assert_eq!([59.9, 200.0, 7500.0, 273_600.0].map(time_words), ["59 s", "3 min 20 s", "2 h 5 min", "3 d 4 h"]);
+    }
+
+    #[test]
+    fn a_time_beyond_two_years_is_told_in_years() {
+        assert_eq!([90_000.0, 7.0e7, 3.2e11].map(long_time_words), ["1 d 1 h", "2 years", "10,140 years"]);
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::terminal::{
         chord_of, ctrl, key, letter,
     },
     pages::{
-        coach::keys::{self as coach, CoachAction, CoachCondition},
+        coach::keys::{self as coach, CoachAction, CoachCondition, SavingContext},
         drills::keys::{self as drills, DrillAction, DrillCondition, DrillContext},
         settings::keys::{self as settings, SettingsAction, SettingsCondition, SettingsContext},
         training::keys::{self as training, TrainingAction, TrainingCondition, TrainingContext},
@@ -83,6 +83,8 @@ pub enum Condition {
 pub enum KeyContext {
     /// The coach.
     Coach,
+    /// What is asked over its table before the balls are saved.
+    Saving(SavingContext),
     /// One of the training pages, or what is asked there.
     Training(TrainingContext),
     /// One of the drill screens.
@@ -95,9 +97,10 @@ pub enum KeyContext {
 
 impl KeyContext {
     /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 13] = [
+    pub const PAGES: [(Self, &'static str); 14] = [
         (Self::Coach, "Coach"),
         (Self::Drill(DrillContext::Library), "Drills: library"),
+        (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
         (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
         (Self::Drill(DrillContext::Result), "Drills: result of an exam"),
         (Self::Drill(DrillContext::Record), "Drills: record"),
@@ -118,7 +121,7 @@ impl KeyContext {
             Self::Training(place) => place.takes_letters(),
             Self::Drill(place) => place.takes_letters(),
             Self::Settings(place) => place.takes_letters(),
-            Self::CommandPalette => true,
+            Self::Saving(_) | Self::CommandPalette => true,
         }
     }
 
@@ -127,6 +130,7 @@ impl KeyContext {
         let event = pressed.event();
         match self {
             Self::Training(TrainingContext::Name)
+            | Self::Saving(SavingContext::Title)
             | Self::CommandPalette
             | Self::Drill(DrillContext::Search | DrillContext::Text)
             | Self::Settings(SettingsContext::Typing) => is_typed(&event),
@@ -151,6 +155,8 @@ pub struct Bound {
     pub when: Condition,
     /// Its heading in the help.
     pub section: Section,
+    /// Other words under which the command palette finds it.
+    pub also: &'static str,
 }
 
 /// Adds the lines of a page's table; `words` are those of one of a line's actions by itself.
@@ -170,6 +176,7 @@ fn take<B: Copy + PartialEq, W: Copy>(
             description: binding.description,
             when: when(binding.when),
             section: binding.section,
+            also: binding.also,
         }
     }));
 }
@@ -225,6 +232,7 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     program(&mut all, help);
     match place {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
+        KeyContext::Saving(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
         KeyContext::Training(place) => {
             take(&mut all, place.bindings(), A::Training, Condition::Training, training::words)
         }
@@ -299,6 +307,7 @@ mod tests {
         [KeyContext::Coach, KeyContext::CommandPalette]
             .into_iter()
             .chain(TrainingContext::ALL.map(KeyContext::Training))
+            .chain(SavingContext::ALL.map(KeyContext::Saving))
             .chain(DrillContext::ALL.map(KeyContext::Drill))
             .chain(SettingsContext::ALL.map(KeyContext::Settings))
     }

@@ -114,7 +114,8 @@ impl App {
     /// The same without the command palette.
     pub(super) fn place_below(&self) -> KeyContext {
         match self.screen {
-            PageId::Coach => KeyContext::Coach,
+            PageId::Coach if self.help.is_some() => KeyContext::Coach,
+            PageId::Coach => self.coach.saving().map_or(KeyContext::Coach, KeyContext::Saving),
             PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page().place()),
             PageId::Training => KeyContext::Training(self.training.place()),
             PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page_place()),

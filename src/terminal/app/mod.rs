@@ -29,7 +29,10 @@ use crate::{
     terminal::{
         app::{bindings::Action, palette::CommandPalette},
         capabilities::{Capabilities, Glyphs},
-        config::{Complaint, Settings, saved_session::SavedSession},
+        config::{
+            Complaint, Settings,
+            saved_session::{SavedSession, SessionParts},
+        },
         effect::{Effect, PageId},
         pages::{
             coach::{CoachPage, keys::CoachAction},
@@ -180,9 +183,9 @@ impl App {
     }
 
     /// What the next session may go on from; `None` where nothing has been done that is worth it.
-    pub fn last(&self) -> Option<SavedSession> {
+    pub fn last(&self) -> Option<SessionParts<'_>> {
         let practice = if self.screen == PageId::Drills { self.drills.unfinished() } else { None };
-        self.coach.last(practice.cloned())
+        self.coach.last(practice.or(self.coach.left_exam.as_ref()))
     }
 
     /// Says what has changed since the user was here before.
@@ -216,14 +219,6 @@ impl App {
             Action::NextGlyphs => self.next_glyphs(),
             Action::NextPalette => self.next_palette(),
             Action::Open(screen) => return self.open(screen),
-            Action::Coach(CoachAction::SavePosition) => {
-                self.coach.playback.pause();
-                self.screen = PageId::Drills;
-                let shot = self.coach.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
-                let (table, layout) = (self.coach.table().clone(), *self.coach.layout());
-                let balls = Balls { table, layout, rule: self.coach.query.rule };
-                return Some(self.drills.open_to_save(balls, self.coach.query.skill, shot));
-            }
             Action::Coach(CoachAction::OpenDrills) => return self.open(PageId::Drills),
             Action::Coach(CoachAction::OpenTraining) => return self.open(PageId::Training),
             Action::Coach(CoachAction::OpenFilms) => {
@@ -237,10 +232,21 @@ impl App {
                 self.screen = PageId::Drills;
                 return Some(self.drills.resume(practice, self.coach.query.skill));
             }
-            Action::Coach(action) => return self.coach.update(action),
+            Action::Coach(action) => {
+                return match self.coach.update(action) {
+                    // Where positions are saved may not be known yet: it is told with what is to be read there.
+                    Some(Effect::Drill(tasks)) => {
+                        Some(Effect::Drill(std::iter::once(self.drills.load()).chain(tasks).collect()))
+                    }
+                    effect => effect,
+                };
+            }
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
                 let balls = self.drills.take_for_coach();
+                if let Some(exam) = self.drills.take_left_exam() {
+                    self.coach.left_exam = Some(exam);
+                }
                 if balls.is_some() || self.drills.is_left() {
                     self.open(PageId::Coach);
                 }

@@ -99,11 +99,11 @@ impl App {
         let balls = self.watched().map_or(self.layout().balls, |shot| shot.recording.positions(time));
         let ball = ball_at(balls, mapping, self.caps.glyphs, (event.column, event.row))?;
         let colour = self.coach.cue_ball().ordered([0, 1, 2])[ball];
-        // As long as a shot has not begun the balls lie where they can be taken.
-        let is_moving = self.watched().is_some() && time > 0.0;
-        let when = if is_moving { CoachCondition::Placing } else { CoachCondition::Idle };
-        let effect = self.attempt(Condition::Coach(when), Action::Coach(CoachAction::Select(colour)));
-        if self.disabled_reason(Condition::Coach(CoachCondition::Placing)).is_none() {
+        // A click leaves the shot. Once that has begun the ball is drawn elsewhere than where it lies then.
+        let has_moved = self.watched().is_some() && time > 0.0;
+        let select = Action::Coach(CoachAction::Select(colour));
+        let effect = self.attempt(Condition::Coach(CoachCondition::Idle), select);
+        if !has_moved && self.disabled_reason(Condition::Coach(CoachCondition::Placing)).is_none() {
             self.coach.take_ball(mapping.nearest_metres(event.column, event.row)?);
         }
         effect

@@ -42,8 +42,16 @@ impl App {
         self.gather(false);
     }
 
-    /// Something has come of a task of the drill screens; gives what is to be done next.
+    /// Something has come of a task of the drill screens, or the coach's position is saved; gives what is to be done next.
     pub fn receive_drill(&mut self, report: DrillReport) -> Vec<DrillTask> {
+        let report = match report {
+            DrillReport::PositionSaved(exercise, outcome) if self.coach.has_saved(&exercise.name) => {
+                self.coach.saved(exercise, outcome);
+                self.gather(false);
+                return Vec::new();
+            }
+            other => other,
+        };
         let tasks = self.drills.receive(report);
         self.coach.own = self.drills.player.own.or(self.coach.own);
         self.gather(false);

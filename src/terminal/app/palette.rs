@@ -31,6 +31,8 @@ pub struct Command {
     pub hint: &'static str,
     /// Its heading in the help.
     pub title: &'static str,
+    /// Other words under which it is found.
+    pub also: &'static str,
     /// What it asks for.
     pub action: Action,
     /// When it may be used.
@@ -38,16 +40,16 @@ pub struct Command {
 }
 
 impl Command {
-    /// Whether all `words`, in small letters, occur in what is said of it alone.
+    /// Whether all `words`, in small letters, occur in what is said of it alone, or is meant by it.
     fn is_called(&self, words: &[String]) -> bool {
-        let Self { keys, description, title, .. } = self;
-        has(&format!("{description} {title} {keys}"), words)
+        let Self { keys, description, title, also, .. } = self;
+        has(&format!("{description} {title} {also} {keys}"), words)
     }
 
     /// The same, with what is said of all that its binding does.
     fn is_among(&self, words: &[String]) -> bool {
-        let Self { keys, description, group, hint, title, .. } = self;
-        has(&format!("{description} {group} {hint} {title} {keys}"), words)
+        let Self { keys, description, group, hint, title, also, .. } = self;
+        has(&format!("{description} {group} {hint} {title} {also} {keys}"), words)
     }
 }
 
@@ -76,6 +78,7 @@ pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Comma
                 group: binding.description,
                 hint: binding.hint.map_or("", |(word, _)| word),
                 title: binding.section.title(),
+                also: binding.also,
                 action: *action,
                 when: binding.when,
             });

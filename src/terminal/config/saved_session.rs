@@ -37,22 +37,52 @@ pub struct SavedSession {
     pub practice: Option<Session>,
 }
 
+/// The same, borrowed from the screens: whether anything has changed since it was written down is asked at every wake.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SessionParts<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// Which of them is the cue ball.
+    pub cue_ball: CueBall,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who plays.
+    pub skill: Skill,
+    /// Whether the next point counts too.
+    pub plan: bool,
+    /// What is practised.
+    pub practice: Option<&'a Session>,
+}
+
+impl SessionParts<'_> {
+    /// What is to be written down.
+    pub fn saved(&self) -> SavedSession {
+        let Self { table, layout, cue_ball, rule, skill, plan, practice } = *self;
+        let (table, practice) = (table.clone(), practice.cloned());
+        SavedSession { version: VERSION, table, layout, cue_ball, rule, skill, plan, practice }
+    }
+}
+
 impl SavedSession {
     /// What is to be remembered of the coach's screen.
     pub const fn new(table: Table, layout: Layout, rule: Rule, skill: Skill, plan: bool) -> Self {
         Self { version: VERSION, table, layout, cue_ball: CueBall::White, rule, skill, plan, practice: None }
     }
 
-    /// The same with another cue ball.
-    #[must_use]
-    pub fn with_cue_ball(self, cue_ball: CueBall) -> Self {
-        Self { cue_ball, ..self }
-    }
-
-    /// The same with what is practised.
-    #[must_use]
-    pub fn with_practice(self, practice: Option<Session>) -> Self {
-        Self { practice, ..self }
+    /// All of it but the version, borrowed.
+    pub const fn parts(&self) -> SessionParts<'_> {
+        let Self { version: _, table, layout, cue_ball, rule, skill, plan, practice } = self;
+        SessionParts {
+            table,
+            layout: *layout,
+            cue_ball: *cue_ball,
+            rule: *rule,
+            skill: *skill,
+            plan: *plan,
+            practice: practice.as_ref(),
+        }
     }
 
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and

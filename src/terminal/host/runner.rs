@@ -16,7 +16,7 @@ use crate::{
     storage::Places,
     terminal::{
         app::App,
-        config::saved_session::SavedSession,
+        config::saved_session::{SavedSession, SessionParts},
         effect::Effect,
         host::{events, guard::TerminalGuard, log, pace::Pace, signals},
         tasks::{
@@ -146,7 +146,7 @@ impl Runner {
     /// When something is to be written down for the next session, if there is anything new.
     fn forgets(&self) -> Option<Instant> {
         let (before, when) = &self.remembered;
-        (self.app.last() != *before).then(|| *when + REMEMBERED)
+        (self.app.last() != before.as_ref().map(SavedSession::parts)).then(|| *when + REMEMBERED)
     }
 
     /// Writes down what the next session may go on from, at the end and now and then: a crash costs two seconds of it.
@@ -156,9 +156,12 @@ impl Runner {
             return;
         }
         let last = self.app.last();
-        if let Some(last) = last.as_ref().filter(|_| last != *before)
-            && let Err(error) = last.save(&self.places.last)
-        {
+        if last == before.as_ref().map(SavedSession::parts) {
+            self.remembered.1 = Instant::now();
+            return;
+        }
+        let last = last.as_ref().map(SessionParts::saved);
+        if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
             // Once: the next session will have nothing to go on from, and nothing more comes of saying it again.
             if !std::mem::replace(&mut self.forgotten, true) {
                 let path = self.places.last.display();

@@ -25,6 +25,22 @@ pub struct Binding<A: 'static, W> {
     pub when: W,
     /// Its heading in the help.
     pub section: Section,
+    /// Other words under which the command palette finds it.
+    pub also: &'static str,
+}
+
+impl<A, W: Copy> Binding<A, W> {
+    /// The same line, which the command palette finds by these `words` as well.
+    pub const fn known_as(self, also: &'static str) -> Self {
+        Self {
+            keys: self.keys,
+            hint: self.hint,
+            description: self.description,
+            when: self.when,
+            section: self.section,
+            also,
+        }
+    }
 }
 
 /// A line of a table.
@@ -35,7 +51,7 @@ pub const fn bind<A, W: Copy>(
     hint: Option<(&'static str, usize)>,
     description: &'static str,
 ) -> Binding<A, W> {
-    Binding { keys, hint, description, when, section }
+    Binding { keys, hint, description, when, section, also: "" }
 }
 
 /// A key without modifiers.

@@ -68,7 +68,7 @@ pub const HELP: &[(&str, &str)] = &[
         "put the balls on their spots; where the cue ball may stand on either side, opening right puts it there",
     ),
     ("cue ball yellow", "which ball is the cue ball: white or yellow"),
-    ("random", "put the balls anywhere"),
+    ("random", "random position"),
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
     ("skill club", "who plays: perfect, expert, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1"),
     ("plan off", "whether the coach has the next point in mind: on or off"),

@@ -37,10 +37,13 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
     let tip = [offset(cue.a, "left", "right"), offset(cue.b, "above", "below")];
     let tip = tip.into_iter().flatten().collect::<Vec<_>>().join(" and ");
     let tip = if tip.is_empty() { "Strike the centre.".to_owned() } else { format!("Strike {tip} the centre.") };
+    let cue_words = match fixed(cue.theta.to_degrees(), 1).as_str() {
+        "0.0" => "level cue".to_owned(),
+        degrees => format!("cue raised {degrees} degrees"),
+    };
     let speed = format!(
-        "Speed {} metres a second, cue raised {} degrees, direction {} degrees.",
+        "Speed {} metres a second, {cue_words}, direction {} degrees.",
         fixed(cue.speed, 2),
-        fixed(cue.theta.to_degrees(), 1),
         fixed(cue.phi.to_degrees(), 2)
     );
     let mut lines = vec![tip, speed];

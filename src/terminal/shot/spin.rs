@@ -45,7 +45,7 @@ impl Spin {
             Motion::Sliding if rolling > (1.0 + LITTLE) * speed => "follow",
             Motion::Sliding => "slides",
             Motion::Rolling => "rolls",
-            Motion::Resting => "leans",
+            Motion::Resting => "touches",
             Motion::Stationary if speed == 0.0 && side.abs() > STILL => "spins",
             Motion::Stationary => "",
         };

@@ -41,7 +41,11 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut 
         let event = n.checked_sub(1).map(|n| events[n]);
         let (at, words) =
             event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind, ui.theme.cue_ball)));
-        let words = if is_narrow { words.trim_end_matches(" rail").replace("comes free", "is free") } else { words };
+        let words = if is_narrow {
+            words.trim_end_matches(" rail").replace("contact begins", "touches").replace("contact ends", "is free")
+        } else {
+            words
+        };
         let style = match n {
             _ if n == present => ui.theme.accent(),
             _ if n < present => ui.theme.faint(),

@@ -182,7 +182,9 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     first.send("d");
     first.wait_for("The half ball");
     first.send("e");
-    first.wait_for("exercise 1 of 20");
+    first.wait_for("Enter begins");
+    first.send("\r");
+    first.wait_for("exercise 1 of 20:");
     first.send(" ");
     first.wait_for("to the end");
     first.send("\r");

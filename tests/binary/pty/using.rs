@@ -191,7 +191,7 @@ fn what_comes_at_once_is_all_taken_without_another_key() {
     session.send(":");
     session.wait_for(" of ");
     session.send(&format!("\x1b[200~{}\x1b[201~", "paste ".repeat(1000)));
-    session.wait_for("nothing here is called like that");
+    session.wait_for("no matching command");
     session.send("\x1b");
     session.wait_for("yellow at x");
     session.send("q");

@@ -72,11 +72,11 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
 #[test]
 fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown() {
     for (keys, words, header) in [
-        ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan"),
-        ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan"),
-        ("S", "the player: club; Enter asks the coach", "R straight S club P plan"),
-        ("R S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan"),
-        ("P", "only this point counts; Enter asks the coach", "R straight S expert P off"),
+        ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan on"),
+        ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan on"),
+        ("S", "the player: club; Enter asks the coach", "R straight S club P plan on"),
+        ("R S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan on"),
+        ("P", "only this point counts; Enter asks the coach", "R straight S expert P plan off"),
     ] {
         let player = Player::new().press("Enter").answer().press(keys);
         let text = player.text(80, 24);

@@ -209,7 +209,7 @@ fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
 
 #[test]
 fn an_exam_has_twenty_exercises_and_a_grade() {
-    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e");
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter");
     for n in 1..=20 {
         player.says(&format!("exercise {n} of 20"));
         let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::AdviceState));
@@ -219,7 +219,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     player.says("Grade: ").says("of 20 made").says("beginner");
     assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Result));
     assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
-    let left = player.press("Enter e Space Enter Enter Esc");
+    let left = player.press("Enter e Enter Space Enter Enter Esc");
     left.says("leave the exam after 1 of 20 exercises?");
     let stays = left.press("n c");
     assert_eq!(stays.app.place(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");
@@ -242,7 +242,7 @@ fn the_records() {
     // 37 attempts at one shot tell something of the player.
     one.says("times an expert's");
     let kept = one.press("w");
-    kept.says("own skill");
+    kept.says("my skill");
     let skill = kept.store().own_skill().unwrap().unwrap().skill;
     let played = kept.app.drills().player.skill;
     assert_eq!(played.to_string(), skill.to_string());
@@ -255,11 +255,11 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
     Store::new(&places(folder.path())).keep_skill(Skill::CLUB.scaled(1.1)).unwrap();
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     let own = player.store().own_skill().unwrap().unwrap().skill;
-    player.says("player: own skill");
+    player.says("player: my skill");
     let back = player.press("Esc");
     assert_eq!(back.app.coach().query.skill, Skill::EXPERT);
     let again = back.press("d");
-    again.says("player: own skill");
+    again.says("player: my skill");
     let cycled = again.press("Esc S S S");
     assert_eq!(cycled.app.coach().query.skill, own);
     let perfect = cycled.press("S d");
@@ -271,13 +271,8 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
 #[test]
 fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     let player = Player::new().press("Right s");
-    player.shows(&["save the balls as (a title, and #tags if you like): _", "Enter take it"]);
-    assert_eq!(player.press("Esc").app.place(), KeyContext::Coach);
-    let player = Player::new().press("Right s");
-    let refused = player.type_in("??").press("Enter");
-    refused.says("makes no name");
-    let saved = refused.press("Backspace Backspace").type_in("My corner #draw #hard").press("Enter");
-    saved.says("saved as my-corner").says("My corner").says("#draw #hard");
+    let saved = player.type_in("My corner #draw #hard").press("Enter d Left");
+    saved.says("My corner").says("#draw #hard");
     let kept = saved.store().positions().items.remove(0);
     assert_eq!((kept.title.as_str(), kept.rule, kept.tags.len()), ("My corner", Rule::StraightRail, 2));
     let shared = saved.press("y");

@@ -36,7 +36,7 @@ fn what_may_not_be_used_now_says_why_and_stays() {
     player.warns("there is no shot yet; Enter asks the coach");
     assert!(player.app.command_palette().is_some() && player.app.shot().is_none());
     let player = player.press("x x x x");
-    assert!(player.text(80, 24).contains("nothing here is called like that"));
+    assert!(player.text(80, 24).contains("no matching command"));
     let player = player.press("Enter Esc");
     assert!(player.app.command_palette().is_none());
 }

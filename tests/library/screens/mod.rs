@@ -4,6 +4,7 @@ mod advice;
 mod coach;
 mod drills;
 mod edges;
+mod faults;
 mod film;
 mod finder;
 mod keys;

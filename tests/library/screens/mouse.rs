@@ -83,7 +83,7 @@ fn a_key_in_the_middle_of_a_drag_ends_it() {
 }
 
 #[test]
-fn balls_of_a_shot_that_plays_are_not_taken_but_those_of_one_that_waits_are() {
+fn balls_of_a_shot_that_plays_are_not_moved_but_those_of_one_that_waits_are() {
     let player = at_the_table(Player::new().press("Enter").answer());
     let cell = mapping().to_cell(player.app.layout().balls[2]);
     let taken = player.point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
@@ -91,8 +91,7 @@ fn balls_of_a_shot_that_plays_are_not_taken_but_those_of_one_that_waits_are() {
     let player = taken.press("u .").wait(0.1);
     let start = *player.app.layout();
     let player = at_the_table(player).point(PRESS, cell).point(DRAG, (cell.0, cell.1 + 3));
-    assert_eq!(*player.app.layout(), start);
-    player.warns("a shot is being watched; Esc goes back to the balls");
+    assert_eq!(*player.app.layout(), start, "a click leaves the shot and moves nothing");
     let thinking = at_the_table(Player::new().press("Enter")).point(PRESS, cell);
     thinking.warns("the coach is thinking; Esc stops it");
 }
@@ -173,9 +172,9 @@ fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
     assert_eq!(player.app.settings().marked().key, "speed");
     let player = at_the_table(player.point(MouseEventKind::ScrollDown, (5, speed)).press("Tab"));
     assert_eq!(player.app.settings().marked().key, "mouse");
-    let random = row(&player, "put the balls anywhere") as u16;
+    let random = row(&player, "random position") as u16;
     let player = player.point(PRESS, (5, random)).press("Enter");
-    assert!(player.text(120, 40).contains("press the key that is to do this: put the balls anywhere"));
+    assert!(player.text(120, 40).contains("press the key that is to do this: random position"));
 }
 
 #[test]

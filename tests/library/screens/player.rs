@@ -329,6 +329,11 @@ impl Player {
         assert!(self.is_toast(part), "{part}\n{}", self.text(120, 40));
     }
 
+    /// No toast is shown: nothing was refused.
+    pub fn warns_nothing(&self) {
+        assert!(self.app.toasts().shown().is_empty(), "{}", self.text(120, 40));
+    }
+
     /// On the screen, or in a toast, which breaks its lines as it needs.
     #[track_caller]
     pub fn says(&self, part: &str) -> &Self {

@@ -93,7 +93,7 @@ fn sentence(command: &Command, reason: Option<&str>) -> String {
 /// What the status line says: the marked command in full.
 fn standing(app: &App, marked: Option<&Command>) -> Message {
     marked.map_or_else(
-        || Message::plain("nothing here is called like that"),
+        || Message::plain("no matching command"),
         |command| {
             let reason = app.disabled_reason(command.when);
             let words = sentence(command, reason);

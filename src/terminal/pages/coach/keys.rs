@@ -30,7 +30,7 @@ pub enum CoachAction {
     SmallerStep,
     /// Puts the balls on their spots.
     Opening,
-    /// Puts the balls anywhere.
+    /// Puts the balls at random.
     Random,
     /// Makes the opponent's ball the cue ball.
     OtherBall,
@@ -78,8 +78,12 @@ pub enum CoachAction {
     Bundled,
     /// Goes on from where the last session ended.
     Resume,
-    /// Asks under which name the balls are to be saved as a position to practise.
+    /// Asks for a title under which the balls are saved as a position to practise.
     SavePosition,
+    /// Takes the title that was typed, or says yes.
+    Yes,
+    /// Saves nothing.
+    No,
     /// Opens the drills.
     OpenDrills,
     /// Opens the list of filmed shots.
@@ -115,19 +119,60 @@ pub enum CoachCondition {
     Interrupted,
 }
 
+/// What is asked before the balls are saved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SavingContext {
+    /// A title that is typed.
+    Title,
+    /// Whether a position may be replaced.
+    Replace,
+}
+
+impl SavingContext {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Title, Self::Replace];
+
+    /// Its keys.
+    pub const fn bindings(self) -> &'static [Binding<A, W>] {
+        match self {
+            Self::Title => TITLE,
+            Self::Replace => REPLACE,
+        }
+    }
+}
+
+/// A title that is typed.
+#[rustfmt::skip]
+const TITLE: &[Binding<A, W>] = &[
+    bind(Program, W::Anytime, &[key(Enter, A::Yes)], Some(("save", 1)), "save the balls under what is typed"),
+    bind(Program, W::Anytime, &[key(Esc, A::No)], Some(("cancel", 1)), "save nothing"),
+];
+
+/// Whether a position may be replaced.
+#[rustfmt::skip]
+const REPLACE: &[Binding<A, W>] = &[
+    bind(Program, W::Anytime, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
+    bind(Program, W::Anytime, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+];
+
 /// The keys, the more particular ones first.
 #[rustfmt::skip]
 pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
-    bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("last session", 1)), "go on from where the last session ended"),
+    bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("go on", 1)),
+        "go on with the exam that was left, or from where the last session ended"),
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
     bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
         "step through the shots that the coach lists"),
+    bind(Shot, W::Watching, &[
+        key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)), letter('2', A::Select(1)),
+        letter('3', A::Select(2)), key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls),
+        ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too"),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
-        "turn the panels: balls, chances, margins and maps, plan"),
+        "turn the panels: balls, chances, margins and maps, plan").known_as("diamonds numbers"),
     bind(Balls, W::Placing, &[
         key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
         key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),
@@ -146,8 +191,6 @@ pub const COACH: &[Binding<A, W>] = &[
         ], None, "move the selected ball by a tenth of a step"),
     bind(Balls, W::Placing, &[letter('-', A::SmallerStep), letter('+', A::LargerStep), letter('=', A::LargerStep)],
         Some(("step", 2)), "choose a smaller or larger step"),
-    bind(Shot, W::Watching, &[key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls)], Some(("place balls", 1)),
-        "back to the balls as they were"),
     bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
         Some(("event", 2)), "step from event to event"),
     bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
@@ -165,20 +208,28 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Balls, W::Redoable, &[letter('U', A::Redo), ctrl('r', A::Redo)], Some(("redo", 1)),
         "make a change again that was taken back"),
-    bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots; again for the other side"),
-    bind(Balls, W::Idle, &[letter('r', A::Random)], None, "put the balls anywhere"),
+    bind(Balls, W::Idle, &[letter('o', A::Opening)], None, "put the balls on their spots; again for the other side")
+        .known_as("clear reset opening break start"),
+    bind(Balls, W::Idle, &[letter('r', A::Random)], None, "random position").known_as("shuffle"),
     bind(Balls, W::Idle, &[letter('x', A::OtherBall)], None, "the opponent's turn: play with the other ball"),
     bind(Program, W::Anytime, &[letter('d', A::OpenDrills)], Some(("drills", 1)),
-        "practise: exercises, exams, and your own positions"),
+        "practise: exercises, exams, and my positions"),
     bind(Program, W::Anytime, &[letter('f', A::OpenFilms)], None, "filmed shots: watch real balls beside simulated ones"),
-    bind(Balls, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),
+    bind(Balls, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise")
+        .known_as("export share keep store"),
     bind(Program, W::Anytime, &[letter('t', A::OpenTraining)], Some(("train", 1)),
         "train agents and watch them learn"),
 ];
 
 /// The words of `action` by itself, where its binding does several things.
-pub const fn words(action: CoachAction, _section: Section) -> Option<&'static str> {
+pub const fn words(action: CoachAction, section: Section) -> Option<&'static str> {
     Some(match action {
+        A::Select(0) if matches!(section, Shot) => "leave the shot and select the white ball",
+        A::Select(1) if matches!(section, Shot) => "leave the shot and select the yellow ball",
+        A::Select(2) if matches!(section, Shot) => "leave the shot and select the red ball",
+        A::SelectNext if matches!(section, Shot) => "leave the shot and select the next ball",
+        A::SelectPrevious if matches!(section, Shot) => "leave the shot and select the ball before",
+        A::PlaceBalls => "leave the shot, back to placing the balls",
         A::Select(0) => "select the white ball",
         A::Select(1) => "select the yellow ball",
         A::Select(2) => "select the red ball",
@@ -206,7 +257,7 @@ pub const fn words(action: CoachAction, _section: Section) -> Option<&'static st
         A::Slower => "play slower",
         A::NextRule => "choose the rule: what counts as a point",
         A::NextSkill => "choose the player",
-        A::TurnPlan => "choose the plan: whether the next point counts too",
+        A::TurnPlan => "plan on or off: whether the next point counts too",
         A::NextShot => "show the next of the coach's shots",
         A::PreviousShot => "show the one before of the coach's shots",
         _ => return None,

@@ -1,6 +1,7 @@
 //! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
-//! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls.
+//! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls,
+//! [`saving`] how they are saved as a position.
 
 mod actions;
 mod advised;
@@ -8,6 +9,7 @@ mod asking;
 mod dragging;
 pub mod keys;
 mod page;
+mod saving;
 pub mod view;
 
 use std::{sync::Arc, time::Duration};
@@ -22,11 +24,15 @@ use crate::{
     learning::Policy,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        config::{Settings, saved_session::SavedSession},
+        config::{
+            Settings,
+            saved_session::{SavedSession, SessionParts},
+        },
         pages::coach::{
             asking::{Pending, Studying},
             dragging::Drag,
-            keys::CoachCondition,
+            keys::{CoachCondition, SavingContext},
+            saving::Saving,
         },
         shot::{Shot, history::History, placing::STEPS, playback::Playback},
         tasks::advice::{CoachQuery, Proposal},
@@ -107,6 +113,10 @@ pub struct CoachPage {
     drag: Option<Drag>,
     /// Where the last session ended, until it is gone on with.
     before: Option<SavedSession>,
+    /// The exam that was left before its end, until it is gone on with.
+    pub left_exam: Option<Session>,
+    /// What is asked before the balls are saved.
+    saving: Saving,
     step: usize,
     /// Time that the coach may think.
     budget: Duration,
@@ -140,6 +150,8 @@ impl CoachPage {
             }),
             drag: None,
             before: None,
+            left_exam: None,
+            saving: Saving::default(),
             step: FIRST_STEP,
             budget: Duration::from_millis(Settings::default().think_ms),
             pending: None,
@@ -147,6 +159,11 @@ impl CoachPage {
             questions: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
+    }
+
+    /// What is asked before the balls are saved.
+    pub const fn saving(&self) -> Option<SavingContext> {
+        self.saving.context()
     }
 
     /// Offers to go on from where the last session ended, if that is somewhere else.
@@ -162,12 +179,11 @@ impl CoachPage {
 
     /// What the next session may go on from, with what is practised; `None` while nothing is and the balls lie as at the
     /// start.
-    pub fn last(&self, practice: Option<Session>) -> Option<SavedSession> {
+    pub fn last<'a>(&'a self, practice: Option<&'a Session>) -> Option<SessionParts<'a>> {
         let CoachQuery { rule, skill, plan, .. } = self.query;
-        let last = || {
-            SavedSession::new(self.table().clone(), *self.layout(), rule, skill, plan).with_cue_ball(self.cue_ball())
-        };
-        (self.is_begun() || practice.is_some()).then(|| last().with_practice(practice))
+        let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
+        let last = SessionParts { table, layout, cue_ball, rule, skill, plan, practice };
+        (self.is_begun() || practice.is_some()).then_some(last)
     }
 
     /// Whether anything has been done since the start.
@@ -175,8 +191,11 @@ impl CoachPage {
         self.balls.can_undo() || self.balls.present().advised.is_some()
     }
 
-    /// Goes on from where the last session ended; gives what was practised there.
+    /// Goes on with the exam that was left, or from where the last session ended; gives what was practised there.
     pub fn resume(&mut self) -> Option<Session> {
+        if let Some(exam) = self.left_exam.take() {
+            return Some(exam);
+        }
         let last = self.before.take()?;
         self.take_position(&last.table, last.layout, last.rule);
         self.balls.present_mut().cue_ball = last.cue_ball;
@@ -351,7 +370,8 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => {
-                refuse(self.before.is_none() || self.is_begun(), "there is no earlier session to go on with")
+                let is_gone = self.before.is_none() || self.is_begun();
+                refuse(is_gone && self.left_exam.is_none(), "there is no earlier session to go on with")
             }
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
             CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),

@@ -7,7 +7,7 @@ use crate::{
     table::CueBall,
     terminal::{
         pages::{Page, PageArea, Target},
-        ui::{Ui, message::Message},
+        ui::{Ui, input::Typed, message::Message},
     },
 };
 
@@ -26,6 +26,14 @@ impl Page for CoachPage {
 
     fn message_mut(&mut self) -> &mut Option<Message> {
         &mut self.message
+    }
+
+    fn input(&mut self, typed: Typed) -> bool {
+        let taken = self.saving.field_mut().is_some_and(|field| field.take(typed));
+        if taken {
+            self.message = None;
+        }
+        taken
     }
 
     fn tick(&mut self, seconds: f64) {

@@ -4,7 +4,7 @@ use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
         effect::Effect,
-        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, keys::DrillAction as Action, question},
+        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, keys::DrillAction as Action},
         tasks::drills::DrillTask,
         ui::message::Message,
         words::skill_word,
@@ -31,6 +31,7 @@ impl DrillsPage {
             Action::Search => self.question = Some(Question::search()),
             Action::Open => return self.open_marked(),
             Action::Exam(level) => return self.begin_exam(level),
+            Action::BeginExam => self.pages = vec![Screen::Library, Screen::Exercise],
             Action::Record => return Some(self.open_records()),
             Action::Scope => self.records.toggle_scope(),
             Action::KeepSkill => {
@@ -104,7 +105,14 @@ impl DrillsPage {
     fn begin_exam(&mut self, level: u8) -> Option<Effect> {
         let seed = self.seed();
         match exam::draw(self.catalogue.library().exercises(), level, seed) {
-            Ok(exercises) => Some(self.begin(Goal::Exam, exercises)),
+            Ok(exercises) => {
+                let effect = self.begin(Goal::Exam, exercises);
+                // What comes is told first; the key that chose the exam plays no stroke of it.
+                if self.page() == Screen::Exercise {
+                    self.pages = vec![Screen::Library, Screen::Exam(level)];
+                }
+                Some(effect)
+            }
             Err(error) => {
                 self.message = Some(Message::warning(error.to_string()));
                 None
@@ -169,11 +177,8 @@ impl DrillsPage {
     }
 
     fn no(&mut self) {
-        match self.question.take() {
-            Some(Question::Search(_)) => self.catalogue.find_text(""),
-            // One has come from the coach for this alone.
-            Some(Question::Name(..)) => self.is_left = true,
-            _ => {}
+        if let Some(Question::Search(_)) = self.question.take() {
+            self.catalogue.find_text("");
         }
     }
 
@@ -184,11 +189,12 @@ impl DrillsPage {
         let answer = match &question {
             Question::Search(_) => return None,
             Question::Code(typed) => self.decoded(typed.text()),
-            Question::Name(typed, position) => self.named(typed.text(), position),
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),
             Question::Leave(..) => {
+                self.left_exam = self.unfinished().cloned();
                 self.leave_page();
+                self.message = Some(Message::plain("the exam is kept; c on the coach's page (F2) goes on with it"));
                 return None;
             }
         };
@@ -206,11 +212,6 @@ impl DrillsPage {
     fn decoded(&self, typed: &str) -> Result<Box<Exercise>, String> {
         let exercise = decode(typed).map_err(|error| error.to_string())?;
         self.free(Exercise { category: Category::Own, ..exercise })
-    }
-
-    fn named(&self, typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
-        let (title, name, tags) = question::named(typed)?;
-        self.free(Exercise { name, title, tags, ..position.clone() })
     }
 
     /// A position whose name the program itself has not taken.

@@ -32,8 +32,10 @@ pub enum DrillAction {
     Open,
     /// Chooses another player, whose errors are played.
     Player,
-    /// Begins an exam of this level.
+    /// Draws an exam of this level and tells what comes.
     Exam(u8),
+    /// Begins the exam.
+    BeginExam,
     /// Opens the record, of the exercise where one is open.
     Record,
     /// Shows the exercise's code, and copies it where the terminal can.
@@ -70,7 +72,7 @@ pub enum DrillAction {
     OpenFilms,
     /// Watches another filmed shot, a later one where positive.
     Filmed(isize),
-    /// Shows the shot that is taught, or hides it.
+    /// Shows the model shot, or hides it.
     Hint,
     /// Shifts the balls by half a ball at each repetition, or not.
     Shift,
@@ -119,7 +121,7 @@ pub enum DrillCondition {
     Running,
     /// While a shot is watched that has come to its end.
     Ended,
-    /// Where the shot that is taught is known.
+    /// Where the model shot is known.
     AdviceState,
     /// Where there is a note that can be taken back.
     Undoable,
@@ -142,6 +144,8 @@ pub enum DrillContext {
     Library,
     /// Words that are looked for in it.
     Search,
+    /// What comes in an exam.
+    Exam,
     /// An exercise.
     Exercise,
     /// The result of an exam.
@@ -160,9 +164,10 @@ pub enum DrillContext {
 
 impl DrillContext {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Library,
         Self::Search,
+        Self::Exam,
         Self::Exercise,
         Self::Result,
         Self::Record,
@@ -177,6 +182,7 @@ impl DrillContext {
         match self {
             Self::Library => LIBRARY,
             Self::Search => SEARCH,
+            Self::Exam => EXAM,
             Self::Exercise => EXERCISE,
             Self::Result => RESULT,
             Self::Record => RECORD,
@@ -205,7 +211,8 @@ pub const LIBRARY: &[Binding<A, W>] = &[
         ], Some(("choose", 2)), "mark another exercise"),
     bind(Library, W::Here, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
         key(Tab, A::Category(1))], Some(("category", 2)), "list another category"),
-    bind(Library, W::Here, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags"),
+    bind(Library, W::Here, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
+        .known_as("diamonds systems banks"),
     bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)), "list everything again"),
     bind(Library, W::Here, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
         "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5"),
@@ -216,10 +223,12 @@ pub const LIBRARY: &[Binding<A, W>] = &[
         letter('5', A::Grade(5)),
         ], None, "list one grade alone, 1 the easiest; once more lists all"),
     bind(Library, W::Marked, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
-    bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it"),
+    bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it")
+        .known_as("export clipboard"),
     bind(Film, W::Here, &[letter('f', A::OpenFilms)], Some(("film", 1)), "filmed shots: watch real balls beside simulated ones"),
-    bind(Library, W::Here, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted"),
-    bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of your positions; asks first"),
+    bind(Library, W::Here, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted")
+        .known_as("import"),
+    bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of my positions; asks first"),
     BACK,
 ];
 
@@ -231,14 +240,19 @@ pub const SEARCH: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise"),
 ];
 
+/// What comes in an exam.
+#[rustfmt::skip]
+pub const EXAM: &[Binding<A, W>] = &[
+    bind(Program, W::Here, &[key(Enter, A::BeginExam)], Some(("begin", 1)), "begin the exam"),
+    BACK,
+];
+
 /// An exercise.
 #[rustfmt::skip]
 pub const EXERCISE: &[Binding<A, W>] = &[
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
-    bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
-        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
     bind(Stroke, W::Watching, &[letter('-', A::Pace(-1)), letter('+', A::Pace(1)), letter('=', A::Pace(1)),
         key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster"),
     bind(Stroke, W::Aiming, &[letter(' ', A::Play), key(Enter, A::Play)], Some(("play", 1)),
@@ -258,7 +272,18 @@ pub const EXERCISE: &[Binding<A, W>] = &[
     bind(Stroke, W::Aiming, &[(Chord::shift(Down), A::Faster(-0.5)), (Chord::shift(Up), A::Faster(0.5))], None,
         "strike softer, harder by 0.5 m/s"),
     bind(Stroke, W::AdviceState, &[letter('v', A::Hint)], Some(("hint", 1)),
-        "show the shot that is taught, and hide it; the attempt then counts as helped"),
+        "show the model shot, and hide it; the attempt then counts as one with a hint"),
+    bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
+        "note a point, a miss at a real table; nothing is played here"),
+    bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
+    bind(Score, W::Free, &[letter('o', A::Goal)], Some(("goal", 1)),
+        "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
+    bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),
+        "shift the balls by half a ball at each repetition, or not"),
+    bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
+        "a shorter or longer goal"),
+    bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
+        key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
     bind(Stroke, W::Aiming, &[key(Tab, A::AimAtBall)], Some(("at a ball", 1)),
         "aim full at the first object ball, then at the other"),
     bind(Stroke, W::Aiming, &[letter('0', A::Centre)], None, "put the tip in the middle"),
@@ -267,15 +292,6 @@ pub const EXERCISE: &[Binding<A, W>] = &[
         "make a change of the stroke again that was taken back"),
     bind(Stroke, W::Aiming, &[letter('-', A::Raise(-1.0)), letter('+', A::Raise(1.0)), letter('=', A::Raise(1.0))], None,
         "lower, raise the cue by 1 degree"),
-    bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/missed at a table", 2)),
-        "note a point, a miss at a real table; nothing is played here"),
-    bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
-    bind(Score, W::Free, &[letter('o', A::Goal)], Some(("goal", 1)),
-        "free repetition, a run of points, a game that plays on from where the balls stop, or a match of two sides"),
-    bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
-        "a shorter or longer goal"),
-    bind(Position, W::Free, &[letter('x', A::Shift)], Some(("shift", 1)),
-        "shift the balls by half a ball at each repetition, or not"),
     bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
@@ -292,7 +308,7 @@ pub const RESULT: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const RECORD: &[Binding<A, W>] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
-    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as your own, and play with it"),
+    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as my skill, and play with it"),
     bind(Record, W::Here, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions"),
     BACK,
 ];

@@ -24,9 +24,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::Skill,
-    drills::{Exercise, Goal, Library, Session},
+    drills::{Goal, Library, Session},
     game::Rule,
-    physics::CueInputs,
     storage::Places,
     table::{Layout, Table},
     terminal::{
@@ -53,6 +52,8 @@ pub use turn::{Lesson, Stage, Turn, Watched};
 pub enum Screen {
     /// The list of exercises.
     Library,
+    /// What comes in an exam of this level that is about to begin.
+    Exam(u8),
     /// An exercise.
     Exercise,
     /// The result of an exam.
@@ -134,7 +135,8 @@ pub struct DrillsPage {
     for_coach: Option<Balls>,
     /// The pages one has come through; the last one is open.
     pages: Vec<Screen>,
-    is_left: bool,
+    /// An exam that was left before its end.
+    left_exam: Option<Session>,
     rng: Xoshiro256PlusPlus,
 }
 
@@ -156,7 +158,7 @@ impl DrillsPage {
             wishes: Wishes { goal: Goal::Free, shifted: false },
             for_coach: None,
             pages: Vec::new(),
-            is_left: false,
+            left_exam: None,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
     }
@@ -165,7 +167,6 @@ impl DrillsPage {
     /// again.
     pub fn open(&mut self, skill: Skill) -> Effect {
         self.message = None;
-        self.is_left = false;
         let mut tasks = vec![self.load()];
         if skill != self.player.at_coach {
             self.player.choose(skill);
@@ -178,7 +179,7 @@ impl DrillsPage {
     }
 
     /// Reads what is on the disk.
-    fn load(&self) -> DrillTask {
+    pub fn load(&self) -> DrillTask {
         DrillTask::Load(self.places.clone())
     }
 
@@ -201,27 +202,14 @@ impl DrillsPage {
         self.turn.as_ref().map(|turn| &turn.session).filter(|session| !session.is_over())
     }
 
-    /// Opens the page that was open last and asks under which name the position on the coach's table is to be saved.
-    pub fn open_to_save(&mut self, balls: Balls, skill: Skill, shot: Option<CueInputs>) -> Effect {
-        let Balls { table, layout, rule } = balls;
-        let position = Exercise { shot, ..Exercise::own("", rule, &table.name, layout) };
-        let effect = self.open(skill);
-        match position.table() {
-            Ok(known) if known == table => {
-                self.catalogue.show_own("");
-                self.question = Some(Question::name(position));
-            }
-            _ => {
-                let words = format!("positions are saved for the bundled tables alone, and \"{}\" is none", table.name);
-                self.message = Some(Message::warning(words));
-            }
-        }
-        effect
+    /// Whether one has gone back to the coach from the first page.
+    pub const fn is_left(&self) -> bool {
+        self.pages.is_empty()
     }
 
-    /// Whether one has gone back to the coach: from the first page, or from what one had come for.
-    pub const fn is_left(&self) -> bool {
-        self.is_left || self.pages.is_empty()
+    /// The exam that was left before its end; asked once.
+    pub const fn take_left_exam(&mut self) -> Option<Session> {
+        self.left_exam.take()
     }
 
     /// Balls that are to go to the coach's table; asked once.
@@ -238,7 +226,7 @@ impl DrillsPage {
     pub fn place(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search(_)) => DrillContext::Search,
-            Some(Question::Code(_) | Question::Name(..)) => DrillContext::Text,
+            Some(Question::Code(_)) => DrillContext::Text,
             Some(_) => DrillContext::Question,
             None => self.page_place(),
         }
@@ -248,6 +236,7 @@ impl DrillsPage {
     pub fn page_place(&self) -> DrillContext {
         match self.page() {
             Screen::Library => DrillContext::Library,
+            Screen::Exam(_) => DrillContext::Exam,
             Screen::Exercise => DrillContext::Exercise,
             Screen::Result => DrillContext::Result,
             Screen::Record => DrillContext::Record,
@@ -269,7 +258,9 @@ impl DrillsPage {
         match when {
             DrillCondition::Here => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
-            DrillCondition::MarkedOwn => refuse(!self.catalogue.is_own(), "bundled exercises stay; only your own go"),
+            DrillCondition::MarkedOwn => {
+                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
+            }
             DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
             DrillCondition::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),

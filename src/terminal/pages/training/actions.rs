@@ -106,7 +106,16 @@ impl TrainingPage {
         }
     }
 
+    /// Starts the run that the form describes, after a question where it is a long one.
     fn start(&mut self) -> Option<Effect> {
+        if let Some((shots, seconds)) = self.form.long_run() {
+            self.question = Some(Question::Long { shots, seconds });
+            return None;
+        }
+        self.launch()
+    }
+
+    fn launch(&mut self) -> Option<Effect> {
         match self.form.launch(&self.folder) {
             Ok(launch) => {
                 self.show(&launch.folder);
@@ -170,10 +179,11 @@ impl TrainingPage {
             self.message = Some(Message::warning(reason));
             return None;
         }
-        let folder = self.watch.as_ref()?.folder().to_owned();
+        let folder = self.watch.as_ref().map(|watch| watch.folder().to_owned());
         match question {
-            Question::Stop => Some(Effect::Send(Request::Stop, folder)),
-            Question::Abandon => Some(Effect::Send(Request::Abandon, folder)),
+            Question::Long { .. } => self.launch(),
+            Question::Stop => Some(Effect::Send(Request::Stop, folder?)),
+            Question::Abandon => Some(Effect::Send(Request::Abandon, folder?)),
             Question::Replace(name) => Some(self.keep(name, true)),
             Question::Name(typed) => {
                 let name = typed.text().trim().to_owned();

@@ -23,6 +23,16 @@ const BUDGETS: [u64; 9] =
 /// Most digits of a number that is typed; every number of so many digits fits.
 const DIGITS: usize = 18;
 
+/// Seconds beyond which a run is a long one.
+const DAY: f64 = 86_400.0;
+/// Shots a second that the agents usually play and learn from, measurements included, on one core of which others work as
+/// well: those of the first 20 s of `carom train`, `ddpg` on `match`, the others on `thesis`. An idle core is two to three
+/// times as fast. They only decide whether somebody is asked before a run of more than a day.
+const USUAL_SPEEDS: [(&str, f64); 4] =
+    [("ddpg", 3000.0), ("q-learning", 15_000.0), ("dqn", 2500.0), ("thesis-ddpg", 12_000.0)];
+/// The same of an agent that has not been measured.
+const SLOWEST: f64 = 2500.0;
+
 /// A field of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
@@ -62,6 +72,8 @@ impl Field {
 pub struct Form {
     /// The marked field.
     pub field: Field,
+    /// Whether nothing was typed since the field was entered or its value chosen: the next digit begins another number.
+    is_fresh: bool,
     /// KeyContext of the agent in [`AGENTS`].
     pub agent: usize,
     /// What it is rewarded for.
@@ -83,6 +95,7 @@ impl Form {
     pub fn new() -> Self {
         Self {
             field: Field::Agent,
+            is_fresh: true,
             agent: 0,
             reward: Reward::default(),
             table: TABLES[0],
@@ -96,10 +109,12 @@ impl Form {
     /// Marks another field, the next where positive.
     pub fn move_mark(&mut self, fields: isize) {
         self.field = neighbour(&Field::ALL, self.field, fields);
+        self.is_fresh = true;
     }
 
     /// Takes the next value of the marked field, or the one before. `runs` are those whose weights can be taken.
     pub fn choose(&mut self, step: isize, runs: &[Summary]) {
+        self.is_fresh = true;
         match self.field {
             Field::Agent => {
                 self.agent = around(self.agent, step, AGENTS.len());
@@ -144,23 +159,40 @@ impl Form {
         }
     }
 
-    /// Adds a digit to the number in the marked field; `false` where it is none or takes none.
+    /// Adds a digit to the number in the marked field, or begins another one with it; `false` where it is none or takes
+    /// none.
     pub fn typed(&mut self, letter: char) -> bool {
+        let is_fresh = self.is_fresh;
         let Some(number) = self.number().filter(|_| letter.is_ascii_digit()) else { return false };
-        if number == "0" {
+        if is_fresh || number == "0" {
             number.clear();
         }
         if number.len() < DIGITS {
             number.push(letter);
         }
+        self.is_fresh = false;
         true
     }
 
-    /// Takes the last digit of the number in the marked field back.
+    /// Takes the last digit of the number in the marked field back; what is typed then follows what is left.
     pub fn erase(&mut self) {
+        self.is_fresh = false;
         if let Some(number) = self.number() {
             number.pop();
         }
+    }
+
+    /// The number of shots and how long they usually take, s, where that is beyond a day.
+    pub fn long_run(&self) -> Option<(u64, f64)> {
+        let shots = self.shots.parse::<u64>().ok()?;
+        let seconds = shots as f64 / self.usual_speed();
+        (seconds > DAY).then_some((shots, seconds))
+    }
+
+    /// Shots a second that the agent usually plays and learns from.
+    fn usual_speed(&self) -> f64 {
+        let name = AGENTS[self.agent].name;
+        USUAL_SPEEDS.iter().find(|(agent, _)| *agent == name).map_or(SLOWEST, |(_, speed)| *speed)
     }
 
     /// The name of the run's folder.

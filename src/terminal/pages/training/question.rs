@@ -5,13 +5,20 @@ use crate::{
     terminal::{
         pages::training::{keys::TrainingCondition, watch::Watch},
         ui::input::TextField,
-        words::count,
+        words::{count, long_time_words},
     },
 };
 
 /// A question that waits for an answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Question {
+    /// Whether to start a run of so many shots, which takes so many seconds if the agent is as fast as usual.
+    Long {
+        /// Its shots.
+        shots: u64,
+        /// The seconds.
+        seconds: f64,
+    },
     /// Whether to stop the run and save it.
     Stop,
     /// Whether to abandon the run.
@@ -23,12 +30,19 @@ pub enum Question {
 }
 
 impl Question {
-    /// The question about the run that is watched, without what is typed.
-    pub fn text(&self, watch: &Watch) -> String {
-        let name = &watch.own.name;
+    /// The question about the run that is watched, if there is one, without what is typed.
+    pub fn text(&self, watch: Option<&Watch>) -> String {
+        let name = watch.map_or("the run", |watch| &watch.own.name);
         match self {
+            Self::Long { shots, seconds } => format!(
+                "{} shots take about {}, at the usual {:.0} shots a second; start the run? y/n",
+                count(*shots),
+                long_time_words(*seconds),
+                *shots as f64 / seconds
+            ),
             Self::Stop => format!("stop {name}: measure it, save it and end it? y/n"),
             Self::Abandon => {
+                let Some(watch) = watch else { return format!("abandon {name}? y/n") };
                 let shots = count(watch.own.run.shots());
                 let best = watch.own.run.best();
                 let best = best.map_or(String::new(), |best| format!(", with a best held-out reward of {best:.3}"));
@@ -42,6 +56,7 @@ impl Question {
     /// As long as what it may be asked and answered.
     pub const fn when(&self) -> TrainingCondition {
         match self {
+            Self::Long { .. } => TrainingCondition::Here,
             Self::Stop | Self::Abandon => TrainingCondition::AtWork,
             Self::Name(_) | Self::Replace(_) => TrainingCondition::HasPolicy,
         }

@@ -47,7 +47,7 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
 /// What is asked, each after the key that changes it.
 fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
-    let plan = if query.plan { "plan" } else { "off" };
+    let plan = if query.plan { "plan on" } else { "plan off" };
     let parts = [
         (CoachAction::NextRule, rule_word(query.rule)),
         (CoachAction::NextSkill, skill_word(query.skill)),

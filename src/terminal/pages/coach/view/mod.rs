@@ -40,7 +40,7 @@ use crate::{
             message::Message,
             sight::draw_sight,
             spin::draw_spin,
-            status_line::draw_status,
+            status_line::{draw_question, draw_status},
             table::{TableView, draw_table},
             tip::draw_tip,
         },
@@ -68,8 +68,13 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     draw_table(&view, panes.table, ui);
     draw_panels(coach, &panes, ui);
     let caps = ui.caps;
+    let message = coach.message.clone();
+    if let Some(question) = coach.saving.text() {
+        let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
+        return draw_question(&Message::plain(before + &question), coach.saving.field(), area.status, ui);
+    }
     let standing = || Message::plain(standing(coach, caps));
-    draw_status(&coach.message.clone().unwrap_or_else(standing), area.status, ui)
+    draw_status(&message.unwrap_or_else(standing), area.status, ui)
 }
 
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
@@ -110,8 +115,11 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), Panes::new(coach.table(), area).table)
 }
 
-/// What the mouse points at.
+/// What the mouse points at; nothing while something is asked.
 pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
+    if coach.saving().is_some() {
+        return None;
+    }
     let area = area.screen;
     let mapping = table_mapping(coach, area);
     if mapping.bed.contains(at) {

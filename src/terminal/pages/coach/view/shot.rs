@@ -145,10 +145,12 @@ fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<R
     let degree = caps.pick("°", " deg");
     let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
     let value = |text: String| format!("{text:>7}");
+    let elevation = fixed(cue.theta.to_degrees(), 1);
+    let words = if elevation == "0.0" { "level cue" } else { "cue raised" };
     vec![
         ("a", value(fixed(cue.a, 3)), offset(cue.a, across_word(cue.a))),
         ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
-        (caps.pick("θ", "th"), value(fixed(cue.theta.to_degrees(), 1) + degree), "cue raised".into()),
+        (caps.pick("θ", "th"), value(elevation + degree), words.into()),
         (caps.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + caps.pick("°", "")), aim),
         ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
         ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),

@@ -106,9 +106,12 @@ fn standing(turn: &Turn) -> Message {
         (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
         (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
         (false, Lesson::Known(taught)) if turn.shows_hint && taught.is_own => {
-            "this is the shot that is taught; the attempt counts as helped"
+            "this is the model shot; the attempt counts as one with a hint"
         }
-        (false, Lesson::Known(_)) if turn.shows_hint => "this is the coach's shot; the attempt counts as helped",
-        (false, Lesson::Known(_)) => "set the stroke and play it",
+        (false, Lesson::Known(_)) if turn.shows_hint => {
+            "this is the coach's shot; the attempt counts as one with a hint"
+        }
+        (false, Lesson::Known(_)) if turn.is_exam() => "set the stroke and play it",
+        (false, Lesson::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
     })
 }

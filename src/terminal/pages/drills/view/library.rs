@@ -215,7 +215,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragra
     add(format!("rule: {}{grade}", exercise.rule), theme.text(), false);
     if let Some(par) = exercise.par {
         let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(words::percent);
-        add(format!("par: beginner {beginner}, club {club}, expert {expert} %"), theme.text(), false);
+        add(format!("typical: beginner {beginner}, club {club}, expert {expert} %"), theme.text(), false);
     }
     match drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         Some(score) => {

@@ -1,5 +1,6 @@
 //! The drill screens: the library, the exercise that is practised, the result of an exam, and the records.
 
+mod exam;
 mod exercise;
 mod film;
 mod films;
@@ -36,6 +37,7 @@ const READABLE: u16 = 80;
 pub fn draw(drills: &DrillsPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let (header, body, status) = (area.header, area.body, area.status);
     let standing = match (drills.page(), &drills.turn) {
+        (Screen::Exam(level), Some(turn)) => exam::draw(drills, turn, level, header, body, ui),
         (Screen::Exercise, Some(turn)) => exercise::draw(drills, turn, header, body, ui),
         (Screen::Result, Some(turn)) => result::draw(drills, turn, header, body, ui),
         (Screen::Record, _) => record::draw(drills, header, body, ui),

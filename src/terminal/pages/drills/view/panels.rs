@@ -130,7 +130,7 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
 
 /// Whose shot it is that is taught.
 const fn teacher(taught: &Taught) -> &'static str {
-    if taught.is_own { "taught" } else { "coach" }
+    if taught.is_own { "model shot" } else { "coach" }
 }
 
 /// What a player has to change to get from one stroke to another, or `none` where nobody could tell them apart.

@@ -46,12 +46,13 @@ pub fn draw(training: &TrainingPage, area: &PageArea, ui: &mut Ui) -> u16 {
         }
     };
     let message = training.message.clone();
-    match (&training.question, &training.watch) {
-        (Some(question), Some(watch)) => {
+    match &training.question {
+        Some(question) => {
             let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-            draw_question(&Message::warning(before + &question.text(watch)), question.field(), status, ui)
+            let words = Message::warning(before + &question.text(training.watch.as_ref()));
+            draw_question(&words, question.field(), status, ui)
         }
-        _ => draw_status(&message.unwrap_or(standing), status, ui),
+        None => draw_status(&message.unwrap_or(standing), status, ui),
     }
 }
 

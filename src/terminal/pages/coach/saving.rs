@@ -1,0 +1,182 @@
+//! Saving the balls as a position to practise: a title is asked for over the table, and where there is a position of its
+//! name already, whether that may be replaced.
+
+use crate::{
+    drills::{Category, Exercise, Library},
+    learning::policy::kept::is_name,
+    terminal::{
+        effect::Effect,
+        pages::coach::{CoachPage, keys::SavingContext},
+        tasks::drills::DrillTask,
+        ui::{input::TextField, message::Message},
+    },
+};
+
+/// Longest text that is typed or pasted, bytes.
+const LONGEST: usize = 400;
+/// Longest name that is made of a title, letters.
+const LONGEST_NAME: usize = 40;
+
+/// What is asked, and what is on its way to the disk.
+#[derive(Debug, Default)]
+pub struct Saving {
+    question: Option<Question>,
+    /// The name of the position that is being written.
+    writing: Option<String>,
+}
+
+/// A question about the position that is to be saved.
+#[derive(Debug)]
+enum Question {
+    /// What it is to be called, and tags, as far as they are typed.
+    Title(TextField, Box<Exercise>),
+    /// Whether the one of the same name may be replaced.
+    Replace(Box<Exercise>),
+}
+
+impl Saving {
+    /// Whose keys are in force; `None` where nothing is asked.
+    pub const fn context(&self) -> Option<SavingContext> {
+        match &self.question {
+            Some(Question::Title(..)) => Some(SavingContext::Title),
+            Some(Question::Replace(_)) => Some(SavingContext::Replace),
+            None => None,
+        }
+    }
+
+    /// The question, without what is typed.
+    pub fn text(&self) -> Option<String> {
+        Some(match self.question.as_ref()? {
+            Question::Title(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),
+            Question::Replace(exercise) => {
+                format!("there is a position called {} already; replace it? y/n", exercise.name)
+            }
+        })
+    }
+
+    /// The text that is typed, where some is.
+    pub const fn field(&self) -> Option<&TextField> {
+        match &self.question {
+            Some(Question::Title(typed, _)) => Some(typed),
+            _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub const fn field_mut(&mut self) -> Option<&mut TextField> {
+        match &mut self.question {
+            Some(Question::Title(typed, _)) => Some(typed),
+            _ => None,
+        }
+    }
+
+    /// Saves nothing.
+    pub fn no(&mut self) {
+        self.question = None;
+    }
+}
+
+impl CoachPage {
+    /// Asks for a title of the position on the table, with the shot that makes the point there if it is known.
+    pub(super) fn ask_title(&mut self) {
+        self.playback.pause();
+        let shot = self.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
+        let position = Exercise { shot, ..Exercise::own("", self.query.rule, &self.table().name, *self.layout()) };
+        if position.table().is_ok_and(|known| known == *self.table()) {
+            self.saving.question = Some(Question::Title(TextField::new(LONGEST), Box::new(position)));
+        } else {
+            let name = &self.table().name;
+            let words = format!("positions are saved for the bundled tables alone, and \"{name}\" is none");
+            self.message = Some(Message::warning(words));
+        }
+    }
+
+    /// Takes the title that was typed, or that a position may be replaced.
+    pub(super) fn save(&mut self) -> Option<Effect> {
+        let (exercise, replace) = match self.saving.question.take()? {
+            Question::Replace(exercise) => (exercise, true),
+            Question::Title(typed, position) => match named(typed.text(), &position) {
+                Ok(exercise) => (exercise, false),
+                Err(sentence) => {
+                    // What was typed stays, to be mended.
+                    self.saving.question = Some(Question::Title(typed, position));
+                    self.message = Some(Message::warning(sentence));
+                    return None;
+                }
+            },
+        };
+        self.saving.writing = Some(exercise.name.clone());
+        Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]))
+    }
+
+    /// Whether the position called `name` was saved from here; asked once.
+    pub fn has_saved(&mut self, name: &str) -> bool {
+        self.saving.writing.take_if(|writing| writing == name).is_some()
+    }
+
+    /// A position is on the disk, or one of its name was there before, or it could not be written.
+    pub fn saved(&mut self, exercise: Box<Exercise>, outcome: Result<bool, String>) {
+        let name = &exercise.name;
+        match outcome {
+            Ok(true) => {
+                let list = Category::Own.title();
+                self.message = Some(Message::good(format!("saved as {name}; the drills list it under {list}")));
+            }
+            Ok(false) => self.saving.question = Some(Question::Replace(exercise)),
+            Err(sentence) => self.message = Some(Message::warning(format!("{name} is not saved: {sentence}"))),
+        }
+    }
+}
+
+/// The position under what was typed.
+///
+/// # Errors
+/// A sentence where no name comes of it, or one that the program itself has taken.
+fn named(typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
+    let (title, name, tags) = title_name_tags(typed)?;
+    if Library::bundled().is_ok_and(|library| library.is_bundled(&name)) {
+        return Err(format!("{name} is the name of a bundled exercise; take another"));
+    }
+    Ok(Box::new(Exercise { name, title, tags, ..position.clone() }))
+}
+
+/// The title, the name that is made of it, and the tags of a position, from what was typed.
+///
+/// # Errors
+/// A sentence where no name comes of it.
+fn title_name_tags(typed: &str) -> Result<(String, String, Vec<String>), String> {
+    let (tags, words): (Vec<&str>, Vec<&str>) = typed.split_whitespace().partition(|word| word.starts_with('#'));
+    let title = words.join(" ");
+    let mut name = String::new();
+    for letter in title.to_lowercase().chars() {
+        match letter {
+            _ if letter.is_alphanumeric() => name.push(letter),
+            // One hyphen between two words, whatever else stands there.
+            _ if !name.is_empty() && !name.ends_with('-') => name.push('-'),
+            _ => {}
+        }
+    }
+    let name: String = name.chars().take(LONGEST_NAME).collect();
+    let name = name.trim_end_matches('-').to_owned();
+    if !is_name(&name) {
+        return Err(format!("\"{title}\" makes no name; accepted is a title with letters or digits in it"));
+    }
+    let tags = tags.iter().map(|tag| tag.trim_start_matches('#').to_owned()).filter(|tag| !tag.is_empty()).collect();
+    Ok((title, name, tags))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_makes_a_name_that_is_accepted_and_tags_are_told_from_it() {
+        let (title, name, tags) = title_name_tags("  Draw to the #draw  corner, (hard!)  #club #").unwrap();
+        assert_eq!((title.as_str(), name.as_str()), ("Draw to the corner, (hard!)", "draw-to-the-corner-hard"));
+        assert_eq!(tags, ["draw", "club"]);
+        assert!(is_name(&title_name_tags(&"a very long title ".repeat(20)).unwrap().1));
+        for bad in ["", " #tag ", "(?)", "---"] {
+            assert!(title_name_tags(bad).is_err(), "{bad}");
+        }
+    }
+}

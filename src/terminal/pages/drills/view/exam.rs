@@ -1,0 +1,43 @@
+//! What comes in an exam, before it begins.
+
+use ratatui::layout::Rect;
+
+use crate::{
+    drills::exam::grades,
+    terminal::{
+        pages::drills::{
+            DrillsPage, Turn,
+            view::{READABLE, draw_header},
+        },
+        ui::{
+            Ui,
+            message::Message,
+            panel::{draw_title, write_paragraphs},
+        },
+        words::skill_word,
+    },
+};
+
+/// Draws the page; gives what the status line says while there is no news.
+pub fn draw(drills: &DrillsPage, turn: &Turn, level: u8, header: Rect, area: Rect, ui: &mut Ui) -> Message {
+    draw_header(drills, "exam", "", header, ui);
+    let inner = draw_title(format!("An exam of level {level}"), area, ui);
+    let text = Rect { x: inner.x + 2, y: inner.y + 1, width: READABLE.min(inner.width - 3), height: inner.height - 1 };
+    let count = turn.session.exercises.len();
+    let of = grades(level).map_or(String::new(), |grades| format!(" of grade {} to {}", grades.start(), grades.end()));
+    let player = skill_word(turn.skill());
+    let paragraphs = [
+        format!("{count} exercises{of}, easy ones first, one attempt each."),
+        "Set the stroke and play it. There is no hint and no second try.".to_owned(),
+        format!(
+            "Strokes are played with the errors of the player who is named above: {player}. p in the library chooses another."
+        ),
+        "In the end you see what you made of every exercise, and what a beginner, a club player and an expert make on \
+         average in the same exam."
+            .to_owned(),
+        "Esc leaves the exam; c on the coach's page goes on with it, at the next start of the program too.".to_owned(),
+    ];
+    let spaced = paragraphs.into_iter().flat_map(|words| [(words, ui.theme.text()), (String::new(), ui.theme.text())]);
+    write_paragraphs(&spaced.collect::<Vec<_>>(), text, ui);
+    Message::plain(format!("Enter begins with exercise 1 of {count}"))
+}

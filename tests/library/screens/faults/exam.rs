@@ -1,0 +1,43 @@
+//! An exam: what comes is told before the first stroke, and one that was left is gone on with.
+
+use carom::terminal::{DrillContext, KeyContext};
+
+use crate::screens::player::{Player, TRUE_COLOUR, check};
+
+const EXERCISE: KeyContext = KeyContext::Drill(DrillContext::Exercise);
+const LIBRARY: KeyContext = KeyContext::Drill(DrillContext::Library);
+
+#[test]
+fn an_exam_begins_with_a_page_that_tells_what_comes() {
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("E");
+    check("exam_begins", &player);
+    player.says("level 2").says("20 exercises of grade 2 to 4").says("one attempt each").says("expert");
+    let begun = player.press("Enter");
+    assert_eq!((begun.app.place(), begun.kept()), (EXERCISE, 0), "the first Enter plays nothing");
+    begun.says("exercise 1 of 20").says("set the stroke and play it");
+    let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
+    assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");
+}
+
+#[test]
+fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc");
+    player.says("leave the exam after 1 of 20 exercises? c on the coach's page goes on with it. y/n");
+    let left = player.press("y");
+    assert_eq!(left.app.place(), LIBRARY);
+    left.says("the exam is kept; c on the coach's page (F2) goes on with it");
+    let on = left.press("F2 c");
+    assert_eq!(on.app.place(), EXERCISE);
+    on.says("exercise 2 of 20");
+    let over = (2..=20).fold(on, |player, _| player.press("Space Enter Enter"));
+    over.says("Grade: ");
+    assert_eq!((over.kept(), over.store().sessions().items.len()), (20, 1), "one exam");
+    over.press("Enter F2 c").says("there is no earlier session");
+}
+
+#[test]
+fn an_exam_that_was_left_is_there_at_the_next_start_too() {
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Enter Enter Esc y F2 Right");
+    let practice = left.app.last().and_then(|last| last.practice.map(|session| session.attempts.len()));
+    assert_eq!(practice, Some(1));
+}

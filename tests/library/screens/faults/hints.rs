@@ -1,0 +1,37 @@
+//! The keys of an exercise that stood in no hint.
+
+use crate::screens::player::{Player, TRUE_COLOUR};
+
+fn hints(player: &Player, width: u16, height: u16) -> String {
+    player.text(width, height).lines().last().unwrap().to_owned()
+}
+
+#[test]
+fn notes_goals_and_shifts_are_told_where_they_apply() {
+    let aiming = Player::practising(TRUE_COLOUR);
+    let line = hints(&aiming, 120, 40);
+    for part in ["←→ aim", "hjkl tip", "↓↑ speed", "v hint", "m n made/miss", "o goal", "x shift"] {
+        assert!(line.contains(part), "{part}: {line}");
+    }
+    // There is no room in the last row: the one above it tells.
+    let small = aiming.text(80, 24);
+    assert!(small.contains("m made, n missed"), "{small}");
+    let ended = aiming.press("Space").wait(60.0);
+    for (width, height) in [(80, 24), (120, 40)] {
+        let line = hints(&ended, width, height);
+        assert!(line.contains("Enter next") && line.contains("m n made/miss"), "{line}");
+    }
+    assert!(hints(&ended, 120, 40).contains("o goal   x shift"));
+    let noted = Player::practising(TRUE_COLOUR).press("m");
+    assert!(hints(&noted, 120, 40).contains("u undo"), "{}", hints(&noted, 120, 40));
+}
+
+#[test]
+fn in_an_exam_there_are_no_such_keys() {
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter");
+    let line = hints(&exam, 200, 60);
+    for part in ["made/miss", "goal", "shift"] {
+        assert!(!line.contains(part), "{part}: {line}");
+    }
+    assert!(!exam.text(80, 24).contains("m made"));
+}

@@ -1,0 +1,53 @@
+//! Words that a player would look for in the command palette.
+
+use carom::terminal::{Action, CoachAction, DrillAction};
+
+use crate::screens::player::{Player, TRUE_COLOUR};
+
+/// What is marked after these words were typed, at the coach's table.
+fn at_coach(word: &str) -> Vec<Action> {
+    let mut player = Player::new().press(":");
+    player.app.paste(word);
+    player.app.command_palette().unwrap().found(player.app.commands()).iter().map(|found| found.action).collect()
+}
+
+/// The same in the library.
+fn in_the_library(word: &str) -> Vec<Action> {
+    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press(":");
+    player.app.paste(word);
+    player.app.command_palette().unwrap().found(player.app.commands()).iter().map(|found| found.action).collect()
+}
+
+#[test]
+fn a_random_position_is_found() {
+    for word in ["random", "shuffle"] {
+        assert_eq!(at_coach(word), [Action::Coach(CoachAction::Random)], "{word}");
+    }
+}
+
+#[test]
+fn clearing_the_table_is_found() {
+    for word in ["clear", "reset"] {
+        assert!(at_coach(word).contains(&Action::Coach(CoachAction::Opening)), "{word}");
+    }
+}
+
+#[test]
+fn an_export_is_found() {
+    for word in ["export", "share"] {
+        assert_eq!(in_the_library(word), [Action::Drill(DrillAction::Share)], "{word}");
+        assert!(at_coach(word).contains(&Action::Coach(CoachAction::SavePosition)), "{word}");
+    }
+}
+
+#[test]
+fn diamonds_are_found() {
+    assert!(at_coach("diamond").contains(&Action::Coach(CoachAction::NextView)));
+    assert!(in_the_library("diamond").contains(&Action::Drill(DrillAction::Search)));
+}
+
+#[test]
+fn what_is_not_found_is_said_in_three_words() {
+    let player = Player::new().press(": x x x x");
+    assert!(player.text(80, 24).contains("no matching command"));
+}

@@ -1,0 +1,79 @@
+//! Numbers that are typed into the form of a new run, and a name that is pasted.
+
+use carom::terminal::{Effect, KeyContext, Report, TrainingContext};
+
+use crate::screens::{
+    player::{Player, TRUE_COLOUR},
+    runs::summaries,
+};
+
+/// At the form's number of shots.
+fn at_the_shots() -> Player {
+    Player::at_runs(TRUE_COLOUR).report(Report::Runs(Ok(summaries().into()))).press("n Down Down Down")
+}
+
+/// The option of the run that was started.
+fn started(player: &Player, option: &str) -> Option<String> {
+    let launch = player.effects.iter().find_map(|effect| match effect {
+        Effect::Train(launch) => Some(launch),
+        _ => None,
+    })?;
+    let mut arguments = launch.arguments.iter().skip_while(|argument| *argument != option).skip(1);
+    arguments.next().map(|value| value.to_string_lossy().into_owned())
+}
+
+#[test]
+fn the_first_digit_replaces_the_number_and_the_next_ones_follow() {
+    let typed = at_the_shots().press("4 0 0 0 0");
+    typed.says("40,000");
+    let started_run = typed.press("Enter");
+    assert_eq!(started(&started_run, "--steps").as_deref(), Some("40000"));
+    // Whoever comes back types a new number, in the seed as well.
+    let again = at_the_shots().press("4 0 Down 7 Up 9 0 Enter");
+    assert_eq!(started(&again, "--steps").as_deref(), Some("90"));
+    assert_eq!(started(&again, "--seed").as_deref(), Some("7"));
+    let chosen = at_the_shots().press("4 0 Right 6 Enter");
+    assert_eq!(started(&chosen, "--steps").as_deref(), Some("6"), "a number that was chosen is replaced too");
+}
+
+#[test]
+fn backspace_edits_the_number_that_is_there() {
+    let player = at_the_shots().press("Backspace 3 Enter");
+    assert_eq!(started(&player, "--steps").as_deref(), Some("5000003"));
+    let player = at_the_shots().press("4 0 Backspace 5 Enter");
+    assert_eq!(started(&player, "--steps").as_deref(), Some("45"));
+}
+
+#[test]
+fn a_run_of_more_than_a_day_asks_before_it_starts() {
+    let player = at_the_shots().press("9 0 0 0 0 0 0 0 0 0 Enter");
+    assert!(player.effects.is_empty(), "{:?}", player.effects);
+    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
+    player.says("9,000,000,000 shots take about");
+    player.says("y/n");
+    let no = player.press("n");
+    assert_eq!(no.app.place(), KeyContext::Training(TrainingContext::Form), "the form is as it was");
+    no.says("9,000,000,000");
+    let yes = no.press("Enter y");
+    assert_eq!(started(&yes, "--steps").as_deref(), Some("9000000000"));
+    assert_eq!(yes.app.place(), KeyContext::Training(TrainingContext::Watch));
+    let usual = at_the_shots().press("Enter");
+    assert_eq!(started(&usual, "--steps").as_deref(), Some("5000000"), "what is usual starts at once");
+}
+
+#[test]
+fn a_name_for_the_weights_is_pasted() {
+    let mut player = Player::watching(TRUE_COLOUR).press("k");
+    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Name));
+    for _ in 0..100 {
+        player = player.press("Backspace");
+    }
+    player.app.paste("three-\ncushions");
+    player.says("keep the weights under the name: three-cushions_");
+    let player = player.press("Enter");
+    let kept = player.effects.iter().find_map(|effect| match effect {
+        Effect::Keep(keeping) => Some(keeping.name.clone()),
+        _ => None,
+    });
+    assert_eq!(kept.as_deref(), Some("three-cushions"));
+}
