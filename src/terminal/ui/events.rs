@@ -42,6 +42,8 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut 
         let (at, words) =
             event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind, ui.theme.cue_ball)));
         let words = if is_narrow { words.trim_end_matches(" rail").replace("comes free", "is free") } else { words };
+        let is_long = words.len() + usize::from(start) >= usize::from(inner.width);
+        let words = if is_long { words.replace(" - ", "-") } else { words };
         let style = match n {
             _ if n == present => ui.theme.accent(),
             _ if n < present => ui.theme.faint(),
