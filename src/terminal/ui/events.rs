@@ -46,6 +46,8 @@ pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut 
         } else {
             words
         };
+        let is_long = words.len() + usize::from(start) >= usize::from(inner.width);
+        let words = if is_long { words.replace(" - ", "-") } else { words };
         let style = match n {
             _ if n == present => ui.theme.accent(),
             _ if n < present => ui.theme.faint(),

@@ -101,14 +101,12 @@ impl TextField {
     /// Where that way leads from the cursor.
     fn at(&self, way: Way) -> usize {
         let (before, after) = self.text.split_at(self.cursor);
-        let word = |letter: char| letter.is_alphanumeric();
+        let (word, gap) = (char::is_alphanumeric, |letter: char| !letter.is_alphanumeric());
         match way {
             Way::Left => before.grapheme_indices(true).next_back().map_or(0, |(start, _)| start),
             Way::Right => self.cursor + after.graphemes(true).next().map_or(0, str::len),
-            Way::WordLeft => before.trim_end_matches(|letter| !word(letter)).trim_end_matches(word).len(),
-            Way::WordRight => {
-                self.text.len() - after.trim_start_matches(|letter| !word(letter)).trim_start_matches(word).len()
-            }
+            Way::WordLeft => before.trim_end_matches(gap).trim_end_matches(word).len(),
+            Way::WordRight => self.text.len() - after.trim_start_matches(gap).trim_start_matches(word).len(),
             Way::Start => 0,
             Way::End => self.text.len(),
         }

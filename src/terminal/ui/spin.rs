@@ -39,9 +39,10 @@ pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
     for ((text, style), row) in words.iter().zip(styles).zip(top..inner.bottom()) {
         let text = text.as_str();
         if is_low {
-            let is_wide = usize::from(inner.right() - face.right()) > text.len();
-            let text = if is_wide { text } else { text.trim_end_matches(" side") };
-            write_right(ui.buffer, face.right(), inner.right(), row, text, style);
+            let room = usize::from(inner.right() - face.right());
+            let text = if room > text.len() { text } else { text.trim_end_matches(" side") };
+            // The last column stays free where that is possible.
+            write_right(ui.buffer, face.right(), inner.right() - u16::from(room > text.len()), row, text, style);
         } else {
             let indent = inner.width.saturating_sub(text.len() as u16) / 2;
             ui.buffer.set_stringn(inner.x + indent, row, text, usize::from(inner.width - indent), style);

@@ -51,7 +51,9 @@ fn no_word_touches_the_right_edge() {
                 for y in 0..size.1 {
                     let end: String = (size.0 - 8..size.0).map(|x| picture[(x, y)].symbol()).collect();
                     let last = end.chars().last().unwrap();
-                    if last.is_alphanumeric() {
+                    // An axis ends where its chart does, with a number.
+                    let is_axis = end.chars().all(|letter| letter.is_ascii_digit() || " .kM".contains(letter));
+                    if last.is_alphanumeric() && !is_axis {
                         found.push(format!("{page} {size:?}, row {y}: {end}"));
                     }
                 }

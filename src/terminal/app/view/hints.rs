@@ -19,8 +19,9 @@ use crate::terminal::{
     ui::Ui,
 };
 
-/// Columns between two hints.
+/// Columns between two hints, and where that makes room for all of them.
 const GAP: usize = 3;
+const CLOSE: usize = 2;
 
 /// Draws the keys that may be used now, as many as fit.
 pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
@@ -32,21 +33,28 @@ pub fn draw_hints(app: &App, area: Rect, ui: &mut Ui) {
         .collect();
     // A blank at either end.
     let room = usize::from(area.width.saturating_sub(2));
-    let width = |hints: &[(&Bound, Line)]| hints.iter().map(|(_, line)| line.width() + GAP).sum::<usize>();
+    let width = |hints: &[(&Bound, Line)], gap: usize| {
+        hints.iter().map(|(_, line)| line.width() + gap).sum::<usize>().saturating_sub(gap)
+    };
+    let mut gap = GAP;
     // The keys of the program itself stay to the last, but for the command palette's and the way from the coach to another
     // screen; the others go from the end.
     let is_palette = |binding: &Bound| binding.keys[0].1 == Action::CommandPalette(PaletteAction::Open);
     let stays = |binding: &Bound| {
         binding.section == Section::Program && !matches!(binding.when, Condition::Coach(_)) && !is_palette(binding)
     };
-    while width(&hints) > room + GAP {
+    while width(&hints, gap) > room {
+        if width(&hints, CLOSE) <= room {
+            gap = CLOSE;
+            break;
+        }
         let last = hints.iter().rposition(|(binding, _)| !stays(binding));
         hints.remove(last.unwrap_or(hints.len() - 1));
     }
     let mut x = area.x + 1;
     ui.buffer.set_style(area, ui.theme.text());
     for (_, line) in hints {
-        x = ui.buffer.set_line(x, area.y, &line, area.right().saturating_sub(x)).0 + GAP as u16;
+        x = ui.buffer.set_line(x, area.y, &line, area.right().saturating_sub(x)).0 + gap as u16;
     }
 }
 
