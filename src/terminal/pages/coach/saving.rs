@@ -35,7 +35,7 @@ enum Question {
 }
 
 impl Saving {
-    /// SeriesId keys are in force; `None` where nothing is asked.
+    /// Whose keys are in force; `None` where nothing is asked.
     pub const fn context(&self) -> Option<SavingContext> {
         match &self.question {
             Some(Question::Title(..)) => Some(SavingContext::Title),
