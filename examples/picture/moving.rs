@@ -13,7 +13,7 @@ use crossterm::event::{
 use ratatui::{
     Terminal,
     backend::TestBackend,
-    buffer::Buffer,
+    buffer::{Buffer, Cell},
     style::{Modifier, Style},
 };
 
@@ -127,7 +127,7 @@ impl Film {
 fn with_caption(screen: &Buffer, (key, words): (&str, &str)) -> Buffer {
     let mut area = screen.area;
     area.height += CAPTION;
-    let (page, tab) = (screen.content.last().map_or(Style::new(), |cell| cell.style()), screen[(1, 0)].style());
+    let (page, tab) = (screen.content.last().map_or(Style::new(), Cell::style), screen[(1, 0)].style());
     let mut all = Buffer::empty(area);
     all.set_style(area, page.remove_modifier(Modifier::all()));
     all.merge(screen);
