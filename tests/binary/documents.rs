@@ -101,7 +101,7 @@ fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
     let mut command = carom(&["config"]);
     command.env("HOME", home.path()).env("XDG_CONFIG_HOME", home.path());
     let shown = String::from_utf8(command.output().unwrap().stdout).unwrap();
-    let mut table = "| key | what it means | accepted | default |\n|---|---|---|---|\n".to_owned();
+    let mut rows = vec!["| key | what it means | accepted | default |\n|---|---|---|---|".to_owned()];
     let mut note = Vec::new();
     for line in shown.lines().take_while(|&line| line != "[keys]") {
         if let Some(words) = line.strip_prefix("# ") {
@@ -110,13 +110,14 @@ fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
             let said = note.join(" ");
             let (meaning, values) = said.split_once(" Accepted: ").unwrap();
             let (accepted, default) = values.trim_end_matches('.').split_once(". Default: ").unwrap();
-            table += &format!("| `{key}` | {meaning} | {accepted} | `{default}` |\n");
+            rows.push(format!("| `{key}` | {meaning} | {accepted} | `{default}` |"));
             note.clear();
         } else {
             note.clear();
         }
     }
-    assert!(table.lines().count() > 10, "{table}");
+    assert!(rows.len() > 10, "{rows:?}");
+    let table = rows.join("\n") + "\n";
     assert!(include_str!("../../docs/settings.md").contains(&table), "docs/settings.md needs this table:\n{table}");
 }
 
@@ -148,7 +149,8 @@ fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
     let page = include_str!("../../docs/command-line.md");
     let help = text(&["--help"]);
     let commands = subcommands(&help);
-    let table: String = commands.iter().map(|(name, about)| format!("| `carom {name}` | {about} |\n")).collect();
+    let rows: Vec<String> = commands.iter().map(|(name, about)| format!("| `carom {name}` | {about} |")).collect();
+    let table = rows.join("\n") + "\n";
     assert!(page.contains(&table), "docs/command-line.md needs this table:\n{table}");
     for (name, _) in commands {
         let (_, section) =

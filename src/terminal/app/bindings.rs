@@ -234,11 +234,11 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
         KeyContext::Saving(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
         KeyContext::Training(place) => {
-            take(&mut all, place.bindings(), A::Training, Condition::Training, training::words)
+            take(&mut all, place.bindings(), A::Training, Condition::Training, training::words);
         }
         KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill, drills::words),
         KeyContext::Settings(place) => {
-            take(&mut all, place.bindings(), A::Settings, Condition::Settings, settings::words)
+            take(&mut all, place.bindings(), A::Settings, Condition::Settings, settings::words);
         }
         KeyContext::CommandPalette => program(&mut all, palette_keys::PALETTE),
     }

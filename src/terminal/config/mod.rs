@@ -116,6 +116,7 @@ impl Settings {
     }
 
     /// The same with all that is otherwise in `after` than in `before`.
+    #[must_use]
     pub fn with_changes(&self, before: &Self, after: &Self) -> Self {
         let mut settings = self.clone();
         for entry in ENTRIES {

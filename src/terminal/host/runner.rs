@@ -22,7 +22,7 @@ use crate::{
         tasks::{
             Tasks,
             event::Event,
-            recommender::{Answer, CoachNews},
+            recommender::{Answer, CoachNews, Job},
             training::Report,
         },
     },
@@ -225,11 +225,7 @@ impl Runner {
         match effect {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
-            Some(Effect::Recommend(job) | Effect::Study(job)) => {
-                if !self.tasks.ask(job)? {
-                    self.app.coach_lost();
-                }
-            }
+            Some(Effect::Recommend(job) | Effect::Study(job)) => self.ask(job)?,
             Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
             Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
@@ -240,6 +236,13 @@ impl Runner {
             None => {}
         }
         Ok(Next::GoOn)
+    }
+
+    fn ask(&mut self, job: Box<Job>) -> io::Result<()> {
+        if !self.tasks.ask(job)? {
+            self.app.coach_lost();
+        }
+        Ok(())
     }
 
     /// Gives the terminal back and stops until the shell continues the program.

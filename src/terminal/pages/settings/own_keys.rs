@@ -16,7 +16,7 @@ use crate::terminal::{
 #[derive(Debug)]
 pub struct OwnKeys {
     pages: Vec<KeyPage>,
-    /// KeyContext of the page whose keys are listed among `pages`.
+    /// Place of the page whose keys are listed among `pages`.
     page: usize,
     mark: usize,
 }

@@ -74,7 +74,7 @@ pub struct Form {
     pub field: Field,
     /// Whether nothing was typed since the field was entered or its value chosen: the next digit begins another number.
     is_fresh: bool,
-    /// KeyContext of the agent in [`AGENTS`].
+    /// Place of the agent in [`AGENTS`].
     pub agent: usize,
     /// What it is rewarded for.
     pub reward: Reward,

@@ -79,7 +79,7 @@ pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
                 }
                 Ok(LeastElevation { over: None, .. }) => {}
                 Err(NoRoom { obstacle }) => {
-                    paragraphs.push((no_room_words(obstacle, turn.cue_ball), ui.theme.warning()))
+                    paragraphs.push((no_room_words(obstacle, turn.cue_ball), ui.theme.warning()));
                 }
             }
         }
