@@ -41,10 +41,10 @@ fn played() -> Player {
 #[test]
 fn the_library_of_own_positions() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left");
-    none.shows(&["0: Your own", "You have saved no position yet.", "a position from a code"]);
+    none.shows(&["0: My positions", "You have saved no position yet.", "a position from a code"]);
     check("library_played", &played().press("Left"));
     let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
-    long.shows(&["60: Your own", "▸ Position number 60 of a long", "you: not tried yet", "#opening"]);
+    long.shows(&["60: My positions", "▸ Position number 60 of a long", "you: not tried yet", "#opening"]);
     assert!(!long.text(80, 24).contains("Position number 40 of"), "the list is scrolled");
     let plain = Player::at_library(ASCII, &many(), &[]).press("Left End Up");
     plain.is_plain().shows(&["> Position number 59 of a lo", "Position number 60 of a lo"]);
@@ -139,7 +139,7 @@ fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     check("played", &ended);
     ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
-    ended.press("v").shows(&["taught: no change worth telling", "your hand: ", "v hint"]);
+    ended.press("v").shows(&["model shot: no change worth telling", "your hand: ", "v hint"]);
     let plain = Player::practising(NO_COLOUR).press("Right Space").wait(60.0);
     plain.is_plain().shows(&["your hand: ", "1 made", "Enter next"]);
 }
@@ -285,7 +285,7 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     assert!(gone.store().positions().items.is_empty());
     let mut adding = gone.press("a");
     adding.app.paste(&format!("  {}\n{}", &code[..20], &code[20..]));
-    adding.shows(&["paste or type the code of a position: carom:", "Enter take it"]);
+    adding.shows(&["paste or type the code of a position:", "Enter take it"]);
     assert!(adding.text(120, 40).replace(char::is_whitespace, "").contains(&code[20..40]), "the two parts are one");
     let added = adding.press("Enter");
     added.says("saved as my-corner");

@@ -334,7 +334,7 @@ fn abandoning_asks_first_and_says_what_is_lost() {
 #[test]
 fn a_policy_is_kept_under_a_name() {
     let player = Player::watching(TRUE_COLOUR).press("k");
-    player.shows(&["keep the weights under the name: 20261120-091500-ddpg-match-r3-1_", "Enter keep"]);
+    player.shows(&["keep the weights under the name: 20261120-091500-ddpg-match-r3-1", "Enter keep"]);
     let mut player = player;
     for _ in 0..60 {
         player = player.press("Backspace");

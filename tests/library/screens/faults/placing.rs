@@ -30,7 +30,7 @@ fn tab_and_the_numbers_of_the_balls_lead_back_to_placing() {
 #[test]
 fn a_click_on_a_ball_leads_back_to_placing_that_ball() {
     let mut player = watching();
-    player.picture(120, 40);
+    player.app.resize(ratatui::layout::Size::new(120, 40));
     let mapping = Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29));
     let (time, layout) = (player.app.playback().time, *player.app.layout());
     let red = player.app.watched().unwrap().recording.positions(time)[2];

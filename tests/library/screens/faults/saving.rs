@@ -56,6 +56,6 @@ fn a_name_that_is_taken_is_asked_about_and_a_bundled_one_refused() {
 #[test]
 fn what_is_typed_stays_on_the_way_to_another_screen() {
     let player = at_coach().press("s").type_in("half").press("F4 F2");
-    player.says("if you like): half_");
+    player.says("if you like): half");
     assert_eq!(player.type_in("t").press("F1 Esc Enter").store().positions().items[0].name, "halft");
 }
