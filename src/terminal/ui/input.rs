@@ -71,7 +71,7 @@ impl TextField {
     /// Takes what was typed; `false` where a key means nothing here.
     pub fn take(&mut self, typed: Typed) -> bool {
         match typed {
-            Typed::Paste(text) => self.insert(text),
+            Typed::Paste(text) => self.insert(text.trim_end_matches(['\n', '\r'])),
             Typed::Key(key) => match Edit::of(key) {
                 None => return false,
                 Some(Edit::Insert(letter)) => self.insert(letter.encode_utf8(&mut [0; 4])),

@@ -68,7 +68,7 @@ fn a_name_for_the_weights_is_pasted() {
     for _ in 0..100 {
         player = player.press("Backspace");
     }
-    player.app.paste("three-\ncushions");
+    player.app.paste("three-cushions\n");
     player.says("keep the weights under the name: three-cushions");
     let player = player.press("Enter");
     let kept = player.effects.iter().find_map(|effect| match effect {
