@@ -17,11 +17,11 @@ use crate::{
 /// What the program around the app has to do.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Ask the coach and hand the answer to [`App::receive`].
+    /// Ask the coach and hand the answer to [`App::receive`](super::App::receive).
     Recommend(Box<Job>),
     /// Ask it for a closer look at the shot that is shown, in the same way.
     Study(Box<Job>),
-    /// Start a process that trains; how it ends goes to [`App::receive_report`], as do the answers to what follows.
+    /// Start a process that trains; how it ends goes to [`App::receive_report`](super::App::receive_report), as do the answers to what follows.
     Train(Box<Launch>),
     /// Ask a run for something.
     Send(Request, PathBuf),
@@ -29,9 +29,9 @@ pub enum Effect {
     Keep(Box<Keeping>),
     /// Read the policy of the run in this folder.
     LoadPolicy(PathBuf),
-    /// Do these, one after the other; what comes of them goes to [`App::receive_drill`].
+    /// Do these, one after the other; what comes of them goes to [`App::receive_drill`](super::App::receive_drill).
     Drill(Vec<DrillTask>),
-    /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`].
+    /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`](super::App::receive_settings).
     Settings(Box<SettingsTask>),
     /// Put a text into the terminal's clipboard, where it allows that.
     Copy(String),
