@@ -200,6 +200,6 @@ mod tests {
         command_palette.input(Typed::Key(&KeyCode::Left.into()));
         assert_eq!(command_palette.mark(3), 1, "moving the cursor finds nothing else");
         command_palette.input(Typed::Paste("x\n"));
-        assert_eq!((command_palette.mark(3), command_palette.words().text()), (0, "x "));
+        assert_eq!((command_palette.mark(3), command_palette.words().text()), (0, "x"));
     }
 }
