@@ -58,13 +58,16 @@ fn plain(lines: &[(u64, f64)], shots: (u64, u64)) -> Point {
     let within = lines.iter().filter(|line| (shots.0..=shots.1).contains(&line.0)).map(|line| line.1);
     let values: Vec<f64> = within.collect();
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let min = finite.iter().copied().fold(f64::INFINITY, f64::min);
+    let max = finite.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let count = |is: fn(f64) -> bool| values.iter().filter(|value| is(**value)).count() as u64;
     Point {
         shots,
         finite: (!finite.is_empty()).then(|| Span {
-            min: finite.iter().copied().fold(f64::INFINITY, f64::min),
-            mean: finite.iter().map(|value| value / finite.len() as f64).sum(),
-            max: finite.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            min,
+            // Rounding takes a sum of shares of the largest numbers beyond all of them, to infinity.
+            mean: finite.iter().map(|value| value / finite.len() as f64).sum::<f64>().clamp(min, max),
+            max,
             not_positive: count(|value| value.is_finite() && value <= 0.0),
         }),
         odd: Odd {
