@@ -1,6 +1,7 @@
 //! What is played on: the table's parameters and the layout of its three balls.
 
 mod cue_ball;
+mod doubt;
 mod flaws;
 mod layout;
 mod models;
@@ -10,6 +11,7 @@ mod rail;
 mod room;
 
 pub use cue_ball::{CueBall, UnknownCueBall};
+pub use doubt::{DoubtError, TableDoubt, TableSampler};
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
 pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};

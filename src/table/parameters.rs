@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use super::{
-    Opening, Room, flaws,
+    DoubtError, Opening, Room, TableDoubt, flaws,
     models::{Fade, Rails, SlipFriction, is_zero},
 };
 
@@ -96,6 +96,9 @@ pub struct Table {
     /// The rails' model; without this section balls meet them at the height of their centre.
     #[serde(default, skip_serializing_if = "is_thesis_rail")]
     pub rail: Rails,
+    /// How well the constants are known, where the table's file says so; [`TableDoubt::of`] knows it of every table.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<TableDoubt>,
 }
 
 fn is_level(tilt: &DVec2) -> bool {
@@ -126,6 +129,14 @@ pub enum TableError {
         value: f64,
         /// What would be accepted.
         accepted: &'static str,
+    },
+    /// Its doubt cannot be.
+    #[error("the table \"{table}\": {error}")]
+    Doubt {
+        /// The table's name.
+        table: String,
+        /// What is wrong with it.
+        error: DoubtError,
     },
 }
 
@@ -199,6 +210,9 @@ impl Table {
         }
         if let Some((key, value, accepted)) = self.room.and_then(|room| room.flaw(self.radius)) {
             return refuse(key, value, accepted);
+        }
+        if let Some(error) = self.doubt.as_ref().and_then(|doubt| doubt.validate().err()) {
+            return Err(TableError::Doubt { table: self.name, error });
         }
         Ok(self)
     }
