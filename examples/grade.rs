@@ -1,7 +1,7 @@
 //! Measures how hard the exercises of a folder are, and writes it into their files.
 //!
 //! `cargo run --release --example grade -- saves/` plays every shot 10,000 times with the errors of a beginner, a club player
-//! and an expert, rewrites par and grade, and puts the easiest first. With `--check` it writes nothing, and fails where a file is not what it would
+//! and a world-class one, rewrites par and grade, and puts the easiest first. With `--check` it writes nothing, and fails where a file is not what it would
 //! write, or where a shot does not show what its category teaches.
 
 use std::{
@@ -54,9 +54,9 @@ fn grade(path: &Path, check: bool) -> Result<bool, Box<dyn Error>> {
         }
         exercise.par = Par::measure(exercise)?;
         exercise.grade = exercise.par.map_or(0, |par| par.grade());
-        if let Some(Par { beginner, club, expert }) = exercise.par {
+        if let Some(Par { beginner, club, world_class }) = exercise.par {
             let (category, name, grade) = (exercise.category, &exercise.name, exercise.grade);
-            println!("{category:14} {name:26} grade {grade}  {beginner:.3} {club:.3} {expert:.3}");
+            println!("{category:14} {name:26} grade {grade}  {beginner:.3} {club:.3} {world_class:.3}");
         }
     }
     file.exercises.sort_by_key(|exercise| exercise.grade);

@@ -1,7 +1,7 @@
 //! Fits the weights by which the coach tells easy layouts from hard ones (`src/coach/ease`), and says how well they do.
 //!
 //! `cargo run --release --example ease -- 1600` plays innings on `match` until 1,600 layouts a rule are gathered, finds out of
-//! each how often a player of two and a half times an expert's errors misses it with the shot of a short search, fits half
+//! each how often a club player and a world-class one miss it with the shot of a short search, fits half
 //! of them and measures the fit on the other half. The searches end by simulations, so that the weights are the same on every
 //! machine whose networks round alike.
 
@@ -12,7 +12,7 @@ use std::{
 };
 
 use carom::{
-    coach::{Coach, Ease, Inning, Request, Sample, Skill, inning},
+    coach::{Coach, Doubt, Ease, Inning, Request, Sample, Skill, inning},
     game::Rule,
     learning::evaluation::held_out_layouts,
     table::{Layout, Table},
@@ -53,9 +53,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Layouts as an expert meets them: those that innings begin with, and those that the shots leave.
+/// Layouts as a world-class player meets them: those that innings begin with, and those that the shots leave.
 fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dyn Error>> {
-    let request = Request { rule, plan: true, ..request(Skill::EXPERT) };
+    let request = Request { rule, plan: true, ..request(Skill::WORLD_CLASS) };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let mut layouts = Vec::new();
     for first in held_out_layouts(coach.table(), count, SEED) {
@@ -78,25 +78,25 @@ fn sample(coach: &Coach, layout: &Layout, rule: Rule) -> Result<Sample, Box<dyn 
         let advice = coach.recommend(layout, &Request { rule, ..request(skill) })?;
         Ok(1.0 - advice.make_probability.map_or(0.0, |rate| rate.rate))
     };
-    let (missed, missed_by_expert) = (missed(Skill::EXPERT.scaled(Ease::SCALE))?, missed(Skill::EXPERT)?);
-    Ok(Sample { layout: *layout, missed, missed_by_expert })
+    let (missed, missed_by_best) = (missed(Skill::CLUB)?, missed(Skill::WORLD_CLASS)?);
+    Ok(Sample { layout: *layout, missed, missed_by_best })
 }
 
 fn request(skill: Skill) -> Request {
-    Request { skill, budget: YEAR, simulations: SIMULATIONS, seed: SEED, ..Request::default() }
+    Request { skill, doubt: Doubt::FULL, budget: YEAR, simulations: SIMULATIONS, seed: SEED, ..Request::default() }
 }
 
 /// Prints what layouts were like that were called easy or hard: fifths by the estimate, the easiest first.
 fn report(table: &Table, ease: Ease, samples: &[Sample]) {
     let mut sorted = samples.to_vec();
     sorted.sort_by(|one, other| ease.missed(table, &one.layout).total_cmp(&ease.missed(table, &other.layout)));
-    println!("  misses %  expert, estimated  simulated  with {} times the errors, estimated  simulated", Ease::SCALE);
+    println!("  misses %  world-class, estimated  simulated  club, estimated  simulated");
     for fifth in sorted.chunks(samples.len().div_ceil(5).max(1)) {
         let mean = |value: &dyn Fn(&Sample) -> f64| 100.0 * fifth.iter().map(value).sum::<f64>() / fifth.len() as f64;
         println!(
-            "  {:>27.2} {:>10.2} {:>38.2} {:>10.2}",
-            mean(&|sample| 1.0 - ease.probability(table, &sample.layout, Skill::EXPERT)),
-            mean(&|sample| sample.missed_by_expert),
+            "  {:>32.2} {:>10.2} {:>16.2} {:>10.2}",
+            mean(&|sample| 1.0 - ease.probability(table, &sample.layout, Skill::WORLD_CLASS)),
+            mean(&|sample| sample.missed_by_best),
             mean(&|sample| ease.missed(table, &sample.layout)),
             mean(&|sample| sample.missed),
         );

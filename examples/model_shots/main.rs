@@ -69,6 +69,6 @@ fn renew(exercise: &mut Exercise) {
 }
 
 /// The mean of the three players' shares.
-fn mean(Par { beginner, club, expert }: Par) -> f64 {
-    (beginner + club + expert) / 3.0
+fn mean(Par { beginner, club, world_class }: Par) -> f64 {
+    (beginner + club + world_class) / 3.0
 }

@@ -4,7 +4,7 @@ use std::{fmt, time::Duration};
 
 use serde::Serialize;
 
-use super::Kind;
+use super::{Kind, Risk};
 use crate::{learning::evaluation::SuccessRate, physics::CueInputs};
 
 /// Where a shot comes from.
@@ -84,6 +84,8 @@ pub struct Recommendation {
     /// How often the player makes it, from independent attempts that took no part in the choice; `None` where there is no
     /// such shot or time ran out before a single attempt. A perfect player always makes what makes the point.
     pub make_probability: Option<SuccessRate>,
+    /// What would miss it by itself, where anything is in doubt and time did not run out.
+    pub risk: Option<Risk>,
     /// Probability of the point after this one, an estimate, where that was asked for and the table is the one that the
     /// estimate was fitted on.
     pub next_probability: Option<f64>,

@@ -1,10 +1,14 @@
 //! The recommender: from a layout and a request to the shot that this player makes most often.
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
 
 use super::{
-    Alternative, Ease, Improvement, Kind, Recommendation, Request, Skill,
+    Alternative, Cause, Doubt, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill,
     clock::Clock,
+    draws::{Draws, Worlds},
     errors,
     first::{Attempt, Found},
     next::NextValue,
@@ -14,7 +18,7 @@ use super::{
     trial::{CONTACT_STEPS, ENDLESS, Task},
 };
 use crate::{
-    game::{Reward, Rule, scores},
+    game::{Reward, Rule},
     learning::{Policy, PolicyError, evaluation::SuccessRate},
     physics::CueInputs,
     table::{Layout, LayoutError, Table},
@@ -26,6 +30,9 @@ const ATTEMPTS: usize = 1000;
 
 /// The same for each alternative.
 const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
+
+/// The same for each cause of a miss.
+const ATTEMPTS_AT_RISK: usize = 300;
 
 /// Time that judging the answer has at least, however late it is: where other programs hold a thread up, a shot whose
 /// probability nobody knows would be the price of these milliseconds.
@@ -108,11 +115,14 @@ impl Coach {
     ) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
+        let doubt = if request.skill.is_perfect() { Doubt::NONE } else { request.doubt };
+        let worlds = Worlds::new(&self.table, layout, doubt);
         let task = Task {
             table: &self.table,
             layout,
             rule: request.rule,
             skill: request.skill,
+            worlds: &worlds,
             clock: &clock,
             until: clock.moment(1.0),
             patience: CONTACT_STEPS,
@@ -151,16 +161,17 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     keep_one_of_each(&mut pool);
     pool.truncate(1 + ALTERNATIVES);
     // Another stream than that of the search, whatever its seed.
-    let attempts = errors::independent(ATTEMPTS, request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17));
-    let pieces: Vec<(usize, &[errors::Errors])> = pool
-        .iter()
-        .enumerate()
-        .flat_map(|(index, _)| {
+    let seed = request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17);
+    let attempts = Draws::new(errors::independent(ATTEMPTS, seed), task.worlds, seed);
+    let pieces: Vec<(usize, usize)> = (0..pool.len())
+        .flat_map(|index| {
             let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
-            attempts[..count].chunks(PIECE).map(move |piece| (index, piece))
+            (0..count).step_by(PIECE).map(move |from| (index, from))
         })
         .collect();
-    let made = parallel::map(request.threads, &pieces, |(index, piece)| task.attempts(&pool[*index].shot.cue, piece));
+    let made = parallel::map(request.threads, &pieces, |(index, from)| {
+        task.attempts(&pool[*index].shot.cue, attempts.range(*from, from + PIECE))
+    });
     let probability = |candidate: usize| {
         let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
         let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
@@ -175,6 +186,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         source: best.shot.source,
         kind: Some(best.kind),
         make_probability: probability(0),
+        risk: risk(&best.shot.cue, task, request, seed),
         next_probability: told_next(best.next),
         alternatives: (1..pool.len())
             .map(|index| Alternative {
@@ -188,6 +200,23 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
             .collect(),
         ..first_point(found)
     }
+}
+
+/// What misses a shot by itself; `None` where nothing is in doubt, or time runs out.
+fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Risk> {
+    if task.worlds.is_certain() {
+        return None;
+    }
+    let missed = parallel::map(request.threads.min(Cause::ALL.len()), &Cause::ALL, |cause| {
+        let (doubt, errs) = cause.alone(request.doubt);
+        let worlds = Worlds::new(task.table, task.layout, doubt);
+        let skill = if errs { task.skill } else { Skill::PERFECT };
+        let draws = Draws::new(errors::independent(ATTEMPTS_AT_RISK, seed), &worlds, seed);
+        let made = Task { worlds: &worlds, skill, ..*task }.made(cue, draws.iter(), ATTEMPTS_AT_RISK)?;
+        Some(1.0 - made as f64 / ATTEMPTS_AT_RISK as f64)
+    });
+    let [hand, table, placing] = missed[..] else { return None };
+    Some(Risk { hand: hand?, table: table?, placing: placing? })
 }
 
 /// The best first, in the order that they have, and after it the best of each other kind.
@@ -221,6 +250,7 @@ fn first_point(found: &Found) -> Recommendation {
         source: shot.source,
         kind: first.map(|(shot, course)| Kind::of(course, &shot.cue)),
         make_probability: first.map(|_| certain),
+        risk: None,
         next_probability: None,
         alternatives: others
             .into_iter()
@@ -249,9 +279,9 @@ fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
 }
 
 /// The share of `attempts` at `cue` that make a point, with its interval: a plain Monte-Carlo estimate. The same seed
-/// draws the same errors for every shot.
+/// draws the same attempts for every shot.
 pub fn make_probability(
-    skill: Skill,
+    shooter: impl Into<Shooter>,
     rule: Rule,
     table: &Table,
     layout: &Layout,
@@ -259,12 +289,12 @@ pub fn make_probability(
     attempts: usize,
     seed: u64,
 ) -> SuccessRate {
-    let made = errors::independent(attempts, seed)
-        .iter()
-        .filter(|errors| {
-            let stroke = skill.stroke(table.radius, cue, errors);
-            !stroke.is_miscue(table) && scores(rule, table, layout, &stroke)
-        })
-        .count();
-    SuccessRate::new(made, attempts)
+    let Shooter { skill, doubt } = shooter.into();
+    let never = AtomicBool::new(false);
+    let clock = Clock::start(Duration::MAX, u64::MAX, &never);
+    let (worlds, until) = (Worlds::new(table, layout, doubt), clock.moment(1.0));
+    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
+    let draws = Draws::new(errors::independent(attempts, seed), &worlds, seed);
+    let (made, tried) = task.attempts(cue, draws.iter());
+    SuccessRate::new(made, tried)
 }

@@ -2,7 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use super::{Ease, errors::Errors, trial::Task};
+use super::{
+    Ease,
+    draws::{Draw, Draws},
+    trial::Task,
+};
 use crate::{
     game::Tally,
     physics::{CueInputs, strike},
@@ -39,31 +43,32 @@ impl NextValue {
     }
 }
 
-/// The mean probability of the next point over the layouts that `cue` leaves under the first of these errors, those that
+/// The mean probability of the next point over the layouts that `cue` leaves in the first of these attempts, those that
 /// make a point; nought where none does. `None` where time ran out.
-pub fn next_value(task: &Task, cue: &CueInputs, errors: &[Errors]) -> Option<f64> {
+pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0u32);
-    for errors in errors.iter().take(ATTEMPTS) {
+    for draw in draws.range(0, ATTEMPTS) {
         if task.clock.is_past(task.until) {
             return None;
         }
-        if let Some(end) = end_of(task, &task.skill.stroke(task.table.radius, cue, errors)) {
+        if let Some(end) = end_of(task, cue, draw) {
             sum += Ease::under(task.rule).probability(task.table, &end, task.skill);
             made += 1;
         }
     }
-    task.clock.count(ATTEMPTS.min(errors.len()) as u64);
+    task.clock.count(ATTEMPTS.min(draws.len()) as u64);
     // The last attempt may have been broken off.
     (!task.clock.is_past(task.until)).then_some(if made == 0 { 0.0 } else { sum / f64::from(made) })
 }
 
-/// Where a stroke leaves the balls if it makes the point.
-pub fn end_of(task: &Task, stroke: &CueInputs) -> Option<Layout> {
-    if stroke.is_miscue(task.table) {
+/// Where an attempt at `cue` leaves the balls if it makes the point.
+pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
+    let (stroke, table, layout) = task.stroke(cue, draw);
+    if stroke.is_miscue(table) {
         return None;
     }
     let mut whole = Whole { tally: Tally::default(), patience: StepBudget(task.patience), task, given_up: false };
-    let end = simulate(task.table, task.layout, &strike(task.table, stroke), &mut whole);
+    let end = simulate(table, layout, &strike(table, &stroke), &mut whole);
     (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout())
 }
 

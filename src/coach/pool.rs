@@ -3,7 +3,8 @@
 use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED},
-    errors::{Errors, spread},
+    draws::{Draws, Worlds},
+    errors::spread,
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
@@ -19,18 +20,18 @@ const WORTH_OF_WIDE: f64 = 0.3;
 /// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
 #[derive(Debug)]
 pub struct Race {
-    own: Vec<Errors>,
-    larger: Vec<Errors>,
+    own: Draws,
+    larger: Draws,
 }
 
 impl Race {
-    /// With so many errors at most, a multiple of four.
-    pub fn new(count: usize, seed: u64) -> Self {
+    /// With so many errors at most, a multiple of four, each in one of the worlds.
+    pub fn new(count: usize, worlds: &Worlds, seed: u64) -> Self {
         let mut larger = spread(count / 4, !seed);
         for errors in &mut larger {
             *errors = errors.map(|error| WIDE * error);
         }
-        Self { own: spread(count / 4 * 3, seed), larger }
+        Self { own: Draws::new(spread(count / 4 * 3, seed), worlds, seed), larger: Draws::new(larger, worlds, !seed) }
     }
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
@@ -44,12 +45,11 @@ impl Race {
         let mut after = *candidate;
         while after.tried < count {
             let block = after.tried / 4;
-            let (Some(own), Some(larger)) = (self.own.get(3 * block..3 * block + 3), self.larger.get(block..=block))
-            else {
+            if block >= self.larger.len() {
                 break;
-            };
-            after.made += task.made(&after.shot.cue, own)?;
-            after.wide += task.made(&after.shot.cue, larger)?;
+            }
+            after.made += task.made(&after.shot.cue, self.own.range(3 * block, 3 * block + 3), 3)?;
+            after.wide += task.made(&after.shot.cue, self.larger.range(block, block + 1), 1)?;
             after.tried += 4;
         }
         Some(after)

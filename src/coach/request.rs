@@ -5,8 +5,24 @@ use std::{
     time::Duration,
 };
 
-use super::Skill;
+use super::{Doubt, Skill};
 use crate::game::Rule;
+
+/// Who plays, and how much of the table and of the balls' places is in doubt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shooter {
+    /// The hand's errors.
+    pub skill: Skill,
+    /// What is not known.
+    pub doubt: Doubt,
+}
+
+/// With nothing in doubt.
+impl From<Skill> for Shooter {
+    fn from(skill: Skill) -> Self {
+        Self { skill, doubt: Doubt::NONE }
+    }
+}
 
 /// What the coach is asked for.
 #[derive(Clone, Debug)]
@@ -17,6 +33,8 @@ pub struct Request {
     /// for anybody else the whole budget goes into finding the one that this player makes most often. A perfect
     /// player's answer is the first point with a plan too.
     pub skill: Skill,
+    /// How much of the table and of the balls' places is in doubt. A perfect player has no doubts.
+    pub doubt: Doubt,
     /// Whether what comes next counts: shots are then ranked by their make probability times that of the shot after them.
     pub plan: bool,
     /// Time to look for a shot.
@@ -31,11 +49,19 @@ pub struct Request {
     pub cancel: Arc<AtomicBool>,
 }
 
+impl Request {
+    /// Who plays, and what is in doubt.
+    pub const fn shooter(&self) -> Shooter {
+        Shooter { skill: self.skill, doubt: self.doubt }
+    }
+}
+
 impl Default for Request {
     fn default() -> Self {
         Self {
             rule: Rule::default(),
             skill: Skill::PERFECT,
+            doubt: Doubt::NONE,
             plan: false,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,

@@ -5,9 +5,10 @@ use std::{sync::atomic::AtomicBool, time::Duration};
 use glam::DVec2;
 
 use super::{
-    Skill,
+    Shooter,
     clock::Clock,
-    errors::{self, Errors},
+    draws::{Draws, Worlds},
+    errors,
     next::end_of,
     parallel,
     trial::{CONTACT_STEPS, Task},
@@ -38,11 +39,11 @@ impl Scatter {
     }
 }
 
-/// Lets a player of this skill try `cue` so many times, on all cores. The same seed draws the same errors. `cancel`, set
+/// Lets a player try `cue` so many times, on all cores. The same seed draws the same errors. `cancel`, set
 /// from another thread, ends it: what is left then counts as missed.
 #[expect(clippy::too_many_arguments, reason = "a question, a shot, and how it is to be tried")]
 pub fn scatter(
-    skill: Skill,
+    shooter: impl Into<Shooter>,
     rule: Rule,
     table: &Table,
     layout: &Layout,
@@ -52,11 +53,20 @@ pub fn scatter(
     cancel: &AtomicBool,
 ) -> Scatter {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: CONTACT_STEPS };
-    let attempt = |errors: &Errors| {
-        if clock.is_cancelled() { None } else { end_of(&task, &skill.stroke(table.radius, cue, errors)) }
-    };
-    let ends = parallel::map(parallel::cores(), &errors::independent(attempts, seed), attempt);
+    let Shooter { skill, doubt } = shooter.into();
+    let worlds = Worlds::new(table, layout, doubt);
+    let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
+    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience };
+    let draws = Draws::new(errors::independent(attempts, seed), &worlds, seed);
+    let draws: Vec<_> = draws.iter().collect();
+    let ends =
+        parallel::map(
+            parallel::cores(),
+            &draws,
+            |draw| {
+                if clock.is_cancelled() { None } else { end_of(&task, cue, *draw) }
+            },
+        );
     let ends: Vec<Layout> = ends.into_iter().flatten().collect();
     let made = SuccessRate::new(ends.len(), attempts);
     Scatter { ends, made }
@@ -65,7 +75,10 @@ pub fn scatter(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{coach::make_probability, simulation::Recording};
+    use crate::{
+        coach::{Doubt, Skill, make_probability},
+        simulation::Recording,
+    };
 
     #[test]
     fn a_player_who_errs_makes_what_the_make_probability_says_and_scatters_around_the_meant_end() {
@@ -85,6 +98,9 @@ mod tests {
             assert!(spread > before || skill.is_perfect() && spread == 0.0, "{skill}: {spread} after {before}");
             before = spread;
         }
+        let doubt = Shooter { skill: Skill::EXPERT, doubt: Doubt { placing: 0.02, ..Doubt::FULL } };
+        let doubted = scatter(doubt, rule, &table, &layout, &cue, 200, 5, &never);
+        assert_eq!(doubted.made, make_probability(doubt, rule, &table, &layout, &cue, 200, 5));
         let cancelled = scatter(Skill::EXPERT, rule, &table, &layout, &cue, 200, 5, &AtomicBool::new(true));
         assert_eq!((cancelled.ends.len(), cancelled.spread(0, meant.balls[0])), (0, None));
     }

@@ -69,7 +69,7 @@ impl<'a> Search<'a> {
     /// now.
     pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let race = Race::new(MOST_ERRORS, rng.random());
+        let race = Race::new(MOST_ERRORS, task.worlds, rng.random());
         let begins = task.clock.used().min(1.0);
         let [sampling_ends, refinement_ends] =
             [SAMPLING_ENDS, REFINEMENT_ENDS].map(|share| begins + share * (1.0 - begins));
@@ -241,7 +241,7 @@ fn slack(tried: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        coach::{Skill, clock::Clock, first::Attempt, trial::CONTACT_STEPS},
+        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::Attempt, trial::CONTACT_STEPS},
         game::Rule,
         table::{Layout, Table},
     };
@@ -257,6 +257,7 @@ mod tests {
             layout: &layout,
             rule: Rule::StraightRail,
             skill: Skill::EXPERT,
+            worlds: &Worlds::new(&table, &layout, Doubt::NONE),
             clock: &clock,
             until: clock.moment(1.0),
             patience: CONTACT_STEPS,

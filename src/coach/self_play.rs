@@ -8,8 +8,9 @@ use std::{
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
-    Coach, Request,
+    Coach, Doubt, Request,
     clock::Clock,
+    draws::{Draw, World, Worlds, misplaced},
     errors::{self, Errors},
     next::end_of,
     trial::{ENDLESS, Task},
@@ -33,7 +34,8 @@ pub struct Inning {
 }
 
 /// Plays from `layout` until a miss, `most` points or the time `until`. The coach gets `request` with another seed every
-/// turn, and the errors of its shots are drawn from `rng`. `tell` hears of every point and where it
+/// turn, and the errors of its shots are drawn from `rng`. Where anything is in doubt, the inning is played on a table that is
+/// drawn for it, and the coach is told where the balls lie with the errors of who tells it. `tell` hears of every point and where it
 /// leaves the balls.
 ///
 /// # Errors
@@ -49,12 +51,15 @@ pub fn inning(
 ) -> Result<Inning, LayoutError> {
     let mut inning = Inning::default();
     let mut layout = *layout;
+    let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..request.doubt }).draw(rng).table;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
-        let advice = coach.recommend(&layout, &request)?;
+        let told = misplaced(coach.table(), &layout, request.doubt.placing, rng);
+        let advice = coach.recommend(&told, &request)?;
         inning.simulations += advice.simulations;
         inning.slowest = inning.slowest.max(advice.elapsed);
-        let end = turn(coach.table(), &layout, &request, &advice.cue, &errors::one(rng));
+        let world = World { table: real.clone(), layout };
+        let end = turn(coach.table(), &told, &request, &advice.cue, &errors::one(rng), &world);
         let Some(end) = end else {
             inning.missed = true;
             break;
@@ -66,12 +71,20 @@ pub fn inning(
     Ok(inning)
 }
 
-/// Plays one stroke with a player's errors: where the balls come to rest if it makes the point, else `None`.
-fn turn(table: &Table, layout: &Layout, request: &Request, cue: &CueInputs, errors: &Errors) -> Option<Layout> {
+/// Plays one stroke with a player's errors in the real world: where the balls come to rest if it makes the point, else `None`.
+fn turn(
+    table: &Table,
+    layout: &Layout,
+    request: &Request,
+    cue: &CueInputs,
+    errors: &Errors,
+    world: &World,
+) -> Option<Layout> {
     // Nothing breaks a stroke off that has been made.
     let (always, never) = (Duration::MAX, AtomicBool::new(false));
     let clock = Clock::start(always, u64::MAX, &never);
     let Request { rule, skill, .. } = *request;
-    let task = Task { table, layout, rule, skill, clock: &clock, until: clock.moment(1.0), patience: ENDLESS };
-    end_of(&task, &skill.stroke(table.radius, cue, errors))
+    let (until, worlds) = (clock.moment(1.0), Worlds::new(table, layout, Doubt::NONE));
+    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
+    end_of(&task, cue, Draw { errors, world: Some(world) })
 }

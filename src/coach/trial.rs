@@ -2,7 +2,12 @@
 
 use std::{ops::ControlFlow, time::Instant};
 
-use super::{Skill, candidates::MAX_ELEVATION, clock::Clock, errors::Errors};
+use super::{
+    Skill,
+    candidates::MAX_ELEVATION,
+    clock::Clock,
+    draws::{Draw, World, Worlds, aimed},
+};
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike, with_room},
@@ -30,6 +35,8 @@ pub struct Task<'a> {
     pub rule: Rule,
     /// Whose strokes they are.
     pub skill: Skill,
+    /// What may really be there.
+    pub worlds: &'a Worlds,
     /// Counts the shots, and knows whether anybody waits.
     pub clock: &'a Clock<'a>,
     /// When a shot is broken off.
@@ -63,6 +70,10 @@ impl Task<'_> {
 
     /// Plays one stroke; `None` where time ran out before it was decided.
     pub fn play(&self, cue: &CueInputs) -> Option<Course> {
+        self.play_on(self.table, self.layout, cue)
+    }
+
+    fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Course> {
         let mut hurried = Hurried {
             referee: Referee::default(),
             first: None,
@@ -70,28 +81,41 @@ impl Task<'_> {
             late: false,
             task: self,
         };
-        watch(self.table, self.layout, &strike(self.table, cue), &mut hurried);
+        watch(table, layout, &strike(table, cue), &mut hurried);
         let Hurried { referee, first, late, .. } = hurried;
         (!late).then_some(Course { tally: referee.tally, first })
     }
 
-    /// Whether a stroke makes the point; a tip beyond the table's miscue limit makes none. `None` where time ran out.
-    pub fn makes(&self, stroke: &CueInputs) -> Option<bool> {
-        if stroke.is_miscue(self.table) {
-            return Some(false);
+    /// The stroke that comes of an attempt at `cue`, with the table and the layout on which it is played.
+    #[inline]
+    pub fn stroke<'w>(&'w self, cue: &CueInputs, draw: Draw<'w>) -> (CueInputs, &'w Table, &'w Layout) {
+        match draw.world {
+            None => (self.skill.stroke(self.table.radius, cue, draw.errors), self.table, self.layout),
+            Some(World { table, layout }) => {
+                let cue = aimed(self.table, self.layout, layout, cue);
+                (self.skill.stroke(table.radius, &cue, draw.errors), table, layout)
+            }
         }
-        self.play(stroke).map(|course| self.point().is_made(&course.tally))
     }
 
-    /// The attempts at `cue` with these errors, one after the other until time runs out: how many make the point, and how
-    /// many there were.
-    pub fn attempts(&self, cue: &CueInputs, errors: &[Errors]) -> (usize, usize) {
+    /// Whether an attempt at `cue` makes the point; a tip beyond the table's miscue limit makes none. `None` where time ran
+    /// out.
+    pub fn makes(&self, cue: &CueInputs, draw: Draw) -> Option<bool> {
+        let (stroke, table, layout) = self.stroke(cue, draw);
+        if stroke.is_miscue(table) {
+            return Some(false);
+        }
+        self.play_on(table, layout, &stroke).map(|course| self.point().is_made(&course.tally))
+    }
+
+    /// Attempts at `cue`, one after the other until time runs out: how many make the point, and how many there were.
+    pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> (usize, usize) {
         let (mut made, mut tried) = (0, 0);
-        for errors in errors {
+        for draw in draws {
             if self.clock.is_past(self.until) {
                 break;
             }
-            let Some(point) = self.makes(&self.skill.stroke(self.table.radius, cue, errors)) else { break };
+            let Some(point) = self.makes(cue, draw) else { break };
             made += usize::from(point);
             tried += 1;
         }
@@ -99,10 +123,10 @@ impl Task<'_> {
         (made, tried)
     }
 
-    /// How many of the attempts at `cue` with these errors make the point; `None` where time ran out before the last.
-    pub fn made(&self, cue: &CueInputs, errors: &[Errors]) -> Option<usize> {
-        let (made, tried) = self.attempts(cue, errors);
-        (tried == errors.len()).then_some(made)
+    /// How many of `count` attempts at `cue` make the point; `None` where time ran out before the last.
+    pub fn made<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>, count: usize) -> Option<usize> {
+        let (made, tried) = self.attempts(cue, draws);
+        (tried == count).then_some(made)
     }
 }
 

@@ -1,17 +1,14 @@
 //! A player's skill from results at a real table.
 //!
-//! The player is taken to err like an expert, only so many times as much in all five inputs, and to play the shot that the
-//! exercise teaches or a hint has shown. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
+//! The player is taken to err like those of the named levels, only so many times as much in all five inputs, and to play
+//! the shot that the exercise teaches or a hint has shown, on a table that is not quite known. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
 //! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
 //! are its interval (likelihood ratio, Wilks 1938).
 
 use super::{Session, Venue};
 use crate::{
-    coach::{
-        Skill,
-        errors::{Errors, spread},
-    },
-    game::{Rule, scores},
+    coach::{Doubt, Shooter, Skill, make_probability},
+    game::Rule,
     physics::CueInputs,
     table::{Layout, Table},
 };
@@ -32,8 +29,8 @@ const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
 /// thousand attempts the interval is 40 of them wide.
 const FINER: usize = 32;
 
-/// Simulated strokes for each scale and shot. They are the same errors for all, evenly spread: the curve `p_e(s)` is smooth,
-/// and off by about 1 %.
+/// Simulated strokes for each scale and shot. They are the same errors and tables for all: the curve `p_e(s)` is smooth, and
+/// off by at most 1.6 % as a rule.
 const STROKES: usize = 1000;
 
 /// The logarithm of the likelihood may be so much below its maximum within the 95 % interval: half of the 95 % point of the
@@ -43,9 +40,9 @@ const DEPTH: f64 = 1.920_729;
 /// What the results say of a player.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// An expert's errors so many times; `None` where the interval is open at one end, so that there is a bound alone.
+    /// A level's errors so many times; `None` where the interval is open at one end, so that there is a bound alone.
     pub skill: Option<Skill>,
-    /// How many times.
+    /// How many times the errors of [`Skill::level`] at 1.
     pub scale: f64,
     /// Lower end of its 95 % interval; at 1/4 it may lie lower.
     pub low: f64,
@@ -62,15 +59,19 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// How many times an expert's errors with its 95 % interval, in so many decimals. Where the interval reaches an end of the
-    /// scales that are looked at, only its other end is known.
-    pub fn words(&self, decimals: usize) -> String {
-        let Self { scale: times, low, high, .. } = *self;
-        let of = "times an expert's";
-        match openings(low, high) {
-            [true, _] => format!("at most {high:.decimals$} {of}"),
-            [_, true] => format!("at least {low:.decimals$} {of}"),
-            _ => format!("{times:.decimals$} {of} ({low:.decimals$}-{high:.decimals$})"),
+    /// What such a player averages at three-cushion: the ends of the 95 % interval with the estimate between them.
+    pub fn averages(&self) -> [f64; 3] {
+        [self.high, self.scale, self.low].map(Skill::average)
+    }
+
+    /// The average with its 95 % interval. Where that reaches an end of the scales that are looked at, only its other end is
+    /// known.
+    pub fn words(&self) -> String {
+        let [least, average, most] = self.averages();
+        match openings(self.low, self.high) {
+            [true, _] => format!("at least {least:.2}"),
+            [_, true] => format!("at most {most:.2}"),
+            _ => format!("{average:.2} ({least:.2} to {most:.2})"),
         }
     }
 }
@@ -110,7 +111,7 @@ struct Shot {
     made: usize,
 }
 
-/// Estimates a player's skill from the attempts at a real table. It takes some 0.03 s a shot.
+/// Estimates a player's skill from the attempts at a real table. It takes some 0.1 s a shot.
 ///
 /// # Errors
 /// Where the attempts are too few or tell nothing.
@@ -120,13 +121,12 @@ pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     if attempts < FEWEST {
         return Err(NoEstimate::TooFew { attempts });
     }
-    let errors = spread(STROKES, 0);
-    let curves: Vec<_> = shots.iter().map(|shot| shot.curve(&errors)).collect();
+    let curves: Vec<_> = shots.iter().map(Shot::curve).collect();
     let counts: Vec<_> = shots.iter().map(|shot| (shot.made, shot.tried)).collect();
     let [low, scale, high] = fit(&curves, &counts).ok_or(NoEstimate::Uninformative { attempts })?;
     Ok(Estimate {
         // Nobody knows more digits of it.
-        skill: (openings(low, high) == [false; 2]).then(|| Skill::EXPERT.scaled((100.0 * scale).round() / 100.0)),
+        skill: (openings(low, high) == [false; 2]).then(|| Skill::level((100.0 * scale).round() / 100.0)),
         scale,
         low,
         high,
@@ -176,14 +176,11 @@ fn shots(sessions: &[Session]) -> (Vec<Shot>, usize) {
 
 impl Shot {
     /// `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot tell.
-    fn curve(&self, errors: &[Errors]) -> [f64; SCALES] {
+    fn curve(&self) -> [f64; SCALES] {
         std::array::from_fn(|index| {
-            let skill = Skill::EXPERT.scaled(scale(index as f64 / STEPS as f64));
-            let makes = |errors: &&Errors| {
-                let stroke = skill.stroke(self.table.radius, &self.cue, errors);
-                !stroke.is_miscue(&self.table) && scores(self.rule, &self.table, &self.layout, &stroke)
-            };
-            (errors.iter().filter(makes).count() as f64 + 0.5) / (errors.len() as f64 + 1.0)
+            let shooter = Shooter { skill: Skill::level(scale(index as f64 / STEPS as f64)), doubt: Doubt::FULL };
+            let made = make_probability(shooter, self.rule, &self.table, &self.layout, &self.cue, STROKES, 0);
+            (made.successes as f64 + 0.5) / (made.trials as f64 + 1.0)
         })
     }
 }
@@ -221,8 +218,8 @@ fn fit(curves: &[[f64; SCALES]], counts: &[(usize, usize)]) -> Option<[f64; 3]> 
 mod tests {
     use super::*;
     use crate::{
-        coach::{Coach, Request, errors::independent},
-        drills::{Attempt, Exercise, Goal, Played, session::tests::exercise},
+        coach::{Coach, Request},
+        drills::{Attempt, Exercise, Goal, session::tests::exercise},
         learning::evaluation::held_out_layouts,
     };
     use std::time::Duration;
@@ -248,19 +245,17 @@ mod tests {
 
     /// What a player of `scale` logs: 50 attempts at each exercise.
     fn logged(exercises: &[Exercise], scale: f64, seed: u64) -> Vec<Session> {
-        let table = Table::default();
-        let errors = independent(50 * exercises.len(), seed);
-        let session = |(exercise, errors): (&Exercise, &[Errors])| {
+        let shooter = Shooter { skill: Skill::level(scale), doubt: Doubt::FULL };
+        let session = |(number, exercise): (u64, &Exercise)| {
             let one = vec![exercise.clone()];
-            let mut session = Session::new(Goal::Free, Venue::Table, one, Skill::EXPERT, 0);
-            for errors in errors {
-                let stroke = Skill::EXPERT.scaled(scale).stroke(table.radius, &exercise.shot.unwrap(), errors);
-                let made = Played::of(exercise.rule, &table, &exercise.layout, stroke).made;
-                session.attempts.push(Attempt::new(&exercise.name, made));
-            }
+            let mut session = Session::new(Goal::Free, Venue::Table, one, Skill::CLUB, 0);
+            let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
+            let seed = 1000 * (seed + 1) + number;
+            let made = make_probability(shooter, exercise.rule, &table, &exercise.layout, &shot, 50, seed).successes;
+            session.attempts = (0..50).map(|attempt| Attempt::new(&exercise.name, attempt < made)).collect();
             session
         };
-        exercises.iter().zip(errors.chunks(50)).map(session).collect()
+        (0..).zip(exercises).map(session).collect()
     }
 
     #[test]
@@ -272,14 +267,13 @@ mod tests {
         assert!(six.iter().all(|found| found.high / found.low < 2.0), "{six:?}");
         let found = &six[0];
         assert_eq!((found.attempts, found.shots, found.left_out), (400, 8, 0));
-        assert_eq!(found.skill, Some(Skill::EXPERT.scaled((100.0 * found.scale).round() / 100.0)));
+        assert_eq!(found.skill, Some(Skill::level((100.0 * found.scale).round() / 100.0)));
         let mut faultless = logged(&exercises, 1.0, 2);
         faultless.iter_mut().flat_map(|session| &mut session.attempts).for_each(|attempt| attempt.made = true);
         let bound = estimate(&faultless).unwrap();
         assert_eq!(bound.skill, None, "who never misses is no better than the exercises can tell: {bound:?}");
         // All from the same curves: those are what takes time. The scales lie between the simulated ones.
-        let curves: Vec<_> =
-            shots(&logged(&exercises, 1.0, 0)).0.iter().map(|shot| shot.curve(&spread(STROKES, 0))).collect();
+        let curves: Vec<_> = shots(&logged(&exercises, 1.0, 0)).0.iter().map(Shot::curve).collect();
         for scale in [1.1, 3.0, 5.0] {
             let within = |seed: &u64| {
                 let counts: Vec<_> = shots(&logged(&exercises, scale, 100 + seed))
@@ -297,8 +291,8 @@ mod tests {
     }
 
     #[test]
-    fn a_record_without_a_miss_bounds_the_errors_from_above_and_one_without_a_point_from_below() {
-        // Everybody makes it up to an expert's errors twice over, and nobody beyond eight times.
+    fn a_record_without_a_miss_bounds_the_average_from_below_and_one_without_a_point_from_above() {
+        // Everybody makes it with small errors, and nobody with large ones.
         let curve = std::array::from_fn(|index| (1.15 - 0.05 * index as f64).clamp(0.01, 0.999));
         let words = |made| {
             let [low, scale, high] = fit(&[curve], &[(made, 100)]).unwrap();
@@ -307,9 +301,9 @@ mod tests {
         };
         let (all, none, some) = (words(100), words(0), words(70));
         assert_eq!(all.scale, 0.25, "{all:?}");
-        assert!(all.words(1).starts_with("at most ") && all.high < 1.0, "{all:?}");
-        assert!(none.words(1).starts_with("at least ") && none.scale > 4.0, "{none:?}");
-        assert!(some.words(1).contains('(') && some.low < some.scale && some.scale < some.high, "{some:?}");
+        assert!(all.words().starts_with("at least ") && all.high < 1.0, "{all:?}");
+        assert!(none.words().starts_with("at most ") && none.scale > 4.0, "{none:?}");
+        assert!(some.words().contains('(') && some.low < some.scale && some.scale < some.high, "{some:?}");
     }
 
     #[test]

@@ -78,7 +78,7 @@ pub struct Mark {
     pub expected: Par,
     /// Standard deviations of their points: an exam is short, and luck counts.
     pub spread: Par,
-    /// Whose average is nearest: "beginner", "club" or "expert".
+    /// Whose average is nearest: "beginner", "club" or "world-class".
     pub nearest: &'static str,
 }
 
@@ -90,14 +90,14 @@ pub fn mark(session: &Session) -> Option<Mark> {
     let each = |term| Par {
         beginner: sum(|par| par.beginner, term),
         club: sum(|par| par.club, term),
-        expert: sum(|par| par.expert, term),
+        world_class: sum(|par| par.world_class, term),
     };
     let expected = each(|share| share);
-    let Par { beginner, club, expert } = each(|share| share * (1.0 - share));
-    let spread = Par { beginner: beginner.sqrt(), club: club.sqrt(), expert: expert.sqrt() };
+    let Par { beginner, club, world_class } = each(|share| share * (1.0 - share));
+    let spread = Par { beginner: beginner.sqrt(), club: club.sqrt(), world_class: world_class.sqrt() };
     let made = attempts.iter().filter(|attempt| attempt.made).count();
     let distance = |average: f64| (made as f64 - average).abs();
-    let players = [("beginner", expected.beginner), ("club", expected.club), ("expert", expected.expert)];
+    let players = [("beginner", expected.beginner), ("club", expected.club), ("world-class", expected.world_class)];
     let (nearest, _) = players.into_iter().min_by(|x, y| distance(x.1).total_cmp(&distance(y.1)))?;
     (!attempts.is_empty()).then_some(Mark { tried: attempts.len(), made, expected, spread, nearest })
 }
@@ -116,7 +116,7 @@ mod tests {
             (0..10_u8).map(move |number| Exercise {
                 category,
                 grade: 1 + number % 5,
-                par: Some(Par { beginner: 0.2, club: 0.5, expert: 0.9 }),
+                par: Some(Par { beginner: 0.2, club: 0.5, world_class: 0.9 }),
                 ..exercise(&format!("{category}-{number}"))
             })
         };
@@ -156,7 +156,7 @@ mod tests {
         let exam = draw(&library(), 2, 1).unwrap();
         // Averages over 20 exercises are 4, 10 and 18.
         for (made, nearest) in
-            [(0, "beginner"), (6, "beginner"), (8, "club"), (13, "club"), (15, "expert"), (20, "expert")]
+            [(0, "beginner"), (6, "beginner"), (8, "club"), (13, "club"), (15, "world-class"), (20, "world-class")]
         {
             let mut session = Session::new(Goal::Exam, Venue::Table, exam.clone(), Skill::CLUB, 1);
             assert_eq!(mark(&session), None);
@@ -164,7 +164,7 @@ mod tests {
                 session.log(number < made).unwrap();
             }
             let mark = mark(&session).unwrap();
-            assert!((mark.expected.expert - 18.0).abs() < 1e-9);
+            assert!((mark.expected.world_class - 18.0).abs() < 1e-9);
             assert!((mark.spread.club - 5.0_f64.sqrt()).abs() < 1e-9, "of 20 even chances");
             assert_eq!((mark.made, mark.nearest), (made, nearest));
         }

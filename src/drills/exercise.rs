@@ -89,8 +89,9 @@ pub struct Par {
     pub beginner: f64,
     /// A club player.
     pub club: f64,
-    /// An expert.
-    pub expert: f64,
+    /// A world-class player; files of older versions have an expert's share in its place.
+    #[serde(rename = "world-class", alias = "expert")]
+    pub world_class: f64,
 }
 
 /// A position to practise.

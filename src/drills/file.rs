@@ -174,7 +174,7 @@ mod tests {
       "point": "Aim at the edge.",
       "tags": ["soft", "plain"],
       "shot": {"a": 0, "b": 0.25, "theta_deg": 3.3, "phi_deg": -12.34, "speed": 2.15},
-      "par": {"beginner": 0.5, "club": 0.75, "expert": 0.9}
+      "par": {"beginner": 0.5, "club": 0.75, "world-class": 0.9}
     }
   ]
 }

@@ -1,7 +1,7 @@
 //! How hard an exercise is: what players of the named skills make of its shot.
 
 use super::{Exercise, ExerciseError, Par};
-use crate::coach::{Skill, make_probability};
+use crate::coach::{Doubt, Shooter, Skill, make_probability};
 
 /// Attempts from which each share is measured; its standard error is at most 0.5 %.
 pub const ATTEMPTS: usize = 10_000;
@@ -13,7 +13,7 @@ pub const SEED: u64 = 2026;
 pub const GRADES: [f64; 4] = [0.995, 0.97, 0.88, 0.65];
 
 impl Par {
-    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player; `None` where it has no shot that the cue has
+    /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player, on tables and from places that are in doubt; `None` where it has no shot that the cue has
     /// room for. The shares are rounded to a thousandth.
     ///
     /// # Errors
@@ -23,10 +23,15 @@ impl Par {
         let table = exercise.table()?;
         let Some(shot) = exercise.model_shot() else { return Ok(None) };
         let share = |skill| {
-            let made = make_probability(skill, exercise.rule, &table, &exercise.layout, &shot, ATTEMPTS, SEED);
+            let shooter = Shooter { skill, doubt: Doubt::FULL };
+            let made = make_probability(shooter, exercise.rule, &table, &exercise.layout, &shot, ATTEMPTS, SEED);
             (made.rate * 1e3).round() / 1e3
         };
-        Ok(Some(Self { beginner: share(Skill::BEGINNER), club: share(Skill::CLUB), expert: share(Skill::EXPERT) }))
+        Ok(Some(Self {
+            beginner: share(Skill::BEGINNER),
+            club: share(Skill::CLUB),
+            world_class: share(Skill::WORLD_CLASS),
+        }))
     }
 
     /// How hard that is, 1 to 5, by what the club player makes.

@@ -96,7 +96,7 @@ fn par_is_what_is_measured_and_the_grade_follows_it() {
     for exercise in &exercises {
         let par = exercise.par.unwrap();
         assert_eq!(exercise.grade, par.grade(), "{}", exercise.name);
-        assert!(par.beginner <= par.club && par.club <= par.expert, "{}: {par:?}", exercise.name);
+        assert!(par.beginner <= par.club && par.club <= par.world_class, "{}: {par:?}", exercise.name);
     }
     // All of them: the example `grade` with --check.
     for exercise in exercises.iter().step_by(19) {

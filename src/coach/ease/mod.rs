@@ -20,25 +20,21 @@ const SOFTNESS: f64 = 0.02;
 /// Length of the `match` table, m: the weights are for distances on a table of this length.
 const MATCH_LENGTH: f64 = 2.84;
 
-/// Players who err less than so many times as much as an expert are taken to err as much.
+/// Players who err less than so many times the errors of [`Skill::level`] at 1 are taken to err as much.
 const SMALLEST_SCALE: f64 = 0.1;
 
 /// How easy layouts are under a rule: a weighted sum of some numbers about them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ease {
-    /// What the numbers are weighed with for the share of misses with [`Ease::SCALE`] times an expert's errors: a constant;
+    /// What the numbers are weighed with for the share of a club player's misses: a constant;
     /// the cue ball's distance a from the nearer object ball and that ball's distance c from the other, 1/m; a², c² and a c,
     /// 1/m²; the cosine of the turn between those two ways, and its square.
     pub weights: [f64; NUMBERS],
-    /// The expert's own share of misses is this power of it.
+    /// A world-class player's share of misses is this power of it.
     pub power: f64,
 }
 
 impl Ease {
-    /// How many times an expert's errors the weights are fitted for: under these, layouts still differ that an expert
-    /// hardly ever misses.
-    pub const SCALE: f64 = 2.5;
-
     /// What is in use, from `cargo run --release --example ease -- 1600`. Of 800 layouts a rule that took no part in the fit,
     /// the easiest fifth were missed by an expert 0.02, 0.18 and 1.0 % of the time (estimated: 0.01, 0.08 and 1.1), the hardest
     /// 3.2, 3.8 and 9.7 % (estimated: 3.9, 4.0 and 9.5).
@@ -56,10 +52,11 @@ impl Ease {
         1.0 - self.missed(table, layout).powf(self.power_at(skill.scale()))
     }
 
-    /// The power for `scale` times an expert's errors: 1 where the weights were fitted, `power` for an expert, and straight
-    /// between and beyond them if both are drawn on logarithmic axes.
+    /// The power for a player of so large errors: 1 for a club player, `power` for a world-class one, and straight between
+    /// and beyond them if both are drawn on logarithmic axes.
     fn power_at(&self, scale: f64) -> f64 {
-        self.power.powf((Self::SCALE / scale.max(SMALLEST_SCALE)).ln() / Self::SCALE.ln())
+        let [club, best] = [Skill::CLUB, Skill::WORLD_CLASS].map(|skill| skill.scale().ln());
+        self.power.powf((club - scale.max(SMALLEST_SCALE).ln()) / (club - best))
     }
 
     /// Whether the weights were fitted on this table: elsewhere they rank layouts, but nobody knows how often they are made.
@@ -67,7 +64,7 @@ impl Ease {
         *table == Table::default()
     }
 
-    /// Share of misses from `layout` with [`Ease::SCALE`] times an expert's errors.
+    /// Share of a club player's misses from `layout`.
     pub fn missed(&self, table: &Table, layout: &Layout) -> f64 {
         let share: f64 = self.weights.iter().zip(numbers(table, layout)).map(|(weight, number)| weight * number).sum();
         (SOFTNESS * (share / SOFTNESS).exp().ln_1p()).min(1.0)
@@ -122,6 +119,6 @@ mod tests {
         let all = [Skill::PERFECT, Skill::EXPERT, Skill::CLUB, Skill::BEGINNER].map(missed);
         assert!(all.is_sorted() && all[0] < 1e-9 && all[3] > 0.3 && all[3] < 1.0, "{all:?}");
         let fitted = Ease::under(Rule::ThreeCushion).missed(&table, &layout);
-        assert!((missed(Skill::EXPERT.scaled(Ease::SCALE)) - fitted).abs() < 1e-12);
+        assert!((missed(Skill::CLUB) - fitted).abs() < 1e-12);
     }
 }

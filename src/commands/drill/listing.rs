@@ -123,8 +123,8 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
         line(format_args!("shot   {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
     }
     if let Some(par) = par {
-        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(|share| 100.0 * share);
-        line(format_args!("par    beginner {beginner:.0} %, club {club:.0} %, expert {expert:.0} %"))?;
+        let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(|share| 100.0 * share);
+        line(format_args!("par    beginner {beginner:.0} %, club {club:.0} %, world-class {best:.0} %"))?;
     }
     line(format_args!("record {}", words(&record)))?;
     line(format_args!("code   {code}"))

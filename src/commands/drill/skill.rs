@@ -17,8 +17,8 @@ const NO_SKILL: &str = "that is a bound and no skill to keep: makes and misses a
 
 /// Estimate the player's skill from the results at a real table.
 ///
-/// It is so many times an expert's errors, with the 95 % interval; scales from 1/4 to 16 are looked at, and an interval that
-/// reaches one of these ends is open there. The player is taken to have played the exercises' own shots, or those that a
+/// It is told as the average at three-cushion that a player with such errors has, with the 95 % interval; averages from
+/// next to nothing to far above world class are looked at, and an interval that reaches one of these ends is open there. The player is taken to have played the exercises' own shots, or those that a
 /// hint has shown.
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -35,6 +35,10 @@ struct SkillAnswer {
     /// Absent where there is a bound alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     skill: Option<Skill>,
+    /// Points an inning at three-cushion.
+    average: f64,
+    average_interval: [f64; 2],
+    /// Errors in multiples of those of the level 1, which are an expert's at the reference stroke.
     scale: f64,
     interval: [f64; 2],
     attempts: usize,
@@ -49,15 +53,27 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let estimate = estimate(&workspace.sessions()).map_err(Failure::failed)?;
     let Estimate { skill, scale, low, high, attempts, made, shots, left_out } = estimate;
     if args.keep {
-        let skill = skill.ok_or_else(|| Failure::failed(format_args!("errors {}; {NO_SKILL}", estimate.words(2))))?;
+        let skill = skill.ok_or_else(|| Failure::failed(format_args!("average {}; {NO_SKILL}", estimate.words())))?;
         workspace.store.keep_skill(skill).map_err(Failure::failed)?;
     }
     if args.json {
-        let interval = [low, high];
+        let (interval, [least, average, most]) = ([low, high], estimate.averages());
+        let average_interval = [least, most];
         let kept = args.keep;
-        return Ok(json_line(&SkillAnswer { skill, scale, interval, attempts, made, shots, left_out, kept })?);
+        return Ok(json_line(&SkillAnswer {
+            skill,
+            average,
+            average_interval,
+            scale,
+            interval,
+            attempts,
+            made,
+            shots,
+            left_out,
+            kept,
+        })?);
     }
-    line(format_args!("errors {} (95 % interval); club is 2, beginner 4", estimate.words(2)))?;
+    line(format_args!("you play like an average of {} at three-cushion (95 % interval)", estimate.words()))?;
     line(format_args!("from {made} of {attempts} made at {shots} shots"))?;
     match skill {
         Some(skill) => line(format_args!("as a skill: {skill}"))?,

@@ -333,6 +333,6 @@ fn mark_words(Mark { tried, made, expected, spread, nearest }: &Mark, of: usize)
     format!(
         "score {made} of {tried}{unfinished}; a beginner makes {:.1} ± {:.1}, a club player {:.1} ± {:.1}, an expert {:.1} ± {:.1} \
          (average and standard deviation): nearest is {nearest}",
-        expected.beginner, spread.beginner, expected.club, spread.club, expected.expert, spread.expert
+        expected.beginner, spread.beginner, expected.club, spread.club, expected.world_class, spread.world_class
     )
 }

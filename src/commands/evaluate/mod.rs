@@ -21,7 +21,7 @@ use super::{
     recommend::coach_for,
 };
 use crate::{
-    coach::{Request, Skill},
+    coach::{Doubt, Request, Skill},
     game::{Reward, Rule, scores},
     learning::{
         Policy, PolicyError,
@@ -63,10 +63,17 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
         value_parser = clap::value_parser!(u32).range(1..))]
     random_search: Option<u32>,
-    /// Who plays the shots: perfect, expert, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
+    /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
     #[arg(long, value_parser = skill_called, conflicts_with_all = ["random_search", "reward"])]
     skill: Option<Skill>,
+    /// What is not known besides the hand's errors: full, none, or like "table=1,placing=3". Shots are chosen with it and
+    /// played on tables and from places that are drawn from it.
+    #[arg(long, default_value_t = Doubt::FULL, conflicts_with_all = ["random_search", "reward"])]
+    doubt: Doubt,
+    /// Choose shots with this doubt instead, and only play them with --doubt.
+    #[arg(long, value_name = "DOUBT", requires = "skill", conflicts_with_all = ["policy_only", "random_search", "self_play"])]
+    choose_doubt: Option<Doubt>,
     /// Play innings: the recommended shot with the player's errors, until a miss, one inning a layout. The skill is
     /// expert where none is given.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search", "reward"])]
@@ -162,7 +169,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// What the recommender is asked for.
 fn request(args: &Args, skill: Skill) -> Request {
     let budget = Duration::from_millis(args.budget_ms);
-    Request { rule: args.rule, skill, plan: args.plan, budget, seed: args.seed, ..Request::default() }
+    let doubt = args.choose_doubt.unwrap_or(args.doubt);
+    Request { rule: args.rule, skill, doubt, plan: args.plan, budget, seed: args.seed, ..Request::default() }
 }
 
 /// Name of the networks alone as a player.
@@ -204,7 +212,7 @@ fn measure(
         let earned = reward.of(table, &layout, &cue);
         total += earned;
         successes += usize::from(earned >= 1.0);
-        if let Some(skill) = &args.skill {
+        if let Some(skill) = args.skill {
             chances.push(robustness::chance(args, table, &layout, skill, &cue));
         }
     }
@@ -220,7 +228,7 @@ fn measure(
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * slowest,
         simulations_per_layout: None,
-        robustness: args.skill.map(|skill| Robustness::new(skill, &chances)),
+        robustness: args.skill.map(|skill| Robustness::new(skill, args.doubt, chances)),
     }
 }
 

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::{Args, request};
 use crate::{
-    coach::{Inning, Skill, inning},
+    coach::{Doubt, Inning, Skill, inning},
     commands::{Failure, input::minutes, output::tell, recommend::coach_for},
     learning::evaluation::{SuccessRate, held_out_layouts},
     printing,
@@ -31,6 +31,7 @@ struct SelfPlayReport {
     table: String,
     rule: &'static str,
     skill: Skill,
+    doubt: Doubt,
     seed: u64,
     budget_ms: u64,
     plan: bool,
@@ -102,6 +103,7 @@ fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: D
         table: table.to_owned(),
         rule: args.rule.name(),
         skill,
+        doubt: args.doubt,
         seed: args.seed,
         budget_ms: args.budget_ms,
         plan: args.plan,
@@ -125,8 +127,15 @@ fn print(out: &mut impl Write, report: &SelfPlayReport) -> std::io::Result<()> {
     let [low, high] = report.average_interval.map(end);
     writeln!(
         out,
-        "self-play on \"{}\", {}, skill \"{}\": {} points and {} misses in {} innings ({} broken off)",
-        report.table, report.rule, report.skill, report.points, report.misses, report.innings, report.broken_off
+        "self-play on \"{}\", {}, skill \"{}\", doubt \"{}\": {} points and {} misses in {} innings ({} broken off)",
+        report.table,
+        report.rule,
+        report.skill,
+        report.doubt,
+        report.points,
+        report.misses,
+        report.innings,
+        report.broken_off
     )?;
     writeln!(
         out,

@@ -17,7 +17,7 @@ use super::{
     output::impulse_words,
 };
 use crate::{
-    coach::{Coach, Kind, Recommendation, Request, Skill, Source},
+    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source},
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
@@ -34,11 +34,15 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Who plays the shot: perfect, expert, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
+    /// Who plays the shot: perfect, expert, world-class, national, club, beginner, own (what `carom drill skill --keep` kept), or a player's own standard errors in mm, degrees and m/s like
     /// "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is recommended; to a perfect one
     /// the first that makes the point.
     #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]
     skill: Skill,
+    /// What is not known besides the hand's errors: full (the table as well as it is known, the balls within 3 mm), none, or
+    /// a multiple of the first and the second in mm like "table=1,placing=3". A perfect player has no doubts.
+    #[arg(long, default_value_t = Doubt::FULL)]
+    doubt: Doubt,
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
     #[arg(long, conflicts_with = "policy_only")]
     plan: bool,
@@ -90,6 +94,9 @@ struct RecommendAnswer {
     solved: Option<bool>,
     #[serde(flatten)]
     chance: Chance,
+    /// What would miss the shot by itself, where anything is in doubt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    risk: Option<Risk>,
     /// Of the next point, where it was looked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     next_probability: Option<f64>,
@@ -199,6 +206,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
             cue,
             solved: None,
             chance: Chance::default(),
+            risk: None,
             next_probability: None,
             source: Source::Policy,
             sort: Sort::default(),
@@ -211,6 +219,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     let request = Request {
         rule,
         skill: args.skill,
+        doubt: args.doubt,
         plan: args.plan,
         budget: Duration::from_millis(args.budget_ms),
         simulations: args.simulations.unwrap_or(u64::MAX),
@@ -239,6 +248,7 @@ impl From<Recommendation> for RecommendAnswer {
             cue: advice.cue,
             solved: Some(advice.solved),
             chance: advice.make_probability.into(),
+            risk: advice.risk,
             next_probability: advice.next_probability,
             source: advice.source,
             sort: advice.kind.into(),
@@ -268,6 +278,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
         None => writeln!(out, "the networks' own shot, not simulated")?,
+    }
+    if let Some(risk) = &answer.risk {
+        writeln!(out, "{risk}")?;
     }
     if let Some(next) = answer.next_probability {
         writeln!(out, "after it the next point is made about {:.0} % of the time", 100.0 * next)?;

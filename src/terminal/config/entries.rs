@@ -124,11 +124,23 @@ pub const ENTRIES: &[Entry] = &[
         group: "Game",
         key: "skill",
         about: "Who plays: the errors that the coach reckons with.",
-        accepted: "\"perfect\", \"expert\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"",
+        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\" or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"",
         choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(settings.skill.to_string()),
         set: |settings, value| {
             settings.skill = value.as_str()?.parse().ok()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
+        key: "doubt",
+        about: "How much of the table and of the balls' places the coach takes to be unknown.",
+        accepted: "\"none\", \"full\" or its two numbers like \"table=1,placing=3\": a multiple, and mm",
+        choices: || ["none", "full"].map(quoted).to_vec(),
+        get: |settings| quoted(settings.doubt.to_string()),
+        set: |settings, value| {
+            settings.doubt = value.as_str()?.parse().ok()?;
             Some(())
         },
     },

@@ -15,7 +15,7 @@ use std::{
 use directories::ProjectDirs;
 
 use crate::{
-    coach::Skill,
+    coach::{Doubt, Skill},
     game::Rule,
     storage,
     table::{PRESETS, Table},
@@ -46,6 +46,8 @@ pub struct Settings {
     pub rule: Rule,
     /// Who plays.
     pub skill: Skill,
+    /// How much of the table and of the balls' places the coach takes to be unknown.
+    pub doubt: Doubt,
     /// Whether the coach has the next point in mind.
     pub plan: bool,
     /// How long the coach may think, ms. A quarter of the usual second finds an expert three-cushion shots that are made 98
@@ -71,6 +73,7 @@ impl Default for Settings {
             table: "match".to_owned(),
             rule: Rule::default(),
             skill: Skill::EXPERT,
+            doubt: Doubt::FULL,
             plan: true,
             think_ms: 1000,
             step_mm: 10.0,

@@ -62,6 +62,7 @@ pub fn converse(
     let request = Request {
         rule: settings.rule,
         skill: settings.skill,
+        doubt: settings.doubt,
         plan: settings.plan,
         budget: Duration::from_millis(settings.think_ms),
         ..Request::default()

@@ -70,7 +70,10 @@ pub const HELP: &[(&str, &str)] = &[
     ("cue ball yellow", "which ball is the cue ball: white or yellow"),
     ("random", "random position"),
     ("rule three-cushion", "what counts as a point: straight, one-cushion or three-cushion"),
-    ("skill club", "who plays: perfect, expert, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1"),
+    (
+        "skill club",
+        "who plays: perfect, expert, world-class, national, club, beginner or errors like a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1",
+    ),
     ("plan off", "whether the coach has the next point in mind: on or off"),
     ("film", "which filmed shots there are"),
     ("film 12", "that filmed shot, and how far the simulated balls are from the filmed ones"),

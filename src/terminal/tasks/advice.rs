@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use crate::{
-    coach::{Kind, Map, Margin, Scatter, Skill},
+    coach::{Doubt, Kind, Map, Margin, Risk, Scatter, Shooter, Skill},
     game::Rule,
     learning::{Policy, evaluation::SuccessRate},
     terminal::shot::Shot,
@@ -18,23 +18,30 @@ pub struct CoachQuery {
     pub rule: Rule,
     /// Who is to play the shot.
     pub skill: Skill,
+    /// How much of the table and of the balls' places is in doubt.
+    pub doubt: Doubt,
     /// Whether the next point counts too.
     pub plan: bool,
 }
 
 impl Default for CoachQuery {
     fn default() -> Self {
-        Self { policy: None, rule: Rule::default(), skill: Skill::EXPERT, plan: true }
+        Self { policy: None, rule: Rule::default(), skill: Skill::EXPERT, doubt: Doubt::FULL, plan: true }
     }
 }
 
 impl PartialEq for CoachQuery {
     fn eq(&self, other: &Self) -> bool {
-        (self.rule, self.skill, self.plan) == (other.rule, other.skill, other.plan) && self.has_policy_of(other)
+        (self.rule, self.shooter(), self.plan) == (other.rule, other.shooter(), other.plan) && self.has_policy_of(other)
     }
 }
 
 impl CoachQuery {
+    /// Who plays, and what is in doubt.
+    pub const fn shooter(&self) -> Shooter {
+        Shooter { skill: self.skill, doubt: self.doubt }
+    }
+
     /// The policy's name.
     pub fn name(&self) -> &str {
         self.policy.as_ref().map_or("the bundled policy", |(name, _)| name)
@@ -68,6 +75,8 @@ pub struct Proposal {
     pub kind: Option<Kind>,
     /// How often the player makes it, if that is known.
     pub made: Option<SuccessRate>,
+    /// What would miss it by itself, if that is known.
+    pub risk: Option<Risk>,
     /// Probability of the point after this one, if it is known.
     pub next: Option<f64>,
     /// Whether the search had not ended: the share of points is then from the errors that it was chosen by, which flatters.
@@ -92,6 +101,8 @@ pub struct ShotAnalysis {
     pub tip: Map,
     /// The outcome over direction and speed around the stroke.
     pub aim: Map,
+    /// The player's standard errors at this stroke.
+    pub hand: Skill,
     /// What comes of many attempts of the player.
     pub scatter: Scatter,
 }
@@ -101,13 +112,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tutors_are_equal_where_they_are_asked_the_same() {
+    fn queries_are_equal_where_they_are_asked_the_same() {
         let query = CoachQuery::default();
         assert_eq!(query, query.clone());
         for other in [
             CoachQuery { rule: Rule::OneCushion, ..query.clone() },
             CoachQuery { skill: Skill::CLUB, ..query.clone() },
             CoachQuery { plan: false, ..query.clone() },
+            CoachQuery { doubt: Doubt::NONE, ..query.clone() },
         ] {
             assert_ne!(query, other);
         }

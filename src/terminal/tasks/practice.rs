@@ -193,8 +193,10 @@ const UNKNOWN: &str = "it is not known where to write";
 fn estimated(sessions: &[Session]) -> Result<(Option<Skill>, String), String> {
     let found = estimate(sessions).map_err(|error| error.to_string())?;
     let Estimate { skill, attempts, .. } = found;
-    let sentence =
-        format!("your errors are {}, from {attempts} attempts at a real table; club is 2, beginner 4", found.words(1));
+    let sentence = format!(
+        "you play like an average of {} at three-cushion, from {attempts} attempts at a real table",
+        found.words()
+    );
     Ok((skill, sentence))
 }
 

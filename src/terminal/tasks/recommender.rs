@@ -115,10 +115,11 @@ impl CoachWorker {
     }
 
     fn advice(&mut self, job: &Job, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
-        let CoachQuery { rule, skill, plan, .. } = job.query;
+        let CoachQuery { rule, skill, doubt, plan, .. } = job.query;
         let request = Request {
             rule,
             skill,
+            doubt,
             plan,
             budget: if self.simulations.is_some() { NO_HURRY } else { job.budget },
             simulations: self.simulations.unwrap_or(u64::MAX),
@@ -138,6 +139,7 @@ impl CoachWorker {
                 shot: Arc::new(shot),
                 kind: Some(better.kind),
                 made: Some(better.make_probability),
+                risk: None,
                 next: None,
                 is_early: true,
             });
@@ -185,6 +187,7 @@ fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advic
         shot: record(found.cue, found.solved, found.source.to_string())?,
         kind: found.kind,
         made: found.make_probability,
+        risk: found.risk,
         next: found.next_probability,
         is_early: false,
     };
@@ -193,6 +196,7 @@ fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advic
             shot: record(other.cue, true, other.source.to_string())?,
             kind: Some(other.kind),
             made: other.make_probability,
+            risk: None,
             next: other.next_probability,
             is_early: false,
         })
@@ -203,7 +207,8 @@ fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advic
 
 /// Looks at a shot closely; breaks off between two parts where nobody waits any more.
 fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
-    let Job { table, layout, query: CoachQuery { rule, skill, .. }, .. } = job;
+    let Job { table, layout, query, .. } = job;
+    let CoachQuery { rule, skill, .. } = query;
     let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
     let margins = margins(*rule, table, layout, cue);
     go_on()?;
@@ -211,10 +216,11 @@ fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
     let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
     let tip = map(*rule, table, layout, &centre, (Input::Side, face), (Input::Height, face), CELLS);
     go_on()?;
-    let usual = if skill.is_perfect() { Skill::EXPERT } else { *skill };
+    let hand = skill.at(cue);
+    let usual = if skill.is_perfect() { Skill::EXPERT } else { hand };
     let span = (Input::Direction, REACH * usual.phi.to_degrees());
     let aim = map(*rule, table, layout, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
     go_on()?;
-    let scatter = scatter(*skill, *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
-    go_on().map(|()| ShotAnalysis { margins, tip, aim, scatter })
+    let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
+    go_on().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter })
 }

@@ -74,7 +74,7 @@ fn a_shot_without_a_point_is_said_to_be_one() {
     let mut player = Player::new().press("Enter");
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
-    let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
+    let attempt = Proposal { shot: Arc::new(shot), kind: None, made: None, risk: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
     let player = player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], effort }));
     player.shows(&["Events 0/31"]);

@@ -73,6 +73,7 @@ pub fn proposal(table: &Table, layout: &Layout, cue: &str, way: Way, made: usize
         shot: Arc::new(shot),
         kind: Some(Kind { first_ball: 1, cushion_first: false, way, pace }),
         made: Some(SuccessRate::new(made, 1000)),
+        risk: None,
         next: Some(0.97),
         is_early: false,
     }

@@ -17,7 +17,7 @@ fn shown(caps: Capabilities, cue: &str) -> Player {
     let mut player = Player::with(caps).press("Enter");
     let job = player.asked.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
-    let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, next: None, is_early: false };
+    let proposal = Proposal { shot: Arc::new(shot), kind: None, made: None, risk: None, next: None, is_early: false };
     player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], effort: None }))
 }
 

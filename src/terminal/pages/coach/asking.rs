@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::Skill,
+    coach::{Cause, Skill},
     game::Rule,
     physics::CueInputs,
     table::CueBall,
@@ -234,7 +234,9 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, cue_bal
     let Some(chance) = chance(proposal, query) else {
         return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
     };
-    Message::good(format!("{} makes it {chance}{took}{contact}", skill_word(query.skill)))
+    let cause = proposal.risk.and_then(|risk| risk.main_cause()).filter(|cause| *cause != Cause::Hand);
+    let cause = cause.map_or(String::new(), |cause| format!("; missed mostly by {cause}"));
+    Message::good(format!("{} makes it {chance}{cause}{took}{contact}", skill_word(query.skill)))
 }
 
 /// How often the player makes a shot, where there is a doubt.

@@ -206,8 +206,8 @@ impl CoachPage {
 
     /// Begins as the user wants it.
     pub fn take_settings(&mut self, settings: &Settings) {
-        let Settings { rule, skill, plan, .. } = *settings;
-        self.query = CoachQuery { rule, skill, plan, ..self.query.clone() };
+        let Settings { rule, skill, doubt, plan, .. } = *settings;
+        self.query = CoachQuery { rule, skill, doubt, plan, ..self.query.clone() };
         self.budget = Duration::from_millis(settings.think_ms);
         self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
@@ -231,6 +231,9 @@ impl CoachPage {
         }
         if before.skill != settings.skill {
             query.skill = settings.skill;
+        }
+        if before.doubt != settings.doubt {
+            query.doubt = settings.doubt;
         }
         if before.plan != settings.plan {
             query.plan = settings.plan;
@@ -257,7 +260,11 @@ impl CoachPage {
     pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
         let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
-        self.take(table, layout, CoachQuery { skill: self.query.skill, plan: self.query.plan, ..query });
+        self.take(
+            table,
+            layout,
+            CoachQuery { skill: self.query.skill, doubt: self.query.doubt, plan: self.query.plan, ..query },
+        );
         self.message = Some(Message::good(news));
     }
 

@@ -35,7 +35,7 @@ const HALF: (u16, u16) = (20, 24);
 
 /// Draws the panel; the tightest input, the one that the player's errors leave first, is marked. Without
 /// a study it says `empty`.
-pub fn draw_margins(study: Option<&ShotAnalysis>, skill: Skill, empty: &str, area: Rect, ui: &mut Ui) {
+pub fn draw_margins(study: Option<&ShotAnalysis>, empty: &str, area: Rect, ui: &mut Ui) {
     let tall = area.height > TALL;
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if study.is_some() && !tall {
@@ -43,12 +43,12 @@ pub fn draw_margins(study: Option<&ShotAnalysis>, skill: Skill, empty: &str, are
         title.push(Span::styled(units, ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    let margins = match study {
+    let (margins, skill) = match study {
         None => return draw_nothing(&[empty], inner, ui),
         Some(ShotAnalysis { margins: None, .. }) => {
             return draw_nothing(&["none: this shot makes no point"], inner, ui);
         }
-        Some(ShotAnalysis { margins: Some(margins), .. }) => margins,
+        Some(ShotAnalysis { margins: Some(margins), hand, .. }) => (margins, *hand),
     };
     let tightest = tightest(margins, skill);
     let rows: Vec<Row> = margins

@@ -87,7 +87,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     }
     let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
     if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
-        draw_aim_map(&study.aim, coach.query.skill, panes.shot, ui);
+        draw_aim_map(&study.aim, study.hand, panes.shot, ui);
         draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), ui);
         return draw_legend(panes.events, ui);
     }
@@ -145,7 +145,7 @@ fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
         View::Chances => draw_chances(advised, empty, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
-            draw_margins(study, coach.query.skill, empty, area, ui);
+            draw_margins(study, empty, area, ui);
         }
         View::Plan => draw_plan(choice, empty, area, ui),
     }

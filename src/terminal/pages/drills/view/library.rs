@@ -214,8 +214,8 @@ fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragra
     let grade = if exercise.grade == 0 { String::new() } else { format!(", grade {}", exercise.grade) };
     add(format!("rule: {}{grade}", exercise.rule), theme.text(), false);
     if let Some(par) = exercise.par {
-        let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(words::percent);
-        add(format!("typical: beginner {beginner}, club {club}, expert {expert} %"), theme.text(), false);
+        let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(words::percent);
+        add(format!("typical: beginner {beginner}, club {club}, world-class {best} %"), theme.text(), false);
     }
     match drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         Some(score) => {

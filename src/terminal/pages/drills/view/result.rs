@@ -53,8 +53,11 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         ("Who plays the model shots makes, on average in the same exam:".to_owned(), ui.theme.text()),
     ];
     let top = write_paragraphs(&paragraphs, text, ui) + 1;
-    let players =
-        [("beginner", mark.expected.beginner), ("club", mark.expected.club), ("expert", mark.expected.expert)];
+    let players = [
+        ("beginner", mark.expected.beginner),
+        ("club", mark.expected.club),
+        ("world-class", mark.expected.world_class),
+    ];
     for ((name, points), y) in players.into_iter().zip(top..text.bottom()) {
         let style = if name == mark.nearest { ui.theme.good() } else { ui.theme.text() };
         ui.buffer.set_stringn(text.x, y, expected(name, points), usize::from(text.width), style);

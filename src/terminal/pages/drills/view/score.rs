@@ -83,8 +83,8 @@ fn lines(session: &Session) -> Vec<String> {
         let number = (tried + 1).min(session.exercises.len());
         lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));
         if let Some(mark) = exam::mark(session) {
-            let [beginner, club, expert] =
-                [mark.expected.beginner, mark.expected.club, mark.expected.expert].map(|points| format!("{points:.1}"));
+            let [beginner, club, expert] = [mark.expected.beginner, mark.expected.club, mark.expected.world_class]
+                .map(|points| format!("{points:.1}"));
             lines.push(format!("so far a beginner makes {beginner}, club {club}, an expert {expert}"));
         }
         return lines;

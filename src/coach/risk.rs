@@ -1,0 +1,88 @@
+//! What a shot is missed by: the hand, what is not known of the table, or where the balls lie.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::Doubt;
+
+/// How often a shot would be missed if only one thing were uncertain, as shares of the attempts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Risk {
+    /// By the hand alone.
+    pub hand: f64,
+    /// By the table alone.
+    pub table: f64,
+    /// By the balls' places alone.
+    pub placing: f64,
+}
+
+/// One of the three.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cause {
+    /// The player's hand.
+    Hand,
+    /// The table's constants.
+    Table,
+    /// The balls' places.
+    Placing,
+}
+
+impl Cause {
+    /// All three.
+    pub const ALL: [Self; 3] = [Self::Hand, Self::Table, Self::Placing];
+
+    /// What is left of a doubt where only this is uncertain, and whether the hand errs.
+    pub(super) const fn alone(self, doubt: Doubt) -> (Doubt, bool) {
+        match self {
+            Self::Hand => (Doubt::NONE, true),
+            Self::Table => (Doubt { placing: 0.0, ..doubt }, false),
+            Self::Placing => (Doubt { table: 0.0, ..doubt }, false),
+        }
+    }
+}
+
+impl Risk {
+    /// What misses the shot most often by itself; `None` where nothing does in two of a hundred attempts.
+    pub fn main_cause(&self) -> Option<Cause> {
+        let all = [(Cause::Hand, self.hand), (Cause::Table, self.table), (Cause::Placing, self.placing)];
+        let [first, ..] = all;
+        let largest = all.into_iter().fold(first, |largest, other| if other.1 > largest.1 { other } else { largest });
+        (largest.1 >= 0.02).then_some(largest.0)
+    }
+}
+
+impl fmt::Display for Risk {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [hand, table, placing] = [self.hand, self.table, self.placing].map(|share| 100.0 * share);
+        write!(
+            formatter,
+            "missed by the hand alone {hand:.0} %, by what is not known of the table {table:.0} %, of the balls' places {placing:.0} %"
+        )?;
+        self.main_cause().map_or(Ok(()), |cause| write!(formatter, "; mostly {cause}"))
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::Hand => "the hand",
+            Self::Table => "the table: calibrate it",
+            Self::Placing => "the places: measure them",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_main_cause_is_the_one_that_misses_most_by_itself() {
+        let risk = |hand, table, placing| Risk { hand, table, placing };
+        assert_eq!(risk(0.3, 0.4, 0.1).main_cause(), Some(Cause::Table));
+        assert_eq!(risk(0.3, 0.1, 0.31).main_cause(), Some(Cause::Placing));
+        assert_eq!(risk(0.02, 0.0, 0.0).main_cause(), Some(Cause::Hand));
+        assert_eq!(risk(0.01, 0.0, 0.005).main_cause(), None, "a shot that hardly ever misses");
+    }
+}

@@ -1,0 +1,173 @@
+//! A skill as text: a name, or a player's own standard errors as people say them.
+
+use std::{fmt, str::FromStr};
+
+use super::{Growth, Skill};
+
+/// Why a skill is refused.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum SkillError {
+    /// Neither a name nor five numbers.
+    #[error(
+        "there is no skill \"{0}\"; use perfect, expert, world-class, national, club or beginner, or a player's own \
+         standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\", where \"V=5%\" is a \
+         share of the speed, and \",growth=0.5,raised=1\" how they grow"
+    )]
+    Unknown(String),
+    /// An error that nobody has.
+    #[error("the skill has {name} = {value}; accepted is 0 to {most} {unit}")]
+    Range {
+        /// Name of the cue input.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// The largest that is accepted.
+        most: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+}
+
+/// The five errors as people say them: name, unit, SI units in one of it, and the largest that is accepted. A player who
+/// errs by more than a ball's radius, a right angle's half or 5 m/s plays no shot at all.
+pub(super) const FORMS: [(&str, &str, f64, f64); 5] = [
+    ("a", "mm", 1e-3, 30.0),
+    ("b", "mm", 1e-3, 30.0),
+    ("theta", "degrees", std::f64::consts::PI / 180.0, 45.0),
+    ("phi", "degrees", std::f64::consts::PI / 180.0, 45.0),
+    ("V", "m/s", 1.0, 5.0),
+];
+
+/// The name of the speed, whose error may be a share.
+const SPEED: &str = "V";
+
+/// The largest share of the speed that is accepted, %.
+const MOST_SHARE: f64 = 100.0;
+
+/// The largest growth with the elevation that is accepted.
+const MOST_RAISED: f64 = 10.0;
+
+impl fmt::Display for Skill {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((name, _)) = Self::NAMED.iter().find(|(_, skill)| skill == self) {
+            return formatter.pad(name);
+        }
+        // Twelve digits: what was read in degrees is written as it was.
+        let rounded = |value: f64| (value * 1e12).round() / 1e12;
+        let Growth { speed, elevation, is_share } = self.growth;
+        let part = |((name, _, unit, _), value): (&(&str, &str, f64, f64), f64)| {
+            if is_share && *name == SPEED {
+                format!("{name}={}%", rounded(100.0 * value / Self::REFERENCE_SPEED))
+            } else {
+                format!("{name}={}", rounded(value / unit))
+            }
+        };
+        let mut parts: Vec<_> = FORMS.iter().zip(self.values()).map(part).collect();
+        for (name, value, _) in growths(speed, elevation).into_iter().filter(|(_, value, _)| *value != 0.0) {
+            parts.push(format!("{name}={}", rounded(value)));
+        }
+        formatter.pad(&parts.join(","))
+    }
+}
+
+/// Name, value and largest value of the two numbers of a growth.
+const fn growths(speed: f64, elevation: f64) -> [(&'static str, f64, f64); 2] {
+    [("growth", speed, 1.0), ("raised", elevation, MOST_RAISED)]
+}
+
+impl FromStr for Skill {
+    type Err = SkillError;
+
+    fn from_str(text: &str) -> Result<Self, SkillError> {
+        if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
+            return Ok(*skill);
+        }
+        let unknown = || SkillError::Unknown(text.to_owned());
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| unknown());
+        // Written so that NaN is refused.
+        let checked = |name, value: f64, most, unit| {
+            if (0.0..=most).contains(&value) { Ok(value) } else { Err(SkillError::Range { name, value, most, unit }) }
+        };
+        let (mut values, mut growth) = ([None; 5], Growth::NONE);
+        for part in text.split(',') {
+            let (name, value) = part.split_once('=').ok_or_else(unknown)?;
+            if let Some(which) = growths(0.0, 0.0).iter().position(|growth| growth.0 == name.trim()) {
+                let (name, _, most) = growths(0.0, 0.0)[which];
+                *[&mut growth.speed, &mut growth.elevation][which] = checked(name, number(value)?, most, "(a share)")?;
+                continue;
+            }
+            let index = FORMS.iter().position(|form| form.0 == name.trim()).ok_or_else(unknown)?;
+            let (name, unit, si, most) = FORMS[index];
+            let value = match value.trim().strip_suffix('%').filter(|_| name == SPEED) {
+                Some(share) => {
+                    growth.is_share = true;
+                    checked(name, number(share)?, MOST_SHARE, "%")? / 100.0 * Self::REFERENCE_SPEED
+                }
+                None => checked(name, number(value)?, most, unit)? * si,
+            };
+            if values[index].replace(value).is_some() {
+                return Err(unknown());
+            }
+        }
+        let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else { return Err(unknown()) };
+        Ok(Self { a, b, theta, phi, speed, growth })
+    }
+}
+
+impl From<Skill> for String {
+    fn from(skill: Skill) -> Self {
+        skill.to_string()
+    }
+}
+
+impl TryFrom<String> for Skill {
+    type Error = SkillError;
+
+    fn try_from(text: String) -> Result<Self, SkillError> {
+        text.parse()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_players_own_errors_are_read_in_millimetres_and_degrees_and_written_back() {
+        let text = "a=0.7,b=0.6,theta=0.2,phi=0.15,V=0.1";
+        let skill: Skill = text.parse().unwrap();
+        assert!((skill.a - 0.7e-3).abs() < 1e-15 && (skill.phi.to_degrees() - 0.15).abs() < 1e-12);
+        assert_eq!(skill.to_string(), text);
+        assert_eq!("V=0.1, phi=0.15,a=0.7,b=0.6,theta=0.2".parse(), Ok(skill));
+        for (name, skill) in Skill::NAMED {
+            assert_eq!((skill.to_string().as_str(), name.parse()), (name, Ok(skill)));
+        }
+    }
+
+    #[test]
+    fn a_share_of_the_speed_and_growths_are_read_and_written_back() {
+        let text = "a=0.7,b=0.6,theta=0.2,phi=0.15,V=4%,growth=0.5,raised=1.5";
+        let skill: Skill = text.parse().unwrap();
+        assert_eq!(skill.growth, Growth { speed: 0.5, elevation: 1.5, is_share: true });
+        assert!((skill.speed - 0.1).abs() < 1e-15, "of the reference stroke's 2.5 m/s");
+        assert_eq!(skill.to_string(), text);
+        for (bad, accepted) in [("V=101%", "0 to 100 %"), ("V=4%,growth=1.1", "0 to 1"), ("V=4%,raised=-1", "0 to 10")]
+        {
+            let said = text.replace("V=4%,growth=0.5,raised=1.5", bad).parse::<Skill>().unwrap_err().to_string();
+            assert!(said.contains(accepted), "{said}");
+        }
+        assert!("a=1%,b=0.6,theta=0.2,phi=0.15,V=4%".parse::<Skill>().is_err());
+    }
+
+    #[test]
+    fn a_bad_skill_is_named_with_what_would_be_accepted() {
+        let said = |text: &str| text.parse::<Skill>().unwrap_err().to_string();
+        assert!(said("master").contains("master") && said("master").contains("expert"));
+        assert!(said("a=0.7,b=0.7,theta=0.2,phi=0.2").contains("V="), "one is missing");
+        assert!(said("a=1,a=1,theta=0.2,phi=0.2,V=0.1").contains("a=1,a=1"));
+        for bad in ["-0.1", "46", "NaN", "inf"] {
+            let said = said(&format!("a=0.7,b=0.7,theta=0.2,phi={bad},V=0.1"));
+            assert!(said.contains(&format!("phi = {bad}")) && said.contains("0 to 45 degrees"), "{said}");
+        }
+    }
+}
