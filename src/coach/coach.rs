@@ -9,7 +9,6 @@ use super::{
     Alternative, Cause, Doubt, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill,
     clock::Clock,
     draws::{Draws, Worlds},
-    errors,
     first::{Attempt, Found},
     next::NextValue,
     parallel,
@@ -116,13 +115,13 @@ impl Coach {
         layout.validate(&self.table)?;
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
         let doubt = if request.skill.is_perfect() { Doubt::NONE } else { request.doubt };
-        let worlds = Worlds::new(&self.table, layout, doubt);
+        let [worlds, level] = [Worlds::new, Worlds::level].map(|worlds| worlds(&self.table, layout, doubt));
         let task = Task {
             table: &self.table,
             layout,
             rule: request.rule,
             skill: request.skill,
-            worlds: &worlds,
+            worlds: &level,
             clock: &clock,
             until: clock.moment(1.0),
             patience: CONTACT_STEPS,
@@ -143,7 +142,7 @@ impl Coach {
                 }
             });
             let until = task.until.max(Instant::now() + GRACE);
-            robust(&found, pool, &Task { patience: ENDLESS, until, ..task }, request)
+            robust(&found, pool, &Task { worlds: &worlds, patience: ENDLESS, until, ..task }, request)
         };
         Ok(Recommendation {
             policy_success: proposals.first().map(|proposal| proposal.success),
@@ -162,7 +161,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     pool.truncate(1 + ALTERNATIVES);
     // Another stream than that of the search, whatever its seed.
     let seed = request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17);
-    let attempts = Draws::new(errors::independent(ATTEMPTS, seed), task.worlds, seed);
+    let attempts = Draws::independent(ATTEMPTS, task.worlds, seed);
     let pieces: Vec<(usize, usize)> = (0..pool.len())
         .flat_map(|index| {
             let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
@@ -211,7 +210,7 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Ri
         let (doubt, errs) = cause.alone(request.doubt);
         let worlds = Worlds::new(task.table, task.layout, doubt);
         let skill = if errs { task.skill } else { Skill::PERFECT };
-        let draws = Draws::new(errors::independent(ATTEMPTS_AT_RISK, seed), &worlds, seed);
+        let draws = Draws::independent(ATTEMPTS_AT_RISK, &worlds, seed);
         let made = Task { worlds: &worlds, skill, ..*task }.made(cue, draws.iter(), ATTEMPTS_AT_RISK)?;
         Some(1.0 - made as f64 / ATTEMPTS_AT_RISK as f64)
     });
@@ -294,7 +293,7 @@ pub fn make_probability(
     let clock = Clock::start(Duration::MAX, u64::MAX, &never);
     let (worlds, until) = (Worlds::new(table, layout, doubt), clock.moment(1.0));
     let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
-    let draws = Draws::new(errors::independent(attempts, seed), &worlds, seed);
+    let draws = Draws::independent(attempts, &worlds, seed);
     let (made, tried) = task.attempts(cue, draws.iter());
     SuccessRate::new(made, tried)
 }

@@ -5,12 +5,15 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Doubt,
-    errors::{self, Errors},
+    errors::{self, Errors, Streams},
 };
 use crate::{
     physics::{CueInputs, squirt},
     table::{Layout, Table, TableDoubt, TableSampler},
 };
+
+/// Tells the numbers of worlds from those of errors.
+const WORLDS: u64 = 0x776f_726c_6473;
 
 /// What is really there: a table and where the balls lie, either not quite as the coach believes.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,12 +42,25 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// Attempts with these errors, each in a world of its own that is drawn by `seed` where anything is in doubt.
-    pub fn new(errors: Vec<Errors>, worlds: &Worlds, seed: u64) -> Self {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ 0x776f_726c_6473);
-        let worlds =
-            if worlds.is_certain() { Vec::new() } else { errors.iter().map(|_| worlds.draw(&mut rng)).collect() };
-        Self { errors, worlds }
+    /// Independent attempts, for judging a shot.
+    pub fn independent(count: usize, worlds: &Worlds, seed: u64) -> Self {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ WORLDS);
+        let real = |_| worlds.draw(|| errors::normal(&mut rng));
+        let worlds = if worlds.is_certain() { Vec::new() } else { (0..count).map(real).collect() };
+        Self { errors: errors::independent(count, seed), worlds }
+    }
+
+    /// Attempts that cover what may happen more evenly than chance, for comparing shots on the same attempts; the hand's
+    /// errors are `wide` times as large.
+    pub fn spread(count: usize, wide: f64, worlds: &Worlds, seed: u64) -> Self {
+        let mut streams = Streams::new(seed ^ WORLDS);
+        let real = |n| {
+            let mut stream = 0..;
+            worlds.draw(|| streams.number(stream.next().unwrap_or_default(), n))
+        };
+        let worlds = if worlds.is_certain() { Vec::new() } else { (0..count).map(real).collect() };
+        let wider = |errors: Errors| errors.map(|error| wide * error);
+        Self { errors: errors::spread(count, seed).into_iter().map(wider).collect(), worlds }
     }
 
     /// Those in this range, fewer where there are not so many.
@@ -76,8 +92,20 @@ pub struct Worlds {
 impl Worlds {
     /// Around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let sampler =
-            if doubt.table > 0.0 { TableSampler::new(table, &TableDoubt::of(table), doubt.table) } else { None };
+        Self::known_as(&TableDoubt::of(table), table, layout, doubt)
+    }
+
+    /// The same on tables that lean no other way than this one, for choosing between shots: a table that leans costs
+    /// twice the time, and as nobody knows which way it leans, which shot is the best hardly depends on it.
+    pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+        let mut known = TableDoubt::of(table);
+        known.deviations.retain(|name, _| !name.starts_with("tilt"));
+        known.correlations.retain(|(one, other, _)| ![one, other].iter().any(|name| name.starts_with("tilt")));
+        Self::known_as(&known, table, layout, doubt)
+    }
+
+    fn known_as(known: &TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+        let sampler = if doubt.table > 0.0 { TableSampler::new(table, known, doubt.table) } else { None };
         Self { table: table.clone(), layout: *layout, sampler, placing: doubt.placing }
     }
 
@@ -86,23 +114,23 @@ impl Worlds {
         self.sampler.is_none() && self.placing == 0.0
     }
 
-    /// One world.
-    pub fn draw(&self, rng: &mut Xoshiro256PlusPlus) -> World {
-        let table =
-            self.sampler.as_ref().map_or_else(|| self.table.clone(), |sampler| sampler.draw(|| errors::normal(rng)));
-        World { table, layout: misplaced(&self.table, &self.layout, self.placing, rng) }
+    /// One world, from standard normal numbers.
+    pub fn draw(&self, mut normal: impl FnMut() -> f64) -> World {
+        let layout = misplaced(&self.table, &self.layout, self.placing, &mut normal);
+        let table = self.sampler.as_ref().map_or_else(|| self.table.clone(), |sampler| sampler.draw(normal));
+        World { table, layout }
     }
 }
 
 /// A layout that may be meant by `layout` where every coordinate is off by a standard deviation of `placing` m. A ball that
 /// would overlap another or a cushion is moved less far.
-pub fn misplaced(table: &Table, layout: &Layout, placing: f64, rng: &mut Xoshiro256PlusPlus) -> Layout {
+pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl FnMut() -> f64) -> Layout {
     let mut moved = *layout;
     if placing == 0.0 {
         return moved;
     }
     for ball in 0..moved.balls.len() {
-        let off = glam::DVec2::new(errors::normal(rng), errors::normal(rng)) * placing;
+        let off = glam::DVec2::new(normal(), normal()) * placing;
         let start = moved.balls[ball];
         for share in [1.0, 0.5, 0.25, 0.0] {
             moved.balls[ball] = start + share * off;
@@ -155,8 +183,7 @@ mod tests {
     #[test]
     fn nothing_in_doubt_draws_nothing_and_doubts_draw_valid_worlds() {
         let table = Table::default();
-        let errors = errors::independent(50, 1);
-        let none = Draws::new(errors.clone(), &Worlds::new(&table, &layout(), Doubt::NONE), 7);
+        let none = Draws::independent(50, &Worlds::new(&table, &layout(), Doubt::NONE), 7);
         assert!(none.iter().all(|draw| draw.world.is_none()) && none.len() == 50);
         let close = Layout::new([
             DVec2::new(0.0, 0.0),
@@ -165,7 +192,7 @@ mod tests {
         ]);
         for layout in [layout(), close] {
             let worlds = Worlds::new(&table, &layout, Doubt::FULL);
-            let draws = Draws::new(errors.clone(), &worlds, 7);
+            let draws = Draws::independent(50, &worlds, 7);
             let mut tables = Vec::new();
             for draw in draws.iter() {
                 let world = draw.world.unwrap();
@@ -174,7 +201,7 @@ mod tests {
             }
             tables.dedup();
             assert_eq!(tables.len(), 50);
-            let again = Draws::new(errors.clone(), &worlds, 7);
+            let again = Draws::independent(50, &worlds, 7);
             assert!(draws.iter().zip(again.iter()).all(|(one, other)| one.world == other.world), "the same seed");
         }
     }

@@ -21,6 +21,33 @@ pub fn spread(count: usize, seed: u64) -> Vec<Errors> {
     (1..=count as u32).map(|n| std::array::from_fn(|index| quantile(place(n, index)))).collect()
 }
 
+/// Streams of standard normal numbers, each spread evenly over the distribution, for what is in doubt besides the hand:
+/// Richtmyer's sequence (1951), the multiples of a prime's square root, with a random shift.
+#[derive(Debug)]
+pub struct Streams {
+    rng: Xoshiro256PlusPlus,
+    /// Of each stream the square root and the shift.
+    streams: Vec<(f64, f64)>,
+}
+
+impl Streams {
+    /// Streams that are drawn by `seed`.
+    pub fn new(seed: u64) -> Self {
+        Self { rng: Xoshiro256PlusPlus::seed_from_u64(seed), streams: Vec::new() }
+    }
+
+    /// The `n`th number of a stream.
+    pub fn number(&mut self, stream: usize, n: usize) -> f64 {
+        while self.streams.len() <= stream {
+            let last = self.streams.last().map_or(1, |(root, _)| (root * root).round() as u32);
+            let prime = (last + 1..).find(|&n| (2..n).all(|divisor| n % divisor != 0)).unwrap_or(2);
+            self.streams.push((f64::from(prime).sqrt(), self.rng.random()));
+        }
+        let (root, shift) = self.streams[stream];
+        quantile((shift + n as f64 * root).fract())
+    }
+}
+
 /// The digits of `n` in a base, mirrored at the point.
 fn radical_inverse(mut n: u32, base: u32) -> f64 {
     let (mut value, mut place) = (0.0, 1.0);
@@ -105,6 +132,19 @@ mod tests {
             [(0.5, 0.0), (0.975, 1.959_963_984_540_054), (0.001, -3.090_232_306_167_813), (0.84, 0.994_457_883)]
         {
             assert!((quantile(p) - z).abs() < 1e-8, "{p}: {}", quantile(p));
+        }
+    }
+
+    #[test]
+    fn streams_have_mean_nought_and_deviation_one_and_do_not_correlate() {
+        let mut streams = Streams::new(4);
+        let all: Vec<[f64; 20]> = (0..768).map(|n| std::array::from_fn(|stream| streams.number(stream, n))).collect();
+        let mean = |f: &dyn Fn(&[f64; 20]) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
+        for i in 0..20 {
+            assert!(mean(&|e| e[i]).abs() < 0.02 && (mean(&|e| e[i] * e[i]) - 1.0).abs() < 0.05, "{i}");
+            for j in 0..i {
+                assert!(mean(&|e| e[i] * e[j]).abs() < 0.1, "{i} {j}: {}", mean(&|e| e[i] * e[j]));
+            }
         }
     }
 

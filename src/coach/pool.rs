@@ -4,7 +4,6 @@ use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED},
     draws::{Draws, Worlds},
-    errors::spread,
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
@@ -27,11 +26,10 @@ pub struct Race {
 impl Race {
     /// With so many errors at most, a multiple of four, each in one of the worlds.
     pub fn new(count: usize, worlds: &Worlds, seed: u64) -> Self {
-        let mut larger = spread(count / 4, !seed);
-        for errors in &mut larger {
-            *errors = errors.map(|error| WIDE * error);
+        Self {
+            own: Draws::spread(count / 4 * 3, 1.0, worlds, seed),
+            larger: Draws::spread(count / 4, WIDE, worlds, !seed),
         }
-        Self { own: Draws::new(spread(count / 4 * 3, seed), worlds, seed), larger: Draws::new(larger, worlds, !seed) }
     }
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.

@@ -8,7 +8,6 @@ use super::{
     Shooter,
     clock::Clock,
     draws::{Draws, Worlds},
-    errors,
     next::end_of,
     parallel,
     trial::{CONTACT_STEPS, Task},
@@ -57,7 +56,7 @@ pub fn scatter(
     let worlds = Worlds::new(table, layout, doubt);
     let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
     let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience };
-    let draws = Draws::new(errors::independent(attempts, seed), &worlds, seed);
+    let draws = Draws::independent(attempts, &worlds, seed);
     let draws: Vec<_> = draws.iter().collect();
     let ends =
         parallel::map(

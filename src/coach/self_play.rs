@@ -51,10 +51,11 @@ pub fn inning(
 ) -> Result<Inning, LayoutError> {
     let mut inning = Inning::default();
     let mut layout = *layout;
-    let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..request.doubt }).draw(rng).table;
+    let real =
+        Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..request.doubt }).draw(|| errors::normal(rng)).table;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
-        let told = misplaced(coach.table(), &layout, request.doubt.placing, rng);
+        let told = misplaced(coach.table(), &layout, request.doubt.placing, || errors::normal(rng));
         let advice = coach.recommend(&told, &request)?;
         inning.simulations += advice.simulations;
         inning.slowest = inning.slowest.max(advice.elapsed);
