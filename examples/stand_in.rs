@@ -1,13 +1,13 @@
 //! How often a player makes the coach's shots on a table that is not quite the coach's.
 //!
 //! `cargo run --release --example stand_in -- 40 --rule three-cushion` asks the coach for a shot from the layouts of filmed shots on
-//! `match`, then plays it with an expert's errors on stand-ins whose rails follow other models fitted to the same film. What
+//! `match`, then plays it with an expert's errors, or another player's, on stand-ins whose rails follow other models fitted to the same film. What
 //! the coach says of a shot should be what becomes of it there.
 
 use std::{env, error::Error, time::Duration};
 
 use carom::{
-    coach::{Coach, Request, Skill, make_probability},
+    coach::{Coach, Doubt, Request, Skill, make_probability},
     game::Rule,
     study::filmed::{bundled, models},
     table::Table,
@@ -18,10 +18,10 @@ const ATTEMPTS: usize = 400;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = env::args().skip(1);
-    let count: usize = words.next().ok_or("say how many layouts: stand_in 40 [RULE] [SCALE]")?.parse()?;
+    let count: usize = words.next().ok_or("say how many layouts: stand_in 40 [RULE] [SKILL] [DOUBT]")?.parse()?;
     let rule: Rule = words.next().map_or(Ok(Rule::ThreeCushion), |word| word.parse())?;
-    let scale: f64 = words.next().map_or(Ok(1.0), |word| word.parse())?;
-    let skill = Skill::EXPERT.scaled(scale);
+    let skill: Skill = words.next().map_or(Ok(Skill::EXPERT), |word| word.parse())?;
+    let doubt: Doubt = words.next().map_or(Ok(Doubt::FULL), |word| word.parse())?;
     let advised = Table::default();
     let coach = Coach::new(advised.clone())?;
     let stand_ins = models().into_iter().filter(|(_, table)| *table != advised).collect::<Vec<_>>();
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if layout.validate(&advised).is_err() {
             continue;
         }
-        let request = Request { rule, skill, budget: Duration::from_millis(500), ..Request::default() };
+        let request = Request { rule, skill, doubt, budget: Duration::from_millis(500), ..Request::default() };
         let advice = coach.recommend(&layout, &request)?;
         asked += 1;
         claimed += advice.make_probability.map_or(0.0, |made| made.rate);
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let share = |sum: f64| sum / f64::from(asked);
-    println!("{rule}, {asked} layouts of the film: claimed {:.3}", share(claimed));
+    println!("{rule}, skill {skill}, doubt {doubt}, {asked} layouts of the film: claimed {:.3}", share(claimed));
     for ((name, _), made) in stand_ins.iter().zip(made) {
         println!("  made on {name}: {:.3}", share(made));
     }

@@ -6,7 +6,10 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::errors::normal;
+use super::{
+    Skill,
+    errors::{Errors, normal},
+};
 use crate::{
     physics::{CueInputs, squirt},
     table::{Layout, Table},
@@ -92,6 +95,19 @@ pub fn neighbour(table: &Table, cue: &CueInputs, scale: f64, rng: &mut Xoshiro25
         theta: (cue.theta + step(0.03)).clamp(0.0, MAX_ELEVATION),
         phi: cue.phi + step(0.008) + turned,
         speed: (cue.speed + step(0.6)).clamp(MIN_SPEED, MAX_SPEED),
+    }
+}
+
+/// The stroke that a player of this skill makes of `cue` with these errors, kept within what can be recommended.
+pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
+    let stroke = skill.stroke(table.radius, cue, errors);
+    let share = (TIP_SHARE * table.miscue_limit.sqrt() / stroke.a.hypot(stroke.b)).min(1.0);
+    CueInputs {
+        a: stroke.a * share,
+        b: stroke.b * share,
+        theta: stroke.theta.clamp(0.0, MAX_ELEVATION),
+        phi: stroke.phi + squirt(table, stroke.a) - squirt(table, stroke.a * share),
+        speed: stroke.speed.clamp(MIN_SPEED, MAX_SPEED),
     }
 }
 

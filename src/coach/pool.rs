@@ -2,8 +2,9 @@
 
 use super::{
     Kind, Source, Suggestion,
-    candidates::{MAX_ELEVATION, MAX_SPEED},
+    candidates::{MAX_ELEVATION, MAX_SPEED, towards},
     draws::{Draws, Worlds},
+    errors::Errors,
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
@@ -46,8 +47,13 @@ impl Race {
             if block >= self.larger.len() {
                 break;
             }
-            after.made += task.made(&after.shot.cue, self.own.range(3 * block, 3 * block + 3), 3)?;
-            after.wide += task.made(&after.shot.cue, self.larger.range(block, block + 1), 1)?;
+            let own = task.race(&after.shot.cue, self.own.range(3 * block, 3 * block + 3))?;
+            let larger = task.race(&after.shot.cue, self.larger.range(block, block + 1))?;
+            after.made += own.0;
+            after.wide += larger.0;
+            for (input, sum) in after.drift.iter_mut().enumerate() {
+                *sum += own.1[input] + larger.1[input];
+            }
             after.tried += 4;
         }
         Some(after)
@@ -67,6 +73,8 @@ pub struct Candidate {
     pub made: usize,
     /// Points under the larger errors.
     pub wide: usize,
+    /// Sum of the errors of the attempts that made the point, in the player's standard errors.
+    pub drift: Errors,
     /// Probability of the next point; supposed to be 1 until candidates are looked at for it.
     pub next: NextValue,
     /// What is taken off for a stroke that is hard to play, whatever its errors.
@@ -92,6 +100,7 @@ impl Candidate {
             tried: 0,
             made: 0,
             wide: 0,
+            drift: Errors::default(),
             next: NextValue::Supposed(1.0),
             effort_penalty: weight * (cue.theta / MAX_ELEVATION + cue.speed / MAX_SPEED),
         }
@@ -105,6 +114,14 @@ impl Candidate {
     /// Attempts under the player's errors.
     pub const fn narrow(&self) -> usize {
         self.tried - self.tried / 4
+    }
+
+    /// The stroke in the middle of those that made the point: a step to where more of them do, without another simulation. It
+    /// is the step of expectation maximization for the probability of the point under normal errors (Dayan and Hinton 1997);
+    /// `stretch` times as far.
+    pub fn middle(&self, task: &Task, stretch: f64) -> CueInputs {
+        let made = (self.made + self.wide).max(1) as f64;
+        towards(task.table, task.skill, &self.shot.cue, &self.drift.map(|sum| stretch * sum / made))
     }
 
     /// Whether it has made the point every time.
@@ -161,6 +178,7 @@ mod tests {
             tried: 32,
             made,
             wide: 8,
+            drift: Errors::default(),
             next,
             effort_penalty: 0.0,
         };

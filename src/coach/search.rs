@@ -24,7 +24,10 @@ const MOST_ERRORS: usize = LOOKS[4];
 
 /// Errors in each stage of the refinement, the share of it at which the stage begins at the latest, and the neighbours of
 /// each leader that are tried in a round.
-const STAGES: [(usize, f64, usize); 3] = [(THIRD_LOOK, 0.0, 10), (FOURTH_LOOK, 0.4, 6), (MOST_ERRORS, 0.75, 4)];
+const STAGES: [(usize, f64, usize); 3] = [(THIRD_LOOK, 0.0, 6), (FOURTH_LOOK, 0.4, 4), (MOST_ERRORS, 0.75, 3)];
+
+/// How far each leader is moved to the middle of its points in a round of the refinement.
+const STRETCHES: [f64; 2] = [1.0, 2.0];
 
 /// Shares of what is left of the budget when the search begins, after which the sampling and the refinement end. The
 /// rest is for judging the answer.
@@ -145,6 +148,9 @@ impl<'a> Search<'a> {
         for (errors, best) in [(SECOND_LOOK, 64), (THIRD_LOOK, LEADERS)] {
             keep(&mut self.pool, 2 * best, OF_EACH_KIND);
             self.pool = self.raced(&self.pool, errors);
+            let steps: Vec<_> = self.pool.iter().map(|parent| (*parent, parent.middle(&self.task, 1.0))).collect();
+            let found = parallel::map(self.threads, &steps, |(parent, cue)| self.beside(parent, *cue, errors));
+            self.pool.extend(found.into_iter().flatten());
             if self.plan && errors == SECOND_LOOK {
                 self.look_ahead();
             }
@@ -191,6 +197,7 @@ impl<'a> Search<'a> {
             let scale = 1.0 - 0.8 * progress.max(0.0);
             let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
             for parent in &self.pool {
+                tries.extend(STRETCHES.map(|stretch| (*parent, parent.middle(&self.task, stretch))));
                 for _ in 0..neighbours {
                     tries.push((*parent, neighbour(self.task.table, &parent.shot.cue, scale, &mut self.rng)));
                 }

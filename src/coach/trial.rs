@@ -7,6 +7,7 @@ use super::{
     candidates::MAX_ELEVATION,
     clock::Clock,
     draws::{Draw, World, Worlds, aimed},
+    errors::Errors,
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
@@ -121,6 +122,23 @@ impl Task<'_> {
         }
         self.clock.count(tried as u64);
         (made, tried)
+    }
+
+    /// How many of these attempts at `cue` make the point, and the sum of their errors; `None` where time ran out.
+    pub fn race<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Option<(usize, Errors)> {
+        let (mut made, mut tried, mut sum) = (0, 0, Errors::default());
+        for draw in draws {
+            if self.clock.is_past(self.until) {
+                return None;
+            }
+            tried += 1;
+            if self.makes(cue, draw)? {
+                made += 1;
+                sum.iter_mut().zip(draw.errors).for_each(|(sum, error)| *sum += error);
+            }
+        }
+        self.clock.count(tried);
+        Some((made, sum))
     }
 
     /// How many of `count` attempts at `cue` make the point; `None` where time ran out before the last.
