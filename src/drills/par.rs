@@ -10,7 +10,7 @@ pub const ATTEMPTS: usize = 10_000;
 pub const SEED: u64 = 2026;
 
 /// Least share that a club player makes in grades 1 to 4; below the last it is grade 5.
-pub const GRADES: [f64; 4] = [0.995, 0.97, 0.88, 0.65];
+pub const GRADES: [f64; 4] = [0.95, 0.83, 0.68, 0.43];
 
 impl Par {
     /// Plays the exercise's shot [`ATTEMPTS`] times with the errors of each player, on tables and from places that are in doubt; `None` where it has no shot that the cue has
