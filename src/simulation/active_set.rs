@@ -3,12 +3,7 @@
 
 use glam::DVec2;
 
-use super::{
-    Constants,
-    contacts::close,
-    extrapolation::State,
-    resting::{Outcome, Resting},
-};
+use super::{Constants, contacts::close, extrapolation::State, resting::Resting};
 use crate::{
     physics::{
         ActiveSet, BallState, Contact, Contacts, Friction, Resolved, resolve, rolling_spin, slip, stop_by_impulses,
@@ -17,12 +12,16 @@ use crate::{
 };
 
 /// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
-/// moves.
+/// moves. `balls` become what they are where they stay free, and `contacts` what may rest.
+///
+/// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip of two
+/// balls parts them, and once they have parted, and nothing holds, they come back. They begin to bounce then, each time
+/// higher, and each bounce takes their slip as every impact of theirs does (17).
 pub fn lawful(
     table: &Table,
     constants: &Constants,
-    balls: &State,
-    contacts: &Contacts,
+    balls: &mut State,
+    contacts: &mut Contacts,
     least_push: f64,
     previous: Option<&Resting>,
 ) -> Option<(State, Resolved)> {
@@ -46,6 +45,9 @@ pub fn lawful(
         let same = |previous: &&Resting| previous.interrupted && previous.contacts.as_slice() == touching;
         let similar = previous.filter(same).map(|previous| &previous.last);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+        if resolved.is_paradox() {
+            return Some((begin, resolved, false));
+        }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
             settle(table, constants, &mut begin, touching, &set);
@@ -57,33 +59,58 @@ pub fn lawful(
         };
         Some((begin, resolved, departs))
     };
-    let (mut contacts, mut balls) = (*contacts, *balls);
+    let (mut pressing, mut now) = (*contacts, *balls);
     loop {
-        if contacts.as_slice().is_empty() {
+        if pressing.as_slice().is_empty() {
             return None;
         }
-        let ended = stopped(tolerance.ending_slip, &balls, &contacts)?;
+        let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
+        if ended.1.is_paradox() {
+            let part = |index: usize, contact: &Contact, balls: &mut State| {
+                if ended.1.paradox[index] {
+                    part(balls, contact, tolerance.first_bounce);
+                }
+            };
+            for (index, contact) in pressing.as_slice().iter().enumerate() {
+                part(index, contact, &mut now);
+                part(index, contact, balls);
+            }
+            contacts.retain(|_, contact| {
+                let index = pressing.as_slice().iter().position(|pressing| pressing == contact);
+                index.is_none_or(|index| !ended.1.paradox[index])
+            });
+            pressing.retain(|index, _| !ended.1.paradox[index]);
+            continue;
+        }
         // Balls that lie still may go on pushing each other, held by the cloth; nothing comes of it.
         let still = |(ball, state): (usize, &BallState)| {
-            !contacts.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
+            !pressing.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
         if !ended.2 && ended.0.iter().enumerate().all(still) {
             return None;
         }
         // What would begin to slip again at once has not ended.
-        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &balls, &contacts)? } else { ended };
+        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &now, &pressing)? } else { ended };
         // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
-        if resolved.contacts.as_slice().len() == contacts.as_slice().len() {
+        if resolved.contacts.as_slice().len() == pressing.as_slice().len() {
             return Some((begin, resolved));
         }
-        for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && !resolved.contacts.hold(ball)) {
+        for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
             // A slip that has ended has done so for a ball that nothing holds, too.
             if resolved.set.cloth[ball] == Friction::Sticks {
-                balls[ball] = begin[ball];
+                now[ball] = begin[ball];
             }
         }
-        contacts = resolved.contacts;
+        pressing = resolved.contacts;
     }
+}
+
+/// Lets two balls part at some speed, m/s.
+fn part(balls: &mut State, contact: &Contact, speed: f64) {
+    let Some(second) = contact.second else { return };
+    let missing = 0.5 * (speed - contact.opening_speed(balls)) * contact.normal(balls);
+    balls[contact.first].velocity += missing;
+    balls[second].velocity -= missing;
 }
 
 /// Whether this is the beginning of a contact of balls that never slip.
@@ -131,7 +158,7 @@ pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(
 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
 /// as rolling must not slide when it is free.
-pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> Outcome {
+pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
     let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
         contacts.hold(ball)
@@ -142,7 +169,7 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
     if balls.iter().enumerate().any(ends) {
         settle(table, constants, &mut ended, contacts.as_slice(), &set);
     }
-    Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]))
+    ended
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or

@@ -109,10 +109,12 @@ impl Resting {
         next_step: f64,
     ) -> Outcome {
         let Tolerance { slack, .. } = constants.tolerance;
-        let contacts = touching(constants, balls, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
+        let mut contacts = touching(constants, balls, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
+        let mut free = *balls;
         let least_push = slack + transient_pressing(constants, balls, &contacts);
-        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
-            return without_ending_slips(table, constants, balls, &contacts);
+        let Some((begin, resolved)) = lawful(table, constants, &mut free, &mut contacts, least_push, previous) else {
+            let ended = without_ending_slips(table, constants, &free, &contacts);
+            return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]));
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
         let mut resting = Self {

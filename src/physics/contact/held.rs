@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
     linear::{factorize, substitute},
-    problem::coefficient,
+    problem::{coefficient, never_slips},
 };
 use crate::{
     physics::{BallState, slip},
@@ -392,7 +392,7 @@ pub fn forces(
         let [normal, along, up] = system.force(index);
         (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
         limit(normal, 0.0);
-        if system.joints[index].unknowns == 3 {
+        if system.joints[index].unknowns == 3 && !never_slips(table, contact) {
             limit(coefficient(table, contact) * normal, along.hypot(up));
         }
     }
