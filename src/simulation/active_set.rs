@@ -3,13 +3,57 @@
 
 use glam::DVec2;
 
-use super::{Constants, contacts::close, extrapolation::State, resting::Resting};
+use super::{Constants, contacts::close, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Friction, Resolved, resolve, rolling_spin, slip, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, resolve, rolling_spin, slip,
+        stop_by_impulses,
     },
     table::{BALLS, Table},
 };
+
+/// The step that has just ended.
+#[derive(Clone, Copy)]
+pub struct Ended<'a> {
+    /// The contacts that pressed.
+    pub contacts: &'a Contacts,
+    /// What its frictions did.
+    pub set: &'a ActiveSet,
+    /// The forces at the end.
+    pub forces: &'a Forces,
+    /// Whether something else has ended the step.
+    pub interrupted: bool,
+}
+
+impl Ended<'_> {
+    /// Frictions that have yielded go on so while their slips are small.
+    fn goes_on_yielding(
+        &self,
+        radius: f64,
+        tolerance: &Tolerance,
+        balls: &State,
+        contacts: &[Contact],
+        set: &mut ActiveSet,
+    ) {
+        let small = |slip: DVec2| slip.length() <= tolerance.yielding;
+        for (ball, state) in balls.iter().enumerate() {
+            if self.set.cloth[ball] == Friction::Yields && small(slip(radius, state.velocity, state.spin)) {
+                set.cloth[ball] = Friction::Yields;
+            }
+            if self.set.roll[ball] == Friction::Yields && small(state.velocity) {
+                set.roll[ball] = Friction::Yields;
+            }
+        }
+        for (index, contact) in contacts.iter().enumerate() {
+            let before = self.contacts.as_slice().iter().position(|before| before == contact);
+            if before.is_some_and(|before| self.set.contact[before] == Friction::Yields)
+                && small(contact.slip(radius, balls))
+            {
+                set.contact[index] = Friction::Yields;
+            }
+        }
+    }
+}
 
 /// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
 /// moves. `balls` become what they are where they stay free, and `contacts` what may rest.
@@ -23,7 +67,7 @@ pub fn lawful(
     balls: &mut State,
     contacts: &mut Contacts,
     least_push: f64,
-    previous: Option<&Resting>,
+    previous: Option<Ended<'_>>,
 ) -> Option<(State, Resolved)> {
     if stand_on_slope(constants, balls, |ball| contacts.hold(ball)) {
         return None;
@@ -42,8 +86,8 @@ pub fn lawful(
         }
         settle(table, constants, &mut begin, touching, &set);
         // Where forces are not unique they go on as they were.
-        let same = |previous: &&Resting| previous.interrupted && previous.contacts.as_slice() == touching;
-        let similar = previous.filter(same).map(|previous| &previous.last);
+        let same = |previous: &Ended<'_>| previous.interrupted && previous.contacts.as_slice() == touching;
+        let similar = previous.filter(same).map(|previous| previous.forces);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
         if resolved.is_paradox() {
             return Some((begin, resolved, false));
@@ -96,8 +140,8 @@ pub fn lawful(
             return Some((begin, resolved));
         }
         for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
-            // A slip that has ended has done so for a ball that nothing holds, too.
-            if resolved.set.cloth[ball] == Friction::Sticks {
+            // A slip that has ended has done so for a ball that nothing holds, too; one that rolls rolls on.
+            if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) {
                 now[ball] = begin[ball];
             }
         }
@@ -114,9 +158,10 @@ fn part(balls: &mut State, contact: &Contact, speed: f64) {
 }
 
 /// Whether this is the beginning of a contact of balls that never slip.
-fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<&Resting>) -> bool {
+fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<Ended<'_>>) -> bool {
     table.ball_friction.is_none()
-        && contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
+        && contact.second.is_some()
+        && !previous.is_some_and(|previous| previous.contacts.as_slice().contains(contact))
 }
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
@@ -161,9 +206,7 @@ pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(
 pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
     let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
-        contacts.hold(ball)
-            && set.cloth[ball] == Friction::Sticks
-            && slip(table.radius, state.velocity, state.spin) != DVec2::ZERO
+        contacts.hold(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {

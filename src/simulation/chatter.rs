@@ -201,6 +201,26 @@ mod tests {
         assert!(chatters.are_over(0, now + 1.0));
     }
 
+    /// Bounces between a ball and a cushion: each time when the cushion throws the ball back they begin anew, and shorter.
+    #[test]
+    fn a_ball_that_another_contact_throws_back_goes_on_with_its_chatter() {
+        let mut chatters = Chatters::new();
+        let contact = Contact::of_balls(0, 1);
+        let (mut now, mut longest, mut told) = (0.0, 0.1, 0);
+        for _ in 0..20 {
+            let mut flight = longest;
+            for _ in 0..12 {
+                told += u32::from(!chatters.bounce(&contact, now));
+                now += flight;
+                flight *= 0.3;
+            }
+            now += 0.9 * longest;
+            longest *= 0.95;
+        }
+        assert_eq!(told, TOLD);
+        assert!(!chatters.are_over(0, now) && chatters.are_over(0, now + 0.2));
+    }
+
     /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.
     #[test]
     fn a_chatter_ends_without_the_contact_that_is_in_flight() {
