@@ -45,7 +45,7 @@ impl Movement {
     const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
 
     /// The largest difference of the members' speeds.
-    fn distance(&self, other: &Self, members: &[bool; BALLS]) -> f64 {
+    fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
         (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {
             let linear = self.linear[ball].distance(other.linear[ball]);
             linear.max(self.angular[ball].distance(other.angular[ball])).max(largest)
@@ -320,7 +320,7 @@ impl Held {
     fn to_stop(&self, speeds: &Movement) -> f64 {
         let still = Self { sizes: [[0.0; 3]; MAX_CONTACTS], ..*self };
         let (_, moved) = still.moved(speeds);
-        let largest = moved.distance(speeds, &self.members);
+        let largest = moved.distance(speeds, self.members);
         self.joints().iter().fold(largest, |largest, joint| {
             let rates = joint.rates(&moved);
             rates[..joint.unknowns].iter().fold(largest, |largest, rate| largest.max(rate.abs()))
@@ -433,7 +433,7 @@ pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts:
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     let before = system.to_stop(&speeds);
     if let Some([_, stopped]) = system.solve(&speeds, false)
-        && stopped.distance(&speeds, &system.members) <= MOST_AMPLIFICATION * before
+        && stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before
     {
         for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
             (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
