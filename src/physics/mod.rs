@@ -9,7 +9,8 @@ mod rolling;
 mod slope;
 
 pub use contact::{
-    ActiveSet, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve, stop_by_impulses, yielding,
+    ActiveSet, Contact, Contacts, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, forces, resolve,
+    stop_by_impulses, yielding,
 };
 pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike};
 #[cfg(test)]

@@ -3,28 +3,71 @@
 
 use glam::DVec2;
 
-use super::{
-    Constants,
-    contacts::close,
-    extrapolation::State,
-    resting::{Outcome, Resting},
-};
+use super::{Constants, contacts::close, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Friction, Resolved, resolve, rolling_spin, slip, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, resolve, rolling_spin, slip,
+        stop_by_impulses,
     },
     table::{BALLS, Table},
 };
 
+/// The step that has just ended.
+#[derive(Clone, Copy)]
+pub struct Ended<'a> {
+    /// The contacts that pressed.
+    pub contacts: &'a Contacts,
+    /// What its frictions did.
+    pub set: &'a ActiveSet,
+    /// The forces at the end.
+    pub forces: &'a Forces,
+    /// Whether something else has ended the step.
+    pub interrupted: bool,
+}
+
+impl Ended<'_> {
+    /// Frictions that have yielded go on so while their slips are small.
+    fn goes_on_yielding(
+        &self,
+        radius: f64,
+        tolerance: &Tolerance,
+        balls: &State,
+        contacts: &[Contact],
+        set: &mut ActiveSet,
+    ) {
+        let small = |slip: DVec2| slip.length() <= tolerance.yielding;
+        for (ball, state) in balls.iter().enumerate() {
+            if self.set.cloth[ball] == Friction::Yields && small(slip(radius, state.velocity, state.spin)) {
+                set.cloth[ball] = Friction::Yields;
+            }
+            if self.set.roll[ball] == Friction::Yields && small(state.velocity) {
+                set.roll[ball] = Friction::Yields;
+            }
+        }
+        for (index, contact) in contacts.iter().enumerate() {
+            let before = self.contacts.as_slice().iter().position(|before| before == contact);
+            if before.is_some_and(|before| self.set.contact[before] == Friction::Yields)
+                && small(contact.slip(radius, balls))
+            {
+                set.contact[index] = Friction::Yields;
+            }
+        }
+    }
+}
+
 /// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
-/// moves.
+/// moves. `balls` become what they are where they stay free, and `contacts` what may rest.
+///
+/// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip of two
+/// balls parts them, and once they have parted, and nothing holds, they come back. They begin to bounce then, each time
+/// higher, and each bounce takes their slip as every impact of theirs does (17).
 pub fn lawful(
     table: &Table,
     constants: &Constants,
-    balls: &State,
-    contacts: &Contacts,
+    balls: &mut State,
+    contacts: &mut Contacts,
     least_push: f64,
-    previous: Option<&Resting>,
+    previous: Option<Ended<'_>>,
 ) -> Option<(State, Resolved)> {
     if stand_on_slope(constants, balls, |ball| contacts.hold(ball)) {
         return None;
@@ -43,9 +86,12 @@ pub fn lawful(
         }
         settle(table, constants, &mut begin, touching, &set);
         // Where forces are not unique they go on as they were.
-        let same = |previous: &&Resting| previous.interrupted && previous.contacts.as_slice() == touching;
-        let similar = previous.filter(same).map(|previous| &previous.last);
+        let same = |previous: &Ended<'_>| previous.interrupted && previous.contacts.as_slice() == touching;
+        let similar = previous.filter(same).map(|previous| previous.forces);
         let mut resolved = resolve(table, &begin, contacts, &set, least_push, similar)?;
+        if resolved.is_paradox() {
+            return Some((begin, resolved, false));
+        }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
             settle(table, constants, &mut begin, touching, &set);
@@ -57,39 +103,65 @@ pub fn lawful(
         };
         Some((begin, resolved, departs))
     };
-    let (mut contacts, mut balls) = (*contacts, *balls);
+    let (mut pressing, mut now) = (*contacts, *balls);
     loop {
-        if contacts.as_slice().is_empty() {
+        if pressing.as_slice().is_empty() {
             return None;
         }
-        let ended = stopped(tolerance.ending_slip, &balls, &contacts)?;
+        let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
+        if ended.1.is_paradox() {
+            let part = |index: usize, contact: &Contact, balls: &mut State| {
+                if ended.1.paradox[index] {
+                    part(balls, contact, tolerance.first_bounce);
+                }
+            };
+            for (index, contact) in pressing.as_slice().iter().enumerate() {
+                part(index, contact, &mut now);
+                part(index, contact, balls);
+            }
+            contacts.retain(|_, contact| {
+                let index = pressing.as_slice().iter().position(|pressing| pressing == contact);
+                index.is_none_or(|index| !ended.1.paradox[index])
+            });
+            pressing.retain(|index, _| !ended.1.paradox[index]);
+            continue;
+        }
         // Balls that lie still may go on pushing each other, held by the cloth; nothing comes of it.
         let still = |(ball, state): (usize, &BallState)| {
-            !contacts.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
+            !pressing.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
         if !ended.2 && ended.0.iter().enumerate().all(still) {
             return None;
         }
         // What would begin to slip again at once has not ended.
-        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &balls, &contacts)? } else { ended };
+        let (begin, resolved, _) = if ended.2 { stopped(tolerance.slip, &now, &pressing)? } else { ended };
         // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
-        if resolved.contacts.as_slice().len() == contacts.as_slice().len() {
+        if resolved.contacts.as_slice().len() == pressing.as_slice().len() {
             return Some((begin, resolved));
         }
-        for ball in (0..BALLS).filter(|&ball| contacts.hold(ball) && !resolved.contacts.hold(ball)) {
-            // A slip that has ended has done so for a ball that nothing holds, too.
-            if resolved.set.cloth[ball] == Friction::Sticks {
-                balls[ball] = begin[ball];
+        for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
+            // A slip that has ended has done so for a ball that nothing holds, too; one that rolls rolls on.
+            if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) {
+                now[ball] = begin[ball];
             }
         }
-        contacts = resolved.contacts;
+        pressing = resolved.contacts;
     }
 }
 
+/// Lets two balls part at some speed, m/s.
+fn part(balls: &mut State, contact: &Contact, speed: f64) {
+    let Some(second) = contact.second else { return };
+    let missing = 0.5 * (speed - contact.opening_speed(balls)) * contact.normal(balls);
+    balls[contact.first].velocity += missing;
+    balls[second].velocity -= missing;
+}
+
 /// Whether this is the beginning of a contact of balls that never slip.
-fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<&Resting>) -> bool {
+fn begins_without_slip(table: &Table, contact: &Contact, previous: Option<Ended<'_>>) -> bool {
     table.ball_friction.is_none()
-        && contact.second.is_some_and(|second| !previous.is_some_and(|p| p.holds_together((contact.first, second))))
+        && contact.second.is_some()
+        && !previous.is_some_and(|previous| previous.contacts.as_slice().contains(contact))
 }
 
 /// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
@@ -131,18 +203,16 @@ pub fn stand_on_slope(constants: &Constants, balls: &State, takes_part: impl Fn(
 
 /// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
 /// as rolling must not slide when it is free.
-pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> Outcome {
+pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
     let set = ActiveSet::of(table, balls, contacts.as_slice(), constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
-        contacts.hold(ball)
-            && set.cloth[ball] == Friction::Sticks
-            && slip(table.radius, state.velocity, state.spin) != DVec2::ZERO
+        contacts.hold(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
         settle(table, constants, &mut ended, contacts.as_slice(), &set);
     }
-    Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]))
+    ended
 }
 
 /// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or

@@ -30,7 +30,8 @@ const TOLD: u32 = 8;
 /// Flights that shrink more slowly are no sign of a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;
 
-/// A pause of so many flights between two bounces is the end of a chatter.
+/// A pause of so many flights between two bounces is the end of a chatter, unless one of its flights has been as long: where
+/// another contact throws a ball back, its chatters are one.
 const PAUSE: f64 = 8.0;
 
 /// Pairs of balls, and balls with cushions.
@@ -42,8 +43,17 @@ struct Bounces {
     count: u32,
     last: f64,
     flight: f64,
+    /// The longest flight of this chatter.
+    longest: f64,
     /// The last flight over the one before.
     shrinking: f64,
+}
+
+impl Bounces {
+    /// Longest pause before the next bounce of the same chatter, s.
+    fn pause(&self) -> f64 {
+        self.longest.max(PAUSE * self.flight)
+    }
 }
 
 /// The slow bounces of a shot.
@@ -53,7 +63,10 @@ pub struct Chatters([Bounces; PLACES]);
 impl Chatters {
     /// No bounces yet.
     pub const fn new() -> Self {
-        Self([Bounces { count: 0, last: f64::NEG_INFINITY, flight: f64::INFINITY, shrinking: 0.0 }; PLACES])
+        Self(
+            [Bounces { count: 0, last: f64::NEG_INFINITY, flight: f64::INFINITY, longest: 0.0, shrinking: 0.0 };
+                PLACES],
+        )
     }
 
     fn place(contact: &Contact) -> usize {
@@ -69,7 +82,12 @@ impl Chatters {
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
         let bounces = &mut self.0[Self::place(contact)];
         let flight = now - bounces.last;
-        bounces.count = if flight <= PAUSE * bounces.flight { bounces.count + 1 } else { 0 };
+        if flight <= bounces.pause() {
+            let known = if flight.is_finite() { flight } else { 0.0 };
+            (bounces.count, bounces.longest) = (bounces.count + 1, bounces.longest.max(known));
+        } else {
+            (bounces.count, bounces.longest) = (0, 0.0);
+        }
         bounces.shrinking = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
         bounces.count > TOLD
@@ -86,8 +104,8 @@ impl Chatters {
         let pairs =
             PAIRS.iter().enumerate().filter(|(_, pair)| pair.0 == ball || pair.1 == ball).map(|(index, _)| index);
         pairs.chain(cushions).all(|place| {
-            let Bounces { count, last, flight, .. } = self.0[place];
-            count <= TOLD || now - last > PAUSE * flight
+            let bounces = self.0[place];
+            bounces.count <= TOLD || now - bounces.last > bounces.pause()
         })
     }
 }
@@ -181,6 +199,26 @@ mod tests {
         assert_eq!(told, TOLD);
         assert!(!chatters.are_over(1, now) && chatters.are_over(2, now));
         assert!(chatters.are_over(0, now + 1.0));
+    }
+
+    /// Bounces between a ball and a cushion: each time when the cushion throws the ball back they begin anew, and shorter.
+    #[test]
+    fn a_ball_that_another_contact_throws_back_goes_on_with_its_chatter() {
+        let mut chatters = Chatters::new();
+        let contact = Contact::of_balls(0, 1);
+        let (mut now, mut longest, mut told) = (0.0, 0.1, 0);
+        for _ in 0..20 {
+            let mut flight = longest;
+            for _ in 0..12 {
+                told += u32::from(!chatters.bounce(&contact, now));
+                now += flight;
+                flight *= 0.3;
+            }
+            now += 0.9 * longest;
+            longest *= 0.95;
+        }
+        assert_eq!(told, TOLD);
+        assert!(!chatters.are_over(0, now) && chatters.are_over(0, now + 0.2));
     }
 
     /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.

@@ -159,11 +159,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             self.launch(index, now, &states[index]);
         }
         for (index, contact) in contacts.as_slice().iter().enumerate().filter(|(index, _)| impulses[*index] > 0.0) {
-            let kind = match contact.second {
-                Some(second) => EventKind::BallBall(contact.first, second),
-                None => EventKind::BallRail(contact.first, Rail::with_normal(contact.cushion_normal)),
-            };
-            self.tell_impact(now, kind, told[index])?;
+            self.tell_impact(now, kind(contact), told[index])?;
         }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))?;
         ControlFlow::Continue(true)
@@ -260,11 +256,13 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let contacts = rests.as_slice();
         close(&c, &mut states, contacts);
         let law = self.law.inelastic();
+        let mut pushed = [false; MAX_CONTACTS];
         for _ in 0..MOST_ROUNDS {
             if !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening) {
                 break;
             }
-            collide_together(c.radius, &law, &mut states, contacts);
+            let impulses = collide_together(c.radius, &law, &mut states, contacts);
+            pushed.iter_mut().zip(impulses).for_each(|(pushed, impulse)| *pushed |= impulse > 0.0);
         }
         // What one of them has given another is a bounce, too.
         stop_by_impulses(self.table, &mut states, contacts, &ActiveSet::SLIPPING);
@@ -274,6 +272,18 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             self.launch(index, now, &states[index]);
         }
         self.tell_impact(now, impact, told)?;
+        for (contact, _) in contacts.iter().zip(pushed).filter(|(contact, pushed)| *pushed && kind(contact) != impact) {
+            let told = self.slow_bounce(now, contact)?;
+            self.tell_impact(now, kind(contact), told)?;
+        }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+    }
+}
+
+/// The event that an impact is.
+fn kind(contact: &Contact) -> EventKind {
+    match contact.second {
+        Some(second) => EventKind::BallBall(contact.first, second),
+        None => EventKind::BallRail(contact.first, Rail::with_normal(contact.cushion_normal)),
     }
 }

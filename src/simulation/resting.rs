@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::{
     Constants, Rail,
-    active_set::{lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
+    active_set::{Ended, lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
     segment::Curve,
@@ -109,10 +109,14 @@ impl Resting {
         next_step: f64,
     ) -> Outcome {
         let Tolerance { slack, .. } = constants.tolerance;
-        let contacts = touching(constants, balls, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
+        let mut contacts = touching(constants, balls, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
+        let mut free = *balls;
         let least_push = slack + transient_pressing(constants, balls, &contacts);
-        let Some((begin, resolved)) = lawful(table, constants, balls, &contacts, least_push, previous) else {
-            return without_ending_slips(table, constants, balls, &contacts);
+        let Some((begin, resolved)) =
+            lawful(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended))
+        else {
+            let ended = without_ending_slips(table, constants, &free, &contacts);
+            return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]));
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
         let mut resting = Self {
@@ -134,6 +138,11 @@ impl Resting {
         };
         resting.advance(table);
         Outcome::Rests(Box::new(resting))
+    }
+
+    /// What the end of this step leaves to the next.
+    const fn ended(&self) -> Ended<'_> {
+        Ended { contacts: &self.contacts, set: &self.set, forces: &self.last, interrupted: self.interrupted }
     }
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
@@ -435,34 +444,6 @@ impl Resting {
             spin: rate * forces.angular[ball],
         });
         Phase { balls, time: rate }
-    }
-
-    /// Frictions that have yielded go on so while their slips are small.
-    pub(super) fn goes_on_yielding(
-        &self,
-        radius: f64,
-        tolerance: &Tolerance,
-        balls: &State,
-        contacts: &[Contact],
-        set: &mut ActiveSet,
-    ) {
-        let small = |slip: DVec2| slip.length() <= tolerance.yielding;
-        for (ball, state) in balls.iter().enumerate() {
-            if self.set.cloth[ball] == Friction::Yields && small(slip(radius, state.velocity, state.spin)) {
-                set.cloth[ball] = Friction::Yields;
-            }
-            if self.set.roll[ball] == Friction::Yields && small(state.velocity) {
-                set.roll[ball] = Friction::Yields;
-            }
-        }
-        for (index, contact) in contacts.iter().enumerate() {
-            let before = self.contacts.as_slice().iter().position(|before| before == contact);
-            if before.is_some_and(|before| self.set.contact[before] == Friction::Yields)
-                && small(contact.slip(radius, balls))
-            {
-                set.contact[index] = Friction::Yields;
-            }
-        }
     }
 
     /// Whether these two balls press each other.

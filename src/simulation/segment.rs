@@ -51,6 +51,13 @@ pub struct Curve {
     pub spin: [DVec3; 3],
 }
 
+/// Whether a free ball slides: its slip is more than the rounding of what it is the difference of.
+pub fn slides(radius: f64, state: &BallState) -> bool {
+    let spin_squared = radius * radius * state.spin.truncate().length_squared();
+    slip(radius, state.velocity, state.spin).length_squared()
+        > SLIP_ROUNDING * SLIP_ROUNDING * (state.velocity.length_squared() + spin_squared)
+}
+
 impl Segment {
     /// A ball that lies still from time zero on.
     pub const fn at_rest(position: DVec2) -> Self {

@@ -1,7 +1,7 @@
 //! Every number that decides when something counts as nothing: each derived from the table, with its unit, its reason and
 //! what goes wrong where it is chosen badly.
 
-use crate::table::Table;
+use crate::{physics::FIRST_BOUNCE, table::Table};
 
 /// What counts as nothing on one table. Lengths grow with the table's length `L`, since coordinates are rounded to a share
 /// of it; speeds with `√(g R)`, accelerations with `g`.
@@ -46,6 +46,9 @@ pub struct Tolerance {
     pub slowest_bounce: f64,
     /// The same where several contacts are coupled and make slips, m/s: the places are then right to as many metres.
     pub slowest_coupled_bounce: f64,
+    /// Balls that never slip and that no forces hold together begin to bounce at this speed, m/s: above the slowest bounce,
+    /// so that the chatter does not end at once.
+    pub first_bounce: f64,
     /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
     pub negligible: f64,
     /// The same where several contacts are coupled, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
@@ -71,6 +74,7 @@ impl Tolerance {
             slack: 1e-12 * table.gravity,
             slow_bounce: 2e-2 * speed,
             slowest_bounce: 2e-10 * speed,
+            first_bounce: FIRST_BOUNCE * speed,
             slowest_coupled_bounce: 2e-8 * speed,
             negligible: 2e-12 * speed,
             negligible_coupled: 2e-10 * speed,

@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::{
     ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
-    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown},
-    solve::{Side, solve},
+    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, never_slips},
+    solve::{Side, Solution, solve, solve_near},
 };
 use crate::{
     physics::BallState,
@@ -54,8 +54,18 @@ pub struct Resolved {
     pub shared: bool,
     /// What the frictions do if those that have yielded hold again: slips that end, or slide on against their friction.
     pub sticking: Option<ActiveSet>,
+    /// Whether each of the contacts that were asked about never slips, and cannot rest: what holds its slip parts the
+    /// balls, and what parts brings them back.
+    pub paradox: [bool; MAX_CONTACTS],
     /// Whether all laws hold to rounding.
     pub converged: bool,
+}
+
+impl Resolved {
+    /// Whether a contact that never slips cannot rest.
+    pub fn is_paradox(&self) -> bool {
+        self.paradox.contains(&true)
+    }
 }
 
 /// Finds which of the `contacts` push and which frictions hold, and the forces; `set` tells what slips already. `None`
@@ -68,8 +78,7 @@ pub fn resolve(
     slack: f64,
     similar: Option<&Forces>,
 ) -> Option<Resolved> {
-    let problem = Problem::new(table, balls, contacts.as_slice(), set);
-    let solution = solve(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
+    let (problem, solution) = solved(table, balls, contacts.as_slice(), set, similar);
     let accelerations = problem.accelerations(&solution.sizes);
     let mut resolved = Resolved {
         contacts: *contacts,
@@ -77,19 +86,17 @@ pub fn resolve(
         forces: Forces::of(table.radius, &problem, &solution.sizes, &accelerations),
         shared: false,
         sticking: None,
+        paradox: [false; MAX_CONTACTS],
         converged: solution.converged,
     };
-    let never_slips = |place: Place| {
-        let of_balls = |index: usize| contacts.as_slice()[index].second.is_some();
-        table.ball_friction.is_none() && matches!(place, Place::Contact(index) if of_balls(index))
-    };
-    let pushes = |index: usize| resolved.forces.normal[index] > slack;
     let mut kept = [Friction::Sticks; MAX_CONTACTS];
     let mut count = 0;
     for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
         if *side == Side::Holds {
             // Balls that never slip stop at once, others slide on against their friction.
-            let ends = if never_slips(unknown.place) { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
+            let stops =
+                matches!(unknown.place, Place::Contact(index) if never_slips(table, &contacts.as_slice()[index]));
+            let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
             resolved.sticking =
                 sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
         }
@@ -103,7 +110,7 @@ pub fn resolve(
         let size = solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| size.hypot(*x));
         let starts = match unknown.count {
             1 => Friction::Slips(-force),
-            _ if rate < SLOW_START * size || never_slips(unknown.place) => Friction::Yields,
+            _ if rate < SLOW_START * size => Friction::Yields,
             _ => Friction::Slips(-STARTING * force),
         };
         match unknown.place {
@@ -112,22 +119,48 @@ pub fn resolve(
             Place::Cloth(ball) => resolved.set.cloth[ball] = starts,
             Place::Roll(ball) => resolved.set.roll[ball] = starts,
             Place::Spin(ball) => resolved.set.spin[ball] = starts,
+            Place::Contact(index) if never_slips(table, &contacts.as_slice()[index]) => resolved.paradox[index] = true,
             Place::Contact(index) => resolved.set.contact[index] = starts,
         }
     }
+    let paradox = resolved.paradox;
+    let pushes = |index: usize| resolved.forces.normal[index] > slack && !paradox[index];
     for index in 0..contacts.as_slice().len() {
         if pushes(index) {
             kept[count] = resolved.set.contact[index];
             count += 1;
         }
     }
-    resolved.contacts.retain(|index, _| pushes(index));
-    if count == 0 {
+    let mut pressing = *contacts;
+    pressing.retain(|index, _| pushes(index));
+    resolved.contacts = pressing;
+    if count == 0 && resolved.paradox == [false; MAX_CONTACTS] {
         return None;
     }
     resolved.set.contact = kept;
     resolved.forces.slack = spin_slack(table.radius, balls, &resolved.set).min(slack_of(&problem, &solution.sizes));
     Some(resolved)
+}
+
+/// The problem and its solution. Balls that never slip grip without limit, unless no forces obey all laws then.
+fn solved(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
+    similar: Option<&Forces>,
+) -> (Problem, Solution) {
+    let mut problem = Problem::new(table, balls, contacts, set);
+    let mut solution = solve(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)));
+    let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if never_slips(table, &contacts[index]));
+    if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
+        problem.grip(contacts);
+        let gripped = solve_near(&problem, &solution.sizes);
+        if gripped.converged {
+            solution = gripped;
+        }
+    }
+    (problem, solution)
 }
 
 /// The set in which a friction that yields does something else; none where it does not yield.
@@ -154,8 +187,7 @@ pub fn yielding(
     set: &ActiveSet,
     similar: &Forces,
 ) -> Forces {
-    let problem = Problem::new(table, balls, contacts, set);
-    let solution = solve(&problem, &similar.sizes(&problem));
+    let (problem, solution) = solved(table, balls, contacts, set, Some(similar));
     let accelerations = problem.accelerations(&solution.sizes);
     let mut forces = Forces::of(table.radius, &problem, &solution.sizes, &accelerations);
     forces.slack = spin_slack(table.radius, balls, set);

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
     linear::{factorize, substitute},
-    problem::coefficient,
+    problem::{coefficient, never_slips},
 };
 use crate::{
     physics::{BallState, slip},
@@ -30,6 +30,10 @@ const MAX_REFINEMENTS: usize = 8;
 /// Residuals below this share of the largest number are rounding.
 const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
+/// Impulses that stop some speeds change others by a few times as much. Where it is far more, the contacts are about to open,
+/// and what is stopped is rounding.
+const MOST_AMPLIFICATION: f64 = 100.0;
+
 /// Accelerations, speeds or their changes: of the centre, and R times those of the spin.
 #[derive(Clone, Copy, Debug)]
 struct Movement {
@@ -39,6 +43,14 @@ struct Movement {
 
 impl Movement {
     const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
+
+    /// The largest difference of the members' speeds.
+    fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
+        (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {
+            let linear = self.linear[ball].distance(other.linear[ball]);
+            linear.max(self.angular[ball].distance(other.angular[ball])).max(largest)
+        })
+    }
 }
 
 /// How the cloth holds a ball.
@@ -304,6 +316,17 @@ impl Held {
         None
     }
 
+    /// The largest of the speeds that are to be zero.
+    fn to_stop(&self, speeds: &Movement) -> f64 {
+        let still = Self { sizes: [[0.0; 3]; MAX_CONTACTS], ..*self };
+        let (_, moved) = still.moved(speeds);
+        let largest = moved.distance(speeds, self.members);
+        self.joints().iter().fold(largest, |largest, joint| {
+            let rates = joint.rates(&moved);
+            rates[..joint.unknowns].iter().fold(largest, |largest, rate| largest.max(rate.abs()))
+        })
+    }
+
     /// The force in a contact.
     fn force(&self, index: usize) -> Triple {
         let [normal, along, up] = self.sizes[index];
@@ -392,7 +415,7 @@ pub fn forces(
         let [normal, along, up] = system.force(index);
         (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
         limit(normal, 0.0);
-        if system.joints[index].unknowns == 3 {
+        if system.joints[index].unknowns == 3 && !never_slips(table, contact) {
             limit(coefficient(table, contact) * normal, along.hypot(up));
         }
     }
@@ -401,14 +424,17 @@ pub fn forces(
 
 /// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
 /// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something has friction where its
-/// contact slips. Where they cannot all vanish, all stay.
+/// contact slips. Where they cannot all vanish, or not without changing others by far more, all stay.
 pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts: &[Contact], set: &ActiveSet) {
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
     let has_friction = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
     let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), has_friction);
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
-    if let Some([_, stopped]) = system.solve(&speeds, false) {
+    let before = system.to_stop(&speeds);
+    if let Some([_, stopped]) = system.solve(&speeds, false)
+        && stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before
+    {
         for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
             (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
         }

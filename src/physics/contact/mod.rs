@@ -20,6 +20,12 @@ pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use forces::{Forces, Resolved, resolve, yielding};
 pub use held::{forces, stop_by_impulses};
 
+/// Speed at which balls that never slip begin to bounce where no forces hold them together (Painlevé's paradox), in units of
+/// `√(g R)`. What would hold the slip parts them, and once they have parted, and nothing holds, they come back: each bounce is
+/// higher than the last, and takes their slip as every impact of theirs does (17). How high they have got after a time
+/// depends on the first bounce by its logarithm alone. Larger: what is added counts. Smaller: the bounces take longer to grow.
+pub const FIRST_BOUNCE: f64 = 8e-10;
+
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {

@@ -83,10 +83,14 @@ impl Row {
     }
 }
 
-/// Friction of balls that have no coefficient, since their impacts never slip (17): the limit of ever larger ones. Where
-/// holding would drive two balls apart that come together without it, no force obeys both laws; in the limit they stay
-/// together, slip, and push next to nothing.
+/// Friction with which forces are sought for balls that have no coefficient, since their impacts never slip (17): large, and
+/// with forces in every state. Where they reach it, [`Problem::grip`] takes the limit away.
 const NO_SLIP: f64 = 1e3;
+
+/// Whether a contact has no coefficient of friction and never slips.
+pub fn never_slips(table: &Table, contact: &Contact) -> bool {
+    table.ball_friction.is_none() && contact.second.is_some()
+}
 
 /// Coulomb's coefficient in a contact.
 pub fn coefficient(table: &Table, contact: &Contact) -> f64 {
@@ -216,6 +220,17 @@ impl Problem {
         self.rates.extend_from_slice(rows);
         self.forces.extend_from_slice(rows);
         self.bias.extend_from_slice(&bias[..rows.len()]);
+    }
+
+    /// Takes away the limit of frictions between balls.
+    pub fn grip(&mut self, contacts: &[Contact]) {
+        for unknown in &mut self.unknowns {
+            if let Limit::Coulomb(mu, contact) = &mut unknown.limit
+                && contacts[*contact].second.is_some()
+            {
+                *mu = f64::INFINITY;
+            }
+        }
     }
 
     /// Accelerations under forces of these sizes, m/s².

@@ -60,10 +60,19 @@ pub type Sides = [Side; MOST_UNKNOWNS];
 
 /// Forces and frictions that obey all laws, sought from `guess` on.
 pub fn solve(problem: &Problem, guess: &Sizes) -> Solution {
+    solve_in(problem, guess, ATTEMPTS)
+}
+
+/// The same if they are near to the `guess`.
+pub fn solve_near(problem: &Problem, guess: &Sizes) -> Solution {
+    solve_in(problem, guess, 1)
+}
+
+fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
     let system = System::new(problem);
     let mut best = (f64::INFINITY, *guess);
     let mut sizes = *guess;
-    for attempt in 0..ATTEMPTS {
+    for attempt in 0..attempts {
         let (mut residual, mut sides) = system.residual(&sizes);
         for _ in 0..NEWTON_STEPS {
             let error = length(&residual);

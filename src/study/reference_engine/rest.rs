@@ -113,7 +113,7 @@ fn pressing<R: Real>(
     Ok(pressing.collect())
 }
 
-/// Makes the contacts that never slip open with a first little speed, and tells whether there are any.
+/// Makes the contacts that never slip open with the speed of a first bounce, and tells whether there are any.
 ///
 /// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip
 /// makes the contact open, and once it is open, and nothing holds, it closes. It begins to bounce then, each time higher.
@@ -122,7 +122,7 @@ fn bounce<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, closed: &[Contact
     for contact in closed.iter().filter(|contact| contact.friction(numbers).is_none()) {
         let row = Row::opening(*contact, contact.normal(balls));
         let mut moved = movement(balls);
-        let missing = R::of(BEGINNING) * tolerance::closed() - row.speed(&moved);
+        let missing = numbers.first_bounce - row.speed(&moved);
         row.push(numbers, missing / row.response(numbers, &row), &mut moved);
         for (ball, (velocity, _)) in balls.iter_mut().zip(moved) {
             ball.velocity = velocity;

@@ -4,7 +4,7 @@ use super::{
     Real, Unjudged, Vector,
     rails::{Cushion, Falling, Meeting},
 };
-use crate::{simulation::Rail, table::Table};
+use crate::{physics::FIRST_BOUNCE, simulation::Rail, table::Table};
 
 /// What the equations need of a table, in SI units.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +35,8 @@ pub struct Numbers<R> {
     pub ball_slip_friction: Option<[R; 3]>,
     /// The cushions in the order of [`Rail::ALL`].
     pub cushions: [Cushion<R>; 4],
+    /// Speed at which balls that never slip begin to bounce, m/s.
+    pub first_bounce: R,
     /// Ball mass over cue mass.
     pub mass_ratio: R,
     /// Ball mass over the mass of the cue's end, `None` for a cue that nothing turns aside.
@@ -62,6 +64,7 @@ impl<R: Real> Numbers<R> {
             ball_friction: table.ball_friction.map(R::of),
             ball_slip_friction: table.ball_slip_friction.map(|law| [law.least, law.rise, law.fade].map(R::of)),
             cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)),
+            first_bounce: R::of(FIRST_BOUNCE) * (gravity * radius).sqrt(),
             mass_ratio: mass / R::of(table.cue_mass),
             end_ratio: table.cue_end_mass.map(|end| mass / R::of(end)),
             is_level: table.tilt == glam::DVec2::ZERO,

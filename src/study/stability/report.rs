@@ -181,7 +181,8 @@ formulas of restitution and Coulomb's friction, worked out apart from the engine
 against something, if the change is the work of impulses in closed contacts that push and rub no more than Coulomb allows; a \
 ball pressed against one cushion by integrating its equations; other resting contacts from the accelerations of the recorded \
 course, to a thousandth. A chatter that becomes a resting contact takes the energy of its bounces only if the contact lasts as \
-long as they would. What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), \
+long as they would. Balls that never slip lose their slip where they begin to rest against each other, as in an impact. \
+What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball), and in resting contacts errors of 1e-10 m/s, of 1e-10 m and of a \
 hundred-thousandth of the work. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
 multiples of what is explained and in m²/s² (energy over a ball's mass).";

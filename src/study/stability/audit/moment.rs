@@ -91,10 +91,21 @@ impl Moment<'_> {
         let impacts: Vec<&Contact> = self.impacts.iter().filter(|contact| group[contact.first]).collect();
         let was_free = (0..BALLS).all(|ball| !(group[ball] && self.rested[ball]));
         match impacts[..] {
-            [] => Taken { unexplained: lost, bounces: None },
+            [] if !self.begins_to_grip(group) => Taken { unexplained: lost, bounces: None },
             [contact] if was_free && !self.grips(contact) => self.one_impact(contact, &before, lost),
             _ => Taken { unexplained: self.several(group, &impacts, &before, &after), bounces: None },
         }
+    }
+
+    /// Whether balls that never slip where they touch begin to rest against each other: what is left of their slip ends at
+    /// once, as in an impact.
+    fn begins_to_grip(&self, group: [bool; BALLS]) -> bool {
+        self.closed.iter().any(|contact| {
+            let begins = |ball: usize| group[ball] && self.rests[ball];
+            let rested = |second: usize| self.rested[contact.first] && self.rested[second];
+            contact.second.is_some_and(|second| begins(contact.first) && begins(second) && !rested(second))
+                && friction(self.table, contact).is_none()
+        })
     }
 
     /// Whether two balls rest against each other that never slip where they touch: what an impact has left of their slip

@@ -8,8 +8,9 @@ use crate::{physics::BallState, table::Table};
 /// A step may change a slip by about this share, which makes the relative error of a step `0.05⁵/120`: 3e-9.
 const SHARE: f64 = 0.05;
 
-/// Most steps: slips that end on the stretch would ask for ever shorter ones.
-const MOST_STEPS: f64 = 400.0;
+/// Shortest step, as a share of the stretch: slips that end on it would ask for ever shorter ones. So far from its end, what a
+/// slip does is less than rounding.
+const SHORTEST: f64 = 1e-9;
 
 /// The cushion and what acts there.
 pub struct OnCushion<'a> {
@@ -32,7 +33,7 @@ impl OnCushion<'_> {
         while left > 0.0 {
             let slips = [self.cloth_slip(now).length(), self.rail_slip(now).length()];
             let slip = if self.slips { slips[0].min(slips[1]) } else { slips[0] };
-            let step = (SHARE * slip / fastest).max(time / MOST_STEPS).min(left);
+            let step = (SHARE * slip / fastest).max(SHORTEST * time).min(left);
             let after =
                 |rate: (DVec2, DVec3), share: f64| (now.0 + share * step * rate.0, now.1 + share * step * rate.1);
             let first = self.rate(now);
