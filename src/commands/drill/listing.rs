@@ -120,12 +120,12 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
         line(format_args!("{name:<6} {x:>8.1} {y:>7.1} mm from the centre   {across:.2} {up:.2} diamonds"))?;
     }
     if let Some(shot) = shot {
-        line(format_args!("shot   {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
+        line(format_args!("shot    {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
     }
     if let Some(par) = par {
         let [beginner, club, expert] = [par.beginner, par.club, par.expert].map(|share| 100.0 * share);
-        line(format_args!("par    beginner {beginner:.0} %, club {club:.0} %, expert {expert:.0} %"))?;
+        line(format_args!("typical beginner {beginner:.0} %, club {club:.0} %, expert {expert:.0} %"))?;
     }
-    line(format_args!("record {}", words(&record)))?;
-    line(format_args!("code   {code}"))
+    line(format_args!("record  {}", words(&record)))?;
+    line(format_args!("code    {code}"))
 }

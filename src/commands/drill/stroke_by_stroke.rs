@@ -78,7 +78,7 @@ struct AttemptLine<'a> {
     end: Layout,
 }
 
-/// The shot that is taught, or the coach's, beside the player's.
+/// The model shot, or the coach's, beside the player's.
 #[derive(Serialize)]
 struct Advised {
     #[serde(rename = "advised")]
@@ -206,7 +206,7 @@ impl<'a> StrokeByStroke<'a> {
             return Err(Failure::failed(error));
         }
 
-        let whose = if own.is_some() { "exercise" } else { "coach" };
+        let by = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
         let (verdict, run) = (played.verdict(cue_ball), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
@@ -229,7 +229,7 @@ impl<'a> StrokeByStroke<'a> {
                     chance: advice.chance.rate,
                     interval: [advice.chance.low, advice.chance.high],
                     difference: difference(&meant, &advice.cue),
-                    by: whose,
+                    by,
                     changes,
                 }),
                 end: played.end,
@@ -248,7 +248,8 @@ impl<'a> StrokeByStroke<'a> {
         } else if let Some(advice) = advice {
             let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };
             let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
-            line(format_args!("   the {whose}'s shot {shot} is made {share} of the time{changes}"))?;
+            let whose = if own.is_some() { "model shot" } else { "coach's shot" };
+            line(format_args!("   the {whose} {shot} is made {share} of the time{changes}"))?;
         }
         Ok(true)
     }
@@ -259,7 +260,7 @@ impl<'a> StrokeByStroke<'a> {
         Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may do"))
     }
 
-    /// The shot that the exercise teaches, where the balls lie for it.
+    /// The model shot, where the balls lie for it.
     fn own(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
         exercise.model_shot().filter(|_| !self.session.is_game())
