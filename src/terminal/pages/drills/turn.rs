@@ -88,6 +88,8 @@ pub struct Turn {
     pub shows_hint: bool,
     /// Whether it was shown since the balls were placed.
     pub is_helped: bool,
+    /// The page of the aim's text, where one has no room for all of it; beyond the last the first comes again.
+    pub text_page: isize,
     /// The session as it will be once all notes are saved.
     ahead: Option<Session>,
     /// The stroke that is set, with what it was before.
@@ -119,6 +121,7 @@ impl Turn {
             lesson: Lesson::Pending,
             shows_hint: false,
             is_helped: false,
+            text_page: 0,
             ahead: None,
             position: 0,
             cancel: Arc::default(),
@@ -271,6 +274,7 @@ impl Turn {
     /// What plays the stroke that is set.
     pub(super) fn play(&mut self) -> DrillTask {
         self.changed_by = None;
+        self.text_page = 0;
         self.stage = Stage::Waiting;
         self.is_helped |= self.shows_hint;
         self.shows_hint = false;

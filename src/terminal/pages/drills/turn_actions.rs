@@ -97,8 +97,10 @@ impl DrillsPage {
             Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
             Action::Hint => {
                 turn.shows_hint = !turn.shows_hint;
+                turn.text_page = 0;
                 turn.is_helped |= turn.shows_hint && turn.is_aiming();
             }
+            Action::TurnText(pages) => turn.text_page += pages,
             Action::Shift => {
                 self.wishes.shifted = !turn.session.shifted;
                 let news = if self.wishes.shifted {

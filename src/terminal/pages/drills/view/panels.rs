@@ -2,6 +2,7 @@
 
 use ratatui::{
     layout::Rect,
+    style::Style,
     text::{Line, Span},
 };
 
@@ -11,11 +12,17 @@ use crate::{
     table::CueBall,
     terminal::{
         capabilities::Capabilities,
-        pages::drills::{Lesson, Meets, Sight, Turn, Watched, view::percent},
+        keymap::{chord::keys_text, chord_of},
+        pages::drills::{
+            Lesson, Meets, Sight, Turn, Watched,
+            keys::{DrillAction, EXERCISE},
+            view::percent,
+        },
         tasks::drills::Taught,
         ui::{
             Ui,
             panel::{draw_title, write_paragraphs},
+            text::wrap,
         },
         words::{fixed, rail_name},
     },
@@ -40,7 +47,7 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
         }
     };
     let rows = [
-        ("aim", fixed(cue.phi.to_degrees(), 2) + degree),
+        ("aim", cue.phi_text(2) + degree),
         ("side", millimetres(cue.a, ["left", "right"])),
         ("height", millimetres(cue.b, ["up", "down"])),
         ("speed", format!("{} m/s", fixed(cue.speed, 2))),
@@ -65,8 +72,6 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
 pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
-    let inner = draw_title(title, area, ui);
-    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
         paragraphs.extend(differences(turn, watched, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
@@ -91,7 +96,24 @@ pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
     }
-    write_paragraphs(&paragraphs, text, ui);
+    write_pages(title, &paragraphs, turn.text_page, area, ui);
+}
+
+/// Writes `paragraphs` below a title; where they have no room, one page of them, and the title says which and how to turn it.
+fn write_pages(title: String, paragraphs: &[(String, Style)], page: isize, area: Rect, ui: &mut Ui) {
+    let rows = usize::from(area.height.saturating_sub(1)).max(1);
+    let width = usize::from(area.width.saturating_sub(2));
+    let wrapped =
+        paragraphs.iter().flat_map(|(words, style)| wrap(words, width).into_iter().map(move |line| (line, *style)));
+    let lines: Vec<(String, Style)> = wrapped.collect();
+    let pages = lines.len().div_ceil(rows).max(1);
+    let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
+    let turns = chord_of(EXERCISE, &DrillAction::TurnText(1)).into_iter();
+    let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+    let title = if pages > 1 { format!("{title}, {} of {pages}: {key}", page + 1) } else { title };
+    let inner = draw_title(title, area, ui);
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    write_paragraphs(lines.chunks(rows).nth(page).unwrap_or_default(), text, ui);
 }
 
 /// What the line of aim meets.
