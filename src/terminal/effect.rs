@@ -4,14 +4,7 @@ use std::path::PathBuf;
 
 use crate::{
     learning::run::request::Request,
-    terminal::{
-        config::SettingsTask,
-        tasks::{
-            drills::DrillTask,
-            recommender::Job,
-            training::{Keeping, Launch},
-        },
-    },
+    terminal::{DrillTask, Job, Keeping, Launch, SettingsTask},
 };
 
 /// What the program around the app has to do.

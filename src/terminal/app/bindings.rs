@@ -7,21 +7,20 @@ use crossterm::event::{
 
 use super::palette_keys::{self, PaletteAction};
 use crate::terminal::{
-    effect::PageId,
+    CoachAction, CoachCondition, DrillAction, DrillCondition, DrillContext, PageId, SettingsAction, SettingsCondition,
+    SettingsContext, TrainingAction, TrainingCondition, TrainingContext,
     keymap::{
-        Binding, KeyEntry, KeyPage,
+        Binding, Chord, KeyEntry, KeyPage,
         Section::{self, Program},
-        bind,
-        chord::Chord,
-        chord_of, ctrl, key, letter,
+        bind, chord_of, ctrl, key, letter,
     },
     pages::{
-        coach::keys::{self as coach, CoachAction, CoachCondition, SavingContext},
-        drills::keys::{self as drills, DrillAction, DrillCondition, DrillContext},
-        settings::keys::{self as settings, SettingsAction, SettingsCondition, SettingsContext},
-        training::keys::{self as training, TrainingAction, TrainingCondition, TrainingContext},
+        coach::{keys as coach, keys::SavingContext},
+        drills::keys as drills,
+        settings::keys as settings,
+        training::keys as training,
     },
-    ui::input::is_typed,
+    ui::is_typed,
 };
 
 use Action as A;

@@ -1,13 +1,6 @@
 //! The command palette as the app has it: what it lists, and what each of its keys does.
 
-use crate::terminal::{
-    app::{
-        App,
-        palette::{Command, CommandPalette, commands},
-        palette_keys::PaletteAction,
-    },
-    effect::Effect,
-};
+use crate::terminal::{App, Command, CommandPalette, Effect, PaletteAction, app::palette::commands};
 
 impl App {
     /// Does what an action of the command palette asks for.

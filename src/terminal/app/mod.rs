@@ -27,24 +27,14 @@ use crate::{
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        app::{bindings::Action, palette::CommandPalette},
-        capabilities::{Capabilities, Glyphs},
-        config::{
-            Complaint, Settings,
-            saved_session::{SavedSession, SessionParts},
-        },
-        effect::{Effect, PageId},
+        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, PageId, Palette, SavedSession,
+        SessionParts, Settings, SettingsPage, Subscriptions, Toasts,
         pages::{
-            coach::{CoachPage, keys::CoachAction},
+            coach::CoachPage,
             drills::{Balls, DrillsPage},
-            settings::SettingsPage,
             training::TrainingPage,
         },
-        tasks::training::Subscriptions,
-        ui::{
-            theme::{Palette, Theme},
-            toasts::Toasts,
-        },
+        ui::Theme,
     },
 };
 

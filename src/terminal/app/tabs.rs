@@ -1,9 +1,6 @@
 //! Going from screen to screen.
 
-use crate::terminal::{
-    app::{App, Overlay},
-    effect::{Effect, PageId},
-};
+use crate::terminal::{App, Effect, Overlay, PageId};
 
 impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {

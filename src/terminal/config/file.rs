@@ -7,10 +7,12 @@ use std::{
 
 use crate::{
     storage::{self, write_atomic},
-    terminal::config::{
+    terminal::{
         Change, Complaint, Settings,
-        change::{changed, is_changeable},
-        read::{line_at, read},
+        config::{
+            change::{changed, is_changeable},
+            read::{line_at, read},
+        },
     },
 };
 
@@ -135,7 +137,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::terminal::ui::theme::Palette;
+    use crate::terminal::Palette;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
         SettingsTask { number: 1, path: path.to_owned(), change: change.into() }

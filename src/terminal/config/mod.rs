@@ -19,11 +19,7 @@ use crate::{
     game::Rule,
     storage,
     table::{PRESETS, Table},
-    terminal::{
-        capabilities::{Depth, Glyphs},
-        keymap::remap::{self, Keys},
-        ui::theme::Palette,
-    },
+    terminal::{Depth, Glyphs, Keys, Palette, keymap::remap},
 };
 
 pub use change::Change;

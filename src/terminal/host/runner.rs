@@ -15,16 +15,9 @@ use crate::{
     printing::OneLine,
     storage::Places,
     terminal::{
-        app::App,
-        config::saved_session::{SavedSession, SessionParts},
-        effect::Effect,
+        Answer, App, CoachNews, Effect, Job, Report, SavedSession, SessionParts,
         host::{events, guard::TerminalGuard, log, pace::Pace, signals},
-        tasks::{
-            Tasks,
-            event::Event,
-            recommender::{Answer, CoachNews, Job},
-            training::Report,
-        },
+        tasks::{Tasks, event::Event},
     },
 };
 

@@ -9,8 +9,10 @@ mod section;
 
 use crossterm::event::KeyCode;
 
-pub use self::section::Section;
-use chord::Chord;
+pub use self::{
+    chord::{Chord, keys_text},
+    section::Section,
+};
 
 /// One line of a table: keys that do `A`, at times that `W` names.
 #[derive(Debug)]

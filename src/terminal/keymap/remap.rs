@@ -2,7 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use crate::terminal::keymap::chord::Chord;
+use crate::terminal::keymap::Chord;
 
 /// What the documentation says of the keys.
 pub const ABOUT: &str = "

@@ -4,8 +4,9 @@ use crate::{
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
+        FilmScene,
         plain::speech,
-        shot::film::{FilmScene, listed, table},
+        shot::film::{listed, table},
         words::fixed,
     },
 };

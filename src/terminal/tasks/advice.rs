@@ -6,7 +6,7 @@ use crate::{
     coach::{Kind, Map, Margin, Scatter, Skill},
     game::Rule,
     learning::{Policy, evaluation::SuccessRate},
-    terminal::shot::Shot,
+    terminal::Shot,
 };
 
 /// Whose advice is asked, and for what. Two are equal if they ask the same.

@@ -10,7 +10,7 @@ use crate::{
     storage::Places,
     study::filmed::FilmedShot,
     table::{Layout, Table},
-    terminal::shot::{Shot, film::FilmScene},
+    terminal::{FilmScene, Shot},
 };
 
 /// Something that is to be done.

@@ -34,16 +34,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        config::{SettingsFile, SettingsTask},
-        tasks::{
-            drills::DrillTask,
-            event::Event,
-            polling::Poll,
-            recommender::{CoachWorker, Job},
-            reel::Reel,
-            training::{Keeping, Launch, Report, Slot, Subscriptions},
-            worker::Worker,
-        },
+        CoachWorker, DrillTask, Job, Keeping, Launch, Reel, Report, SettingsFile, SettingsTask, Slot, Subscriptions,
+        tasks::{event::Event, polling::Poll, worker::Worker},
     },
 };
 

@@ -15,11 +15,7 @@ use crate::{
     },
     table::Table,
     terminal::{
-        shot::{Shot, film::FilmScene},
-        tasks::{
-            drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
-            event::Event,
-        },
+        DrillReport, DrillTask, FilmScene, Loaded, Outcome, Position, Shot, Stroke, Taught, tasks::event::Event,
     },
 };
 

@@ -14,10 +14,7 @@ use crate::{
     learning::Policy,
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{
-        shot::Shot,
-        tasks::advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
-    },
+    terminal::{Advice, CoachQuery, Effort, Proposal, Shot, ShotAnalysis},
 };
 
 /// Least time between two better shots that are told: each moves all paths on the screen, which is 3 KB on a slow link, and

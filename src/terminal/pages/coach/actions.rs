@@ -8,14 +8,13 @@ use crate::{
     game::Point,
     table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
     terminal::{
-        effect::Effect,
-        pages::coach::{CoachPage, Mode, Position, keys::CoachAction as Action},
+        CoachAction as Action, CoachQuery, Effect, Mode,
+        pages::coach::{CoachPage, Position},
         shot::{
-            history::History,
+            History,
             placing::{self, STEPS},
         },
-        tasks::advice::CoachQuery,
-        ui::message::Message,
+        ui::Message,
         words::step_words,
     },
 };

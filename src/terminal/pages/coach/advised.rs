@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::terminal::tasks::advice::{Advice, CoachQuery, Proposal, ShotAnalysis};
+use crate::terminal::{Advice, CoachQuery, Proposal, ShotAnalysis};
 
 /// Advice on a layout.
 #[derive(Clone, Debug)]

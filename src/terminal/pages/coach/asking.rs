@@ -11,14 +11,9 @@ use crate::{
     physics::CueInputs,
     table::CueBall,
     terminal::{
-        effect::Effect,
-        pages::coach::{AdviceState, CoachPage, Mode},
-        shot::Shot,
-        tasks::{
-            advice::{Advice, CoachQuery, Effort, Proposal},
-            recommender::{Answer, CoachNews, Job},
-        },
-        ui::message::Message,
+        Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot,
+        pages::coach::CoachPage,
+        ui::Message,
         words::{chance_words, skill_word},
     },
 };

@@ -3,11 +3,9 @@
 use crossterm::event::KeyCode::{BackTab, Down, End, Enter, Esc, Home, Left, Right, Tab, Up};
 
 use crate::terminal::keymap::{
-    Binding,
+    Binding, Chord,
     Section::{self, Balls, Program, Shot},
-    bind,
-    chord::Chord,
-    ctrl, key, letter,
+    bind, ctrl, key, letter,
 };
 
 use CoachAction as A;

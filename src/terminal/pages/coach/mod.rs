@@ -24,19 +24,15 @@ use crate::{
     learning::Policy,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        config::{
-            Settings,
-            saved_session::{SavedSession, SessionParts},
-        },
+        CoachCondition, CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
         pages::coach::{
             asking::{Pending, Studying},
             dragging::Drag,
-            keys::{CoachCondition, SavingContext},
+            keys::SavingContext,
             saving::Saving,
         },
-        shot::{Shot, history::History, placing::STEPS, playback::Playback},
-        tasks::advice::{CoachQuery, Proposal},
-        ui::message::Message,
+        shot::{History, Playback, placing::STEPS},
+        ui::Message,
     },
 };
 

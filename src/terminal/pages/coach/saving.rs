@@ -5,10 +5,9 @@ use crate::{
     drills::{Category, Exercise, Library},
     learning::policy::kept::is_name,
     terminal::{
-        effect::Effect,
+        DrillTask, Effect,
         pages::coach::{CoachPage, keys::SavingContext},
-        tasks::drills::DrillTask,
-        ui::{input::TextField, message::Message},
+        ui::{Message, TextField},
     },
 };
 

@@ -3,10 +3,9 @@
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
-        effect::Effect,
-        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, keys::DrillAction as Action},
-        tasks::drills::DrillTask,
-        ui::message::Message,
+        DrillAction as Action, DrillTask, Effect,
+        pages::drills::{Balls, DrillsPage, Question, Screen, Turn},
+        ui::Message,
         words::skill_word,
     },
 };

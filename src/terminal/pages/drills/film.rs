@@ -3,10 +3,10 @@
 use crate::{
     study::filmed::FilmedShot,
     terminal::{
-        pages::drills::keys::DrillAction,
+        DrillAction, FilmScene,
         shot::{
-            film::{FilmScene, Listed, listed},
-            playback::Playback,
+            Playback,
+            film::{Listed, listed},
         },
     },
 };

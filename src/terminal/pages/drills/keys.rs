@@ -3,11 +3,9 @@
 use crossterm::event::KeyCode::{BackTab, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up};
 
 use crate::terminal::keymap::{
-    Binding,
+    Binding, Chord,
     Section::{self, Film, Library, Position, Program, Record, Score, Stroke},
-    bind,
-    chord::Chord,
-    ctrl, key, letter, mark,
+    bind, ctrl, key, letter, mark,
 };
 
 use DrillAction as A;

@@ -29,14 +29,7 @@ use crate::{
     storage::Places,
     table::{Layout, Table},
     terminal::{
-        effect::Effect,
-        pages::drills::{
-            film::FilmsScreen,
-            keys::{DrillCondition, DrillContext},
-        },
-        shot::playback::Playback,
-        tasks::drills::DrillTask,
-        ui::message::Message,
+        DrillCondition, DrillContext, DrillTask, Effect, pages::drills::film::FilmsScreen, shot::Playback, ui::Message,
     },
 };
 

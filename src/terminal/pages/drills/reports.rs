@@ -4,9 +4,9 @@ use crate::{
     coach::Skill,
     drills::{Exercise, Library, Session},
     terminal::{
+        DrillReport, DrillTask, Loaded,
         pages::drills::{Book, DrillsPage, Estimate, Question, Stage},
-        tasks::drills::{DrillReport, DrillTask, Loaded},
-        ui::message::Message,
+        ui::Message,
     },
 };
 

@@ -16,14 +16,13 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
     table::{CueBall, Layout, Table},
     terminal::{
+        DrillAction, DrillTask, Outcome, Position, Shot, Stroke, Taught,
         pages::drills::{
             aiming,
-            keys::DrillAction,
             sight::{Sight, sight},
         },
-        shot::{Shot, history::History, playback::Playback},
-        tasks::drills::{DrillTask, Outcome, Position, Stroke, Taught},
-        ui::message::Message,
+        shot::{History, Playback},
+        ui::Message,
     },
 };
 

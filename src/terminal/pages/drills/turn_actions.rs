@@ -5,14 +5,10 @@ use crate::{
     drills::{Attempt, Goal, Session, Venue},
     physics::CueInputs,
     terminal::{
-        effect::Effect,
-        pages::drills::{
-            DrillsPage, Lesson, Screen, Stage, Turn, aiming,
-            keys::{DrillAction as Action, DrillCondition as Condition},
-        },
-        shot::history::History,
-        tasks::drills::{DrillTask, Taught},
-        ui::message::Message,
+        DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, Taught,
+        pages::drills::{DrillsPage, Lesson, Screen, Stage, Turn, aiming},
+        shot::History,
+        ui::Message,
         words::skill_word,
     },
 };

@@ -13,14 +13,12 @@ use std::path::PathBuf;
 use crossterm::event::KeyEvent;
 
 use crate::terminal::{
-    config::{Change, ENTRIES, Entry, Settings, SettingsReport, SettingsTask},
-    effect::Effect,
-    keymap::{KeyPage, chord::Chord},
-    pages::settings::{
-        keys::{SettingsAction as Action, SettingsCondition, SettingsContext},
-        own_keys::OwnKeys,
-    },
-    ui::{input::TextField, message::Message},
+    Change, Effect, Settings, SettingsAction as Action, SettingsCondition, SettingsContext, SettingsReport,
+    SettingsTask,
+    config::{ENTRIES, Entry},
+    keymap::{Chord, KeyPage},
+    pages::settings::own_keys::OwnKeys,
+    ui::{Message, TextField},
 };
 
 /// Longest value that is typed, bytes: the path of a table is one.

@@ -12,7 +12,7 @@ use crate::{
         run::{list::Summary, run_name},
         timestamp,
     },
-    terminal::{pages::training::charts::around, tasks::training::Launch},
+    terminal::{Launch, pages::training::charts::around},
 };
 
 /// Tables that a run can be started on.

@@ -31,14 +31,7 @@ use crate::{
     },
     storage::Places,
     table::Table,
-    terminal::{
-        pages::training::keys::TrainingContext,
-        tasks::{
-            advice::CoachQuery,
-            training::{Failure, Keeping, Kept, Report, Slot, Subscriptions},
-        },
-        ui::message::Message,
-    },
+    terminal::{CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext, ui::Message},
 };
 
 pub use form::{Field, Form};

@@ -3,10 +3,7 @@
 //! A new set of shots plays through once and rests at its last shot; then nothing moves until another set comes or
 //! somebody wants to see it again.
 
-use crate::terminal::{
-    shot::playback::Playback,
-    tasks::reel::{Reel, Scene},
-};
+use crate::terminal::{Reel, Scene, shot::Playback};
 
 /// Seconds between two pictures.
 pub const INTERVAL: f64 = 0.1;

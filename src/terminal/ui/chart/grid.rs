@@ -10,8 +10,8 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    capabilities::{Capabilities, Glyphs},
-    ui::{Ui, theme::Theme},
+    Capabilities, Glyphs,
+    ui::{Theme, Ui},
 };
 
 /// What dots are part of, from the lowest to the uppermost.
@@ -224,7 +224,7 @@ fn braille(bits: u8) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{capabilities::Depth, keymap::remap::Keys};
+    use crate::terminal::{Depth, Keys};
     use ratatui::buffer::Buffer;
 
     #[test]

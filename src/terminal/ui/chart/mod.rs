@@ -13,17 +13,16 @@ use ratatui::{layout::Rect, text::Span};
 use crate::{
     learning::run::history::{Odd, Point},
     terminal::{
-        capabilities::Capabilities,
+        Capabilities,
         ui::{
-            Ui,
+            Theme, Ui,
             chart::{
                 grid::{Grid, Layer},
                 scale::{LABEL_WIDTH, Scale, shot_ticks},
                 step::Step,
                 trace::Frame,
             },
-            text::{columns, write_right},
-            theme::Theme,
+            columns, write_right,
         },
     },
 };

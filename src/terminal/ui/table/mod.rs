@@ -10,14 +10,11 @@ use ratatui::{layout::Rect, style::Color};
 use crate::{
     table::{BALLS, Layout, Table},
     terminal::{
-        capabilities::{Capabilities, Glyphs},
-        shot::Shot,
+        Capabilities, Glyphs, Mapping, Shot,
         ui::{
-            Ui,
-            geometry::Mapping,
+            Theme, Ui,
             sprites::Sprite,
             table::{rails::draw_rails, scene::Scene},
-            theme::Theme,
         },
     },
 };

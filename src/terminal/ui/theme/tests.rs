@@ -2,10 +2,7 @@
 
 use ratatui::style::{Color, Modifier};
 
-use crate::terminal::{
-    capabilities::Depth,
-    ui::theme::{Palette, Theme},
-};
+use crate::terminal::{Depth, Palette, ui::Theme};
 
 /// The 16 colours as terminals have them, in the order of their codes: the Linux console (and VGA), xterm, Visual Studio Code.
 const SIXTEEN: [[u32; 16]; 3] = [

@@ -6,12 +6,10 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    keymap::{chord::keys_text, chord_of},
-    pages::coach::{
-        CoachPage, Mode,
-        keys::{COACH, CoachAction},
-    },
-    ui::{Ui, text::end_of},
+    CoachAction, Mode,
+    keymap::{chord_of, keys_text},
+    pages::coach::{CoachPage, keys::COACH},
+    ui::{Ui, end_of},
     words::{fixed, rule_word, skill_word},
 };
 

@@ -8,16 +8,9 @@ use ratatui::{
 use crate::{
     table::BALLS,
     terminal::{
-        capabilities::Glyphs,
+        Glyphs, Proposal,
         pages::coach::{Choice, view::chances::sort_words},
-        tasks::advice::Proposal,
-        ui::{
-            Ui,
-            panel::{draw_nothing, draw_title},
-            table::Spot,
-            text::wrap,
-            theme::Theme,
-        },
+        ui::{Spot, Theme, Ui, draw_nothing, draw_title, wrap},
         words::{fixed, percent},
     },
 };

@@ -10,15 +10,8 @@ use crate::{
     learning::evaluation::SuccessRate,
     table::{Layout, Table},
     terminal::{
-        capabilities::Capabilities,
-        shot::Shot,
-        tasks::advice::Proposal,
-        ui::{
-            Ui,
-            panel::{draw_nothing, draw_title},
-            text::columns,
-            theme::Theme,
-        },
+        Capabilities, Proposal, Shot,
+        ui::{Theme, Ui, columns, draw_nothing, draw_title},
         words::{across_word, chance_words, fixed, height_word, percent, rail_word},
     },
 };

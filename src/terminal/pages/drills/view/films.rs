@@ -6,20 +6,13 @@ use ratatui::{
 };
 
 use crate::terminal::{
+    Mapping,
     pages::{
         Target,
         drills::{DrillsPage, view::READABLE},
     },
     shot::film::{Listed, listed, table},
-    ui::{
-        Ui,
-        geometry::Mapping,
-        list,
-        message::Message,
-        panel::{draw_title, write_paragraphs},
-        table::{TableView, draw_table},
-        text::{wrap, write_right},
-    },
+    ui::{Message, TableView, Ui, draw_table, draw_title, list, wrap, write_paragraphs, write_right},
     words::fixed,
 };
 

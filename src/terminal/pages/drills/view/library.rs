@@ -8,6 +8,7 @@ use ratatui::{
 use crate::{
     drills::{Category, Exercise},
     terminal::{
+        Mapping,
         pages::{
             Target,
             drills::{
@@ -16,14 +17,8 @@ use crate::{
             },
         },
         ui::{
-            Ui,
-            geometry::Mapping,
-            list,
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-            table::{TableView, draw_table},
-            text::{columns, shorten, wrap, write_right},
-            theme::Theme,
+            Message, TableView, Theme, Ui, columns, draw_table, draw_title, list, shorten, wrap, write_paragraphs,
+            write_right,
         },
         words,
     },

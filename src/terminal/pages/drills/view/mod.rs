@@ -17,16 +17,12 @@ use ratatui::{
 };
 
 use crate::terminal::{
+    DrillContext,
     pages::{
         PageArea, Target,
-        drills::{DrillsPage, Screen, keys::DrillContext},
+        drills::{DrillsPage, Screen},
     },
-    ui::{
-        Ui,
-        message::Message,
-        status_line::{draw_question, draw_status},
-        text::{columns, shorten, write_right},
-    },
+    ui::{Message, Ui, columns, draw_question, draw_status, shorten, write_right},
     words::{self, skill_word},
 };
 

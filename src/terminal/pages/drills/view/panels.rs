@@ -11,19 +11,10 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
     terminal::{
-        capabilities::Capabilities,
-        keymap::{chord::keys_text, chord_of},
-        pages::drills::{
-            Lesson, Meets, Sight, Turn, Watched,
-            keys::{DrillAction, EXERCISE},
-            view::percent,
-        },
-        tasks::drills::Taught,
-        ui::{
-            Ui,
-            panel::{draw_title, write_paragraphs},
-            text::wrap,
-        },
+        Capabilities, DrillAction, Taught,
+        keymap::{chord_of, keys_text},
+        pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
+        ui::{Ui, draw_title, wrap, write_paragraphs},
         words::{fixed, rail_name},
     },
 };
@@ -202,7 +193,7 @@ mod tests {
     use super::*;
     use crate::{
         simulation::Rail,
-        terminal::capabilities::{Depth, Glyphs},
+        terminal::{Depth, Glyphs},
     };
 
     #[test]

@@ -21,11 +21,9 @@ use crate::{
             view::{READABLE, draw_header, percent},
         },
         ui::{
-            Ui,
+            Message, Ui,
             chart::{Chart, Curve, SeriesId, draw_chart},
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-            text::{shorten, write_right},
+            draw_title, shorten, write_paragraphs, write_right,
         },
         words::chance_words,
     },

@@ -10,10 +10,7 @@ use crate::{
     drills::{Attempt, Goal, Record, Session, Venue, exam},
     terminal::{
         pages::drills::{DrillsPage, Turn, view::percent},
-        ui::{
-            Ui,
-            panel::{draw_title, write_paragraphs},
-        },
+        ui::{Ui, draw_title, write_paragraphs},
         words::chance_words,
     },
 };

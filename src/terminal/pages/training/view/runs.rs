@@ -14,12 +14,7 @@ use crate::{
             Target,
             training::{Screen, TrainingPage},
         },
-        ui::{
-            Ui, list,
-            message::Message,
-            panel::draw_title,
-            text::{columns, write_right},
-        },
+        ui::{Message, Ui, columns, draw_title, list, write_right},
         words::{count, short_count},
     },
 };
