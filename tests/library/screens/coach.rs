@@ -47,7 +47,7 @@ fn the_rail_stops_a_ball_and_says_where_it_is() {
 #[test]
 fn the_coach_thinks_and_can_be_stopped() {
     let player = Player::new().press("Enter").wait(0.35);
-    check("thinking", &player);
+    player.shows(&["thinking ", "⠸ the coach is thinking; Esc stops it", "Esc cancel", "no shot yet"]);
     let player = player.press("Left");
     player.warns("the coach is thinking; Esc stops it");
     let late = player.asked.clone().unwrap();
