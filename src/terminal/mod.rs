@@ -33,8 +33,9 @@ use crate::{
 
 pub use app::{
     App, Overlay,
-    bindings::{Action, Condition, KeyContext},
+    bindings::{Action, Condition},
     document::document as keys_document,
+    key_context::KeyContext,
     palette::{Command, CommandPalette},
     palette_keys::PaletteAction,
 };

@@ -1,26 +1,20 @@
 //! All keys of the program: what each page's tables say, as one kind of action, with the keys that all pages have.
 
 use crossterm::event::{
-    KeyCode::{Char, Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
+    KeyCode::{Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
     KeyEvent,
 };
 
 use super::palette_keys::{self, PaletteAction};
 use crate::terminal::{
-    CoachAction, CoachCondition, DrillAction, DrillCondition, DrillContext, PageId, SettingsAction, SettingsCondition,
-    SettingsContext, TrainingAction, TrainingCondition, TrainingContext,
+    CoachAction, CoachCondition, DrillAction, DrillCondition, KeyContext, PageId, SettingsAction, SettingsCondition,
+    TrainingAction, TrainingCondition,
     keymap::{
         Binding, Chord, KeyEntry, KeyPage,
         Section::{self, Program},
         bind, chord_of, ctrl, key, letter,
     },
-    pages::{
-        coach::{keys as coach, keys::SavingContext},
-        drills::keys as drills,
-        settings::keys as settings,
-        training::keys as training,
-    },
-    ui::is_typed,
+    pages::{coach::keys as coach, drills::keys as drills, settings::keys as settings, training::keys as training},
 };
 
 use Action as A;
@@ -75,70 +69,6 @@ pub enum Condition {
     Drill(DrillCondition),
     /// As the settings' screen says.
     Settings(SettingsCondition),
-}
-
-/// What is on the screen: each has its own keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeyContext {
-    /// The coach.
-    Coach,
-    /// What is asked over its table before the balls are saved.
-    Saving(SavingContext),
-    /// One of the training pages, or what is asked there.
-    Training(TrainingContext),
-    /// One of the drill screens.
-    Drill(DrillContext),
-    /// One of the settings' pages, or what is asked there.
-    Settings(SettingsContext),
-    /// The command palette, over any of them.
-    CommandPalette,
-}
-
-impl KeyContext {
-    /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 14] = [
-        (Self::Coach, "Coach"),
-        (Self::Drill(DrillContext::Library), "Drills: library"),
-        (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
-        (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
-        (Self::Drill(DrillContext::Result), "Drills: result of an exam"),
-        (Self::Drill(DrillContext::Record), "Drills: record"),
-        (Self::Drill(DrillContext::Films), "Drills: filmed shots"),
-        (Self::Drill(DrillContext::Film), "Drills: a filmed shot"),
-        (Self::Training(TrainingContext::Runs), "Training: runs"),
-        (Self::Training(TrainingContext::Form), "Training: new run"),
-        (Self::Training(TrainingContext::Watch), "Training: a run"),
-        (Self::Training(TrainingContext::Compare), "Training: compare"),
-        (Self::Settings(SettingsContext::Values), "Settings"),
-        (Self::Settings(SettingsContext::Keys), "Settings: keys"),
-    ];
-
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        match self {
-            Self::Coach => false,
-            Self::Training(place) => place.takes_letters(),
-            Self::Drill(place) => place.takes_letters(),
-            Self::Settings(place) => place.takes_letters(),
-            Self::Saving(_) | Self::CommandPalette => true,
-        }
-    }
-
-    /// Whether `pressed` is typed there, whatever work of another key it was given.
-    pub fn types(self, pressed: Chord) -> bool {
-        let event = pressed.event();
-        match self {
-            Self::Training(TrainingContext::Name)
-            | Self::Saving(SavingContext::Title)
-            | Self::CommandPalette
-            | Self::Drill(DrillContext::Search | DrillContext::Text)
-            | Self::Settings(SettingsContext::Typing) => is_typed(&event),
-            Self::Training(TrainingContext::Form) => {
-                matches!(event.code, Char('0'..='9')) && event.modifiers.is_empty()
-            }
-            _ => false,
-        }
-    }
 }
 
 /// One line of a page's table, as the app reads it.
@@ -299,8 +229,12 @@ pub fn find<'a>(
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::KeyCode::Char;
+
     use super::*;
-    use crate::terminal::keymap::works_of;
+    use crate::terminal::{
+        DrillContext, SettingsContext, TrainingContext, keymap::works_of, pages::coach::keys::SavingContext,
+    };
 
     fn places() -> impl Iterator<Item = KeyContext> {
         [KeyContext::Coach, KeyContext::CommandPalette]

@@ -5,6 +5,7 @@
 pub mod bindings;
 pub mod document;
 mod finding;
+pub mod key_context;
 mod keys;
 mod mouse;
 mod news;

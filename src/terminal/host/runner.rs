@@ -218,7 +218,7 @@ impl Runner {
         match effect {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
-            Some(Effect::Recommend(job) | Effect::Study(job)) => self.ask(job)?,
+            Some(Effect::Ask(job)) => self.ask(job)?,
             Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
             Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,

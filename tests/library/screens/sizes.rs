@@ -30,7 +30,7 @@ fn the_drills_can_be_drawn_at_every_size() {
 
 #[test]
 fn the_training_and_what_lies_over_a_page_can_be_drawn_at_every_size() {
-    draw([
+    draw(vec![
         Player::listing(TRUE_COLOUR),
         Player::watching(TRUE_COLOUR).press("5 6 7 8 9"),
         refused(Player::new(), &[3, 60, 9]),

@@ -45,7 +45,7 @@ impl CoachPage {
         let job = self.job(None);
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
-        Effect::Recommend(Box::new(job))
+        Effect::Ask(Box::new(job))
     }
 
     fn job(&mut self, shot: Option<CueInputs>) -> Job {
@@ -149,7 +149,7 @@ impl CoachPage {
         let shot = wanted?;
         let job = self.job(Some(shot.cue));
         self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
-        Some(Effect::Study(Box::new(job)))
+        Some(Effect::Ask(Box::new(job)))
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {

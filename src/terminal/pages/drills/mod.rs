@@ -18,6 +18,7 @@ mod sight;
 mod turn;
 mod turn_actions;
 mod view;
+mod watched;
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -38,7 +39,8 @@ pub use catalogue::Catalogue;
 pub use question::Question;
 pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
-pub use turn::{Lesson, Stage, Turn, Watched};
+pub use turn::{Lesson, Stage, Turn};
+pub use watched::Watched;
 
 /// A page of the drill screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
