@@ -93,7 +93,7 @@ pub enum TerminalError {
     Io(#[from] io::Error),
 }
 
-/// Opens the coach on `table` as the user wants it, until the player quits. The `complaints` about the settings are told.
+/// Opens the coach on `table` as the user wants it, until the player quits. The `complaints` about the settings are shown.
 ///
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.

@@ -21,7 +21,7 @@ pub struct ListArgs {
     /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion or own.
     #[arg(long, value_parser = category_called)]
     category: Option<Category>,
-    /// Only this grade, 1 (easy) to 5; 0 is what nobody has measured.
+    /// Only this grade, 1 (easy) to 5; 0 for exercises without a grade.
     #[arg(long, value_parser = clap::value_parser!(u8).range(0..=5))]
     grade: Option<u8>,
     /// Only those with this tag.

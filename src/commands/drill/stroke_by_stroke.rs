@@ -1,4 +1,4 @@
-//! A session that is played stroke by stroke: each is judged, saved, and then told.
+//! A session that is played stroke by stroke: each is judged, saved, and then printed.
 
 use std::time::Duration;
 
@@ -33,12 +33,12 @@ pub struct StrokeByStroke<'a> {
     store: &'a Store,
     session: Session,
     options: &'a PlayOptions,
-    /// Whether every stroke is compared with the one that is taught, or else with the coach's: that takes the coach's time.
+    /// Whether every stroke is compared with the model shot, or else with the coach's, which takes time.
     compares: bool,
     coaches: ByTable<Coach, MakeCoach>,
     /// The coach's shot in a layout: while nothing moves, it is looked for once.
     advice: Option<(Layout, Advice)>,
-    /// The exercise and the layout that were told last.
+    /// The exercise and the layout that were printed last.
     shown: Option<(String, Layout)>,
 }
 
@@ -87,7 +87,7 @@ struct Advised {
     chance: f64,
     #[serde(rename = "advised_interval")]
     interval: [f64; 2],
-    /// Whose shot it is: the exercise's own where the balls lie for it, else the coach's.
+    /// Whose shot it is: the model shot where the balls lie for it, else the coach's.
     #[serde(rename = "advised_by")]
     by: &'static str,
     /// What was meant less what is advised.
@@ -145,7 +145,7 @@ impl<'a> StrokeByStroke<'a> {
         &self.session
     }
 
-    /// Tells what is to be played, where that is news.
+    /// Prints what is to be played, if that has changed.
     pub fn show(&mut self, layout: &Layout) -> Result<(), Failure> {
         let Some(Exercise { name, title, rule, table, .. }) = self.session.exercise() else { return Ok(()) };
         let shown = Some((name.clone(), *layout));
@@ -159,7 +159,7 @@ impl<'a> StrokeByStroke<'a> {
             json_line(&Position { kind: "position", number, exercise: name, title, rule, table, cue_ball, layout })?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
-            // Where it is white in every stroke, nobody asks.
+            // Where it is white in every stroke, it is not said.
             let is_told = self.session.is_match() || cue_ball != CueBall::White;
             let turn = if is_told { format!("; the cue ball is {cue_ball}") } else { String::new() };
             line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
@@ -168,7 +168,7 @@ impl<'a> StrokeByStroke<'a> {
         Ok(())
     }
 
-    /// Plays one stroke; when its result is told, it is safe on the disk. `false` where the coach is to play and finds no point.
+    /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is to play and finds no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let helped = matches!(stroke, StrokeInput::Coach);
@@ -201,7 +201,7 @@ impl<'a> StrokeByStroke<'a> {
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
         }
         if let Err(error) = self.store.save(&self.session) {
-            // The score tells what is kept.
+            // The score counts what is kept.
             self.session.undo();
             return Err(Failure::failed(error));
         }
@@ -292,7 +292,7 @@ impl<'a> StrokeByStroke<'a> {
         Ok(())
     }
 
-    /// Tells the score.
+    /// Prints the score.
     pub fn finish(&self) -> Result<(), Failure> {
         let session = &self.session;
         let record = session.record();

@@ -219,7 +219,7 @@ pub fn find<'a>(
         let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
         match disabled_reason(binding.when) {
             None => return Some(Ok(*action)),
-            // Who has not opened the help does not press its keys.
+            // While the help is closed, its keys mean nothing.
             Some(_) if binding.when == Condition::Help => {}
             Some(reason) => refused = Some(Err(reason)),
         }

@@ -225,7 +225,7 @@ impl App {
             }
             Action::Coach(action) => {
                 return match self.coach.update(action) {
-                    // Where positions are saved may not be known yet: it is told with what is to be read there.
+                    // The folder of the positions may not be known yet: it comes with the task that reads it.
                     Some(Effect::Drill(tasks)) => {
                         Some(Effect::Drill(std::iter::once(self.drills.load()).chain(tasks).collect()))
                     }

@@ -1,4 +1,4 @@
-//! What comes from outside, and what is told of it: sentences on the status line, refusals and failures as toasts.
+//! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
 
 use crate::terminal::{Answer, App, DrillReport, DrillTask, Effect, PageId, Report, Toasts};
 

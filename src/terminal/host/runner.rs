@@ -31,7 +31,7 @@ const REMEMBERED: Duration = Duration::from_secs(2);
 enum Next {
     GoOn,
     Quit,
-    /// The process was told to end by a signal.
+    /// A signal ends the process.
     Die(i32),
 }
 
@@ -77,7 +77,7 @@ struct Runner {
     session: TerminalGuard,
     tasks: Tasks,
     places: Places,
-    /// When the app was last told how much time had passed, or the program came back from being stopped.
+    /// When the app last ticked, or the program came back from being stopped.
     ticked: Instant,
     /// What was last remembered of the session, and when.
     remembered: (Option<SavedSession>, Instant),
@@ -245,7 +245,7 @@ impl Runner {
         self.come_back()
     }
 
-    /// Takes the terminal again. A shot that plays goes on from where it was: nobody has seen the time between.
+    /// Takes the terminal again. A shot that plays goes on from where it was: the time between does not count.
     fn come_back(&mut self) -> io::Result<()> {
         self.ticked = Instant::now();
         self.session.enter()

@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// Moments at which the distances are told, s after the stroke; the end comes after them.
+/// Moments at which the distances are given, s after the stroke; the end comes after them.
 const TOLD: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 
 /// Which filmed shots there are.

@@ -1,4 +1,4 @@
-//! Looking for something again and again on a thread, as long as somebody wants to know.
+//! Polling on a thread, as long as its answers are wanted.
 
 use std::{
     io,

@@ -112,7 +112,7 @@ impl CoachPage {
         self.place_balls();
     }
 
-    /// Leaves the shot: what nobody watches does not play on.
+    /// Leaves the shot, which is paused.
     fn place_balls(&mut self) {
         self.playback.pause();
         self.mode = Mode::Placing;

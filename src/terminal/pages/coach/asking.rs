@@ -23,7 +23,7 @@ use crate::{
 pub struct Pending {
     id: u64,
     cancel: Arc<AtomicBool>,
-    /// What was asked: meanwhile somebody else may have been chosen to play.
+    /// What was asked: another player may have been chosen meanwhile.
     pub query: CoachQuery,
     /// Seconds since it was asked.
     pub waited: f64,
@@ -119,7 +119,7 @@ impl CoachPage {
         self.study()
     }
 
-    /// Keeps the advice on the layout that `tutor` gave, and shows it from its best shot on if that is what is asked now.
+    /// Keeps the advice on the layout that `query` gave, and shows it from its best shot on if that is what is asked now.
     fn show(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
         self.balls.present_mut().advised = AdviceState::new(query, advice);

@@ -111,7 +111,7 @@ pub enum CoachCondition {
     Undoable,
     /// Where a change was taken back.
     Redoable,
-    /// Where a policy is asked that somebody has trained.
+    /// Where a policy is asked that a user has trained.
     Trained,
     /// Where an earlier session can be gone on with.
     Interrupted,

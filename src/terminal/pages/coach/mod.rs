@@ -249,7 +249,7 @@ impl CoachPage {
         self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
     }
 
-    /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
+    /// Asks the policy of `query` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
     pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
         let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
@@ -257,7 +257,7 @@ impl CoachPage {
         self.message = Some(Message::good(news));
     }
 
-    /// Plays for somebody else from now on; a shot for whoever it was before is shown no more.
+    /// Plays for another player from now on; a shot for the one before is no longer shown.
     pub fn take_skill(&mut self, skill: Skill) {
         if self.query.skill != skill {
             self.query.skill = skill;
@@ -265,7 +265,7 @@ impl CoachPage {
         }
     }
 
-    /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
+    /// Takes balls from elsewhere, and what counts as a point there; the same policy is asked if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
         let policy = self.query.policy.clone().filter(|_| self.table() == table);
@@ -273,7 +273,7 @@ impl CoachPage {
         self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
     }
 
-    /// Puts balls on a table, as a step that can be taken back, for `tutor` to be asked.
+    /// Puts balls on a table, as a step that can be taken back, for `query` to be asked.
     fn take(&mut self, table: &Table, layout: Layout, query: CoachQuery) {
         self.cancel();
         self.drop_ball();
@@ -305,7 +305,7 @@ impl CoachPage {
         self.balls.present().advised.as_ref().filter(|advised| advised.query == self.query)
     }
 
-    /// The same for whoever looks at it: nothing while the coach thinks of something better.
+    /// The same as it is shown: nothing while the coach looks for something better.
     pub fn shown(&self) -> Option<&AdviceState> {
         self.advised().filter(|_| self.pending.is_none())
     }

@@ -34,7 +34,7 @@ enum Question {
 }
 
 impl Saving {
-    /// Whose keys are in force; `None` where nothing is asked.
+    /// The key context; `None` where nothing is asked.
     pub const fn context(&self) -> Option<SavingContext> {
         match &self.question {
             Some(Question::Title(..)) => Some(SavingContext::Title),

@@ -77,14 +77,14 @@ impl DrillsPage {
 
     fn open_marked(&mut self) -> Option<Effect> {
         let exercise = self.catalogue.marked()?.clone();
-        Some(self.begin(self.wishes.goal, vec![exercise]))
+        Some(self.begin(self.options.goal, vec![exercise]))
     }
 
     /// Begins a session of these exercises and opens the page of the first.
     pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
-        session.shifted = self.wishes.shifted && goal != Goal::Exam;
+        session.shifted = self.options.shifted && goal != Goal::Exam;
         Effect::Drill(self.practise(session))
     }
 
@@ -106,7 +106,7 @@ impl DrillsPage {
         match exam::draw(self.catalogue.library().exercises(), level, seed) {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
-                // What comes is told first; the key that chose the exam plays no stroke of it.
+                // A page says first what comes; the key that chose the exam plays no stroke of it.
                 if self.page() == Screen::Exercise {
                     self.pages = vec![Screen::Library, Screen::Exam(level)];
                 }

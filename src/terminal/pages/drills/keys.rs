@@ -105,7 +105,7 @@ pub enum DrillCondition {
     Here,
     /// Where an exercise is marked.
     Marked,
-    /// Where the marked exercise is somebody's own.
+    /// Where the marked exercise is a saved position of the player's.
     MarkedOwn,
     /// Where the list is a part of all.
     Filtered,

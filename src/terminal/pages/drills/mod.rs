@@ -87,9 +87,9 @@ impl Player {
     }
 }
 
-/// What is wanted of a repetition, kept from exercise to exercise.
+/// How an exercise is repeated; kept from exercise to exercise.
 #[derive(Clone, Copy, Debug)]
-struct Wishes {
+struct RepetitionOptions {
     goal: Goal,
     shifted: bool,
 }
@@ -126,7 +126,7 @@ pub struct DrillsPage {
     pub question: Option<Question>,
     /// What the status line says.
     pub message: Option<Message>,
-    wishes: Wishes,
+    options: RepetitionOptions,
     for_coach: Option<Balls>,
     /// The pages one has come through; the last one is open.
     pages: Vec<Screen>,
@@ -150,7 +150,7 @@ impl DrillsPage {
             player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
             question: None,
             message: None,
-            wishes: Wishes { goal: Goal::Free, shifted: false },
+            options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
             pages: Vec::new(),
             left_exam: None,
@@ -217,7 +217,7 @@ impl DrillsPage {
         self.pages.last().copied().unwrap_or(Screen::Library)
     }
 
-    /// Whose keys are in force: the page's, or those of what is asked there.
+    /// The key context: the page's, or that of a question on it.
     pub fn place(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search(_)) => DrillContext::Search,

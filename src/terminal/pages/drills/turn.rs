@@ -202,12 +202,12 @@ impl Turn {
         }
     }
 
-    /// Whether the last attempt of the session is still on its way: its result is not to be told.
+    /// Whether the last attempt of the session is still being watched: its result is not shown yet.
     fn is_open(&self) -> bool {
         self.watched().is_some_and(|watched| !watched.is_settled)
     }
 
-    /// The session as far as it may be told.
+    /// The session as far as it may be shown.
     pub fn told(&self) -> Session {
         let mut session = self.session.clone();
         if self.is_open() {
@@ -216,7 +216,7 @@ impl Turn {
         session
     }
 
-    /// What came of the watched stroke, once it may be told.
+    /// The result of the watched stroke, once it may be shown.
     pub fn verdict(&self) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;

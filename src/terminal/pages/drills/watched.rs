@@ -26,7 +26,7 @@ impl Watched {
         self.outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())
     }
 
-    /// Once it has been seen to its end, its result may be told.
+    /// Once it has been seen to its end, its result may be shown.
     pub(super) fn settle(&mut self) {
         self.is_settled |= self.playback.time >= self.duration();
     }

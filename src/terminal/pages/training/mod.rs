@@ -263,7 +263,7 @@ impl TrainingPage {
                 let call = watch::quoted(&name);
                 self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
             }
-            // Whoever has left the run meanwhile is not asked any more.
+            // A player who has left the run meanwhile is not asked any more.
             Ok(Kept::Taken) if self.page() == Screen::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }

@@ -97,7 +97,7 @@ pub struct Grid {
     area: Rect,
     dots: Dots,
     unicode: bool,
-    /// Whether lines at the ticks can be told from curves.
+    /// Whether lines at the ticks can be distinguished from curves.
     lined: bool,
     /// For each layer and cell the dots that are set, the bits row by row.
     cells: [Vec<u8>; Layer::ALL.len()],

@@ -1,4 +1,4 @@
-//! Whether the colours can be read and told apart, at every depth, and by people who see fewer of them.
+//! Whether the colours can be read and distinguished, at every depth, and by people who see fewer of them.
 
 use ratatui::style::{Color, Modifier};
 
@@ -92,7 +92,7 @@ fn contrast(one: Color, other: Color, sixteen: &[u32; 16]) -> f64 {
     (one.max(other) + 0.05) / (one.min(other) + 0.05)
 }
 
-/// Distance of two colours in CIELAB as these eyes see them; 2 can just be told apart side by side.
+/// Distance of two colours in CIELAB as these eyes see them; 2 is the least that can be seen side by side.
 fn distance(one: Color, other: Color, sixteen: &[u32; 16], eyes: &[[f64; 3]; 3]) -> f64 {
     let lab = |color| {
         let rgb = linear(color, sixteen);

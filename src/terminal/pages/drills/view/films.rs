@@ -36,7 +36,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     Message::plain("choose a shot; Enter plays it, filmed balls and simulated ones together")
 }
 
-/// The first row of a page of the film: nobody plays there.
+/// The first row of a page of the film, which names no player.
 pub fn draw_film_header(title: &str, more: &str, area: Rect, ui: &mut Ui) {
     let line = Line::from(vec![
         Span::styled(format!(" {title}"), ui.theme.text()),

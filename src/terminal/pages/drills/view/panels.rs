@@ -1,4 +1,4 @@
-//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the one that is taught.
+//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the model shot.
 
 use ratatui::{
     layout::Rect,
@@ -141,12 +141,12 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
     }
 }
 
-/// Whose shot it is that is taught.
+/// Whose shot the advice is.
 const fn teacher(taught: &Taught) -> &'static str {
     if taught.is_own { "model shot" } else { "coach" }
 }
 
-/// What a player has to change to get from one stroke to another, or `none` where nobody could tell them apart.
+/// What a player has to change to get from one stroke to another, or `none` where the difference cannot be seen.
 fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities) -> String {
     let words = changes(&turn.table, from, to).join(", ");
     match words.as_str() {
@@ -156,14 +156,14 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities
     }
 }
 
-/// How often the stroke is made that is taught, and how to set it.
+/// How often the advised stroke is made, and how to set it.
 fn hint(turn: &Turn, taught: &Taught, caps: Capabilities) -> String {
     let advice = &taught.advice;
     let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", caps);
     format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
 }
 
-/// How often the stroke is made, and the one that is taught.
+/// How often the stroke is made, and the advised one.
 fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent);
     match &turn.lesson {
@@ -174,7 +174,7 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     }
 }
 
-/// What would make the stroke the one that is taught, and what the player's hand has added to it.
+/// What would make the stroke the advised one, and what the player's errors have added to it.
 fn differences(turn: &Turn, watched: &Watched, caps: Capabilities) -> [String; 2] {
     let lesson = match &turn.lesson {
         Lesson::Known(taught) => {
