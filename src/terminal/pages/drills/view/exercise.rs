@@ -7,7 +7,7 @@ use crate::terminal::{
     Capabilities, Shot,
     pages::drills::{
         DrillsPage, Lesson, Meets, Sight, Turn,
-        view::{draw_header, panels, panes::Panes, score},
+        view::{draw_header, panels, panes::Panes, score, separator},
     },
     shot::Meeting,
     ui::{Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip},
@@ -51,7 +51,7 @@ fn about(turn: &Turn, caps: Capabilities) -> String {
     if turn.session.shifted {
         parts.push("shifted".to_owned());
     }
-    parts.join(caps.pick(" · ", " - "))
+    parts.join(separator(caps))
 }
 
 /// What the cue ball meets first along the line of aim, or in the shot that was played.

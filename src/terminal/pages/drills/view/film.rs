@@ -97,7 +97,7 @@ fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
         ("ball", format!("{} m/s", fixed(scene.shot.impulse.velocity.length(), 2))),
         ("side", side),
         ("height", height),
-        ("fitted", format!("2 s to {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
+        ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
     ];
     for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let line = Line::from(vec![

@@ -9,7 +9,10 @@ use ratatui::{
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue, exam},
     terminal::{
-        pages::drills::{DrillsPage, Turn, view::percent},
+        pages::drills::{
+            DrillsPage, Turn,
+            view::{best_run, percent},
+        },
         ui::{Ui, draw_title, write_paragraphs},
         words::chance_words,
     },
@@ -30,7 +33,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
         // What is still being watched is not counted here either.
         let hidden = turn.session.attempts.len() - session.attempts.len();
         if hidden == 0 {
-            let words = format!("in all: {} of {}, best run {}", ever.made, ever.tried, ever.high_run);
+            let words = format!("in all: {} of {}{}", ever.made, ever.tried, best_run(ever));
             paragraphs.push((words, ui.theme.faint()));
         }
     }
