@@ -52,7 +52,10 @@ fn ctrl_c_is_heard_after_every_cut_sequence() {
     thread::scope(|scope| {
         for sequences in CUT.chunks(CUT.len().div_ceil(AT_ONCE)) {
             scope.spawn(move || {
-                sequences.iter().for_each(|sequence| [0, 300].into_iter().for_each(|pause| check(sequence, pause)))
+                for sequence in sequences {
+                    check(sequence, 0);
+                    check(sequence, 300);
+                }
             });
         }
     });

@@ -51,6 +51,17 @@ fn the_library_of_own_positions() {
 }
 
 #[test]
+fn attempts_that_were_noted_together_have_no_best_run() {
+    let mut noted = session(1, "opening", Goal::Free, "xxx--");
+    let positions = [exercise("opening", "From the opening")];
+    Player::at_library(TRUE_COLOUR, &positions, &[noted.clone()]).press("Left").shows(&["3 of 5, 60 %, best run 3"]);
+    noted.unordered = true;
+    let player = Player::at_library(TRUE_COLOUR, &positions, &[noted]).press("Left");
+    player.shows(&["3/5   -", "you: 3 of 5, 60 %"]).is_silent_on("best run");
+    player.press("r").shows(&["high run  -"]);
+}
+
+#[test]
 fn every_bundled_exercise_is_listed_and_can_be_opened() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]);
     let library = player.app.drills().catalogue.library().clone();

@@ -327,7 +327,7 @@ fn abandoning_asks_first_and_says_what_is_lost() {
     player.shows(&[
         "delete its folder?",
         "1,200,000 shots are lost",
-        "a best held-out reward of 0.874",
+        "held-out reward of 0.874",
         "y yes   n no",
     ]);
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
