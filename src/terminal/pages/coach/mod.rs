@@ -24,7 +24,7 @@ use crate::{
     learning::Policy,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        CoachCondition, CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
+        CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
         pages::coach::{
             asking::{Pending, Studying},
             dragging::Drag,
@@ -340,38 +340,6 @@ impl CoachPage {
     /// Number of the spinner's picture, while the coach thinks.
     pub fn spinner(&self) -> Option<usize> {
         self.pending.as_ref().map(|pending| (pending.waited / SPINNER_INTERVAL) as usize)
-    }
-
-    /// Why a binding may not be used now; `None` where it may.
-    pub fn disabled_reason(&self, when: CoachCondition) -> Option<&'static str> {
-        let refuse = |refused: bool, reason| refused.then_some(reason);
-        let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
-        match when {
-            CoachCondition::Anytime => None,
-            CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
-            _ if thinking.is_some() => thinking,
-            CoachCondition::Placing => {
-                refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls")
-            }
-            CoachCondition::Shot | CoachCondition::Watching if self.shot().is_none() => {
-                Some("there is no shot yet; Enter asks the coach")
-            }
-            CoachCondition::Idle | CoachCondition::Shot => None,
-            CoachCondition::Watching => {
-                refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one")
-            }
-            CoachCondition::Choice => refuse(
-                self.advised().is_none_or(|advised| advised.choices().len() < 2),
-                "there is no other shot to choose",
-            ),
-            CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
-            CoachCondition::Interrupted => {
-                let is_gone = self.before.is_none() || self.is_begun();
-                refuse(is_gone && self.left_exam.is_none(), "there is no earlier session to go on with")
-            }
-            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
-            CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
-        }
     }
 
     /// The thread that thinks is gone, and with it the answer.

@@ -3,7 +3,7 @@
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
-        DrillAction as Action, DrillTask, Effect,
+        DrillAction as Action, DrillCondition, DrillTask, Effect,
         pages::drills::{Balls, DrillsPage, Question, Screen, Turn},
         ui::Message,
         words::skill_word,
@@ -11,6 +11,28 @@ use crate::{
 };
 
 impl DrillsPage {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        match when {
+            DrillCondition::Here => None,
+            DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
+            DrillCondition::MarkedOwn => {
+                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
+            }
+            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
+            DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
+            DrillCondition::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),
+            DrillCondition::Estimated => {
+                refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
+            }
+            _ => match &self.turn {
+                Some(turn) => turn.disabled_reason(when),
+                None => Some("no exercise is open"),
+            },
+        }
+    }
+
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {

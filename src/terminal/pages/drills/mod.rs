@@ -29,9 +29,7 @@ use crate::{
     game::Rule,
     storage::Places,
     table::{Layout, Table},
-    terminal::{
-        DrillCondition, DrillContext, DrillTask, Effect, pages::drills::film::FilmsScreen, shot::Playback, ui::Message,
-    },
+    terminal::{DrillContext, DrillTask, Effect, pages::drills::film::FilmsScreen, shot::Playback, ui::Message},
 };
 
 pub use book::{Book, record_of};
@@ -244,28 +242,6 @@ impl DrillsPage {
     fn search(&mut self) {
         if let Some(Question::Search(typed)) = &self.question {
             self.catalogue.find_text(typed.text().trim());
-        }
-    }
-
-    /// Why a binding may not be used now; `None` where it may.
-    pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
-        let refuse = |refused: bool, reason| refused.then_some(reason);
-        match when {
-            DrillCondition::Here => None,
-            DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
-            DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
-            }
-            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
-            DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
-            DrillCondition::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),
-            DrillCondition::Estimated => {
-                refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
-            }
-            _ => match &self.turn {
-                Some(turn) => turn.disabled_reason(when),
-                None => Some("no exercise is open"),
-            },
         }
     }
 
