@@ -102,7 +102,8 @@ fn idle() {
     };
     let mut opened: Vec<_> = screens.into_iter().flat_map(open).collect();
     for (.., terminal) in &mut opened {
-        terminal.take(Duration::ZERO);
+        // The end of the last picture is no idle byte.
+        terminal.take(SILENCE / 2);
     }
     let before: Vec<_> = opened.iter().map(|(.., terminal)| terminal.seconds()).collect();
     thread::sleep(IDLE);

@@ -81,7 +81,7 @@ fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
 /// Answers a question to the coach and all that follow from it; `heard` is called after every answer.
 fn answer(app: &mut App, mut question: Option<Effect>, mut heard: impl FnMut(&mut App)) {
     let mut worker = CoachWorker::unhurried(SIMULATIONS);
-    while let Some(Effect::Recommend(job) | Effect::Study(job)) = question.take() {
+    while let Some(Effect::Ask(job)) = question.take() {
         worker.answer(&job, |mut answer| {
             if let CoachNews::Advice(advice) = &mut answer.news {
                 advice.effort = None;

@@ -202,7 +202,7 @@ fn measure(table: Table, size: &Size, seed: u64) -> Study {
     study
 }
 
-/// On the standard error, and only where somebody watches.
+/// On the standard error, and only if that is a terminal.
 fn progress_bar(shots: usize, table: &str) -> ProgressBar {
     if !printing::is_watched() {
         return ProgressBar::hidden();
@@ -213,7 +213,7 @@ fn progress_bar(shots: usize, table: &str) -> ProgressBar {
         .with_message(table.to_owned())
 }
 
-/// Whole files or none, at the very end: whoever breaks off before finds nothing half done.
+/// Whole files or none, at the very end: an interruption before leaves nothing half written.
 fn write_files(folder: &Path, studies: &[Study]) -> Result<(), Failure> {
     let files = [
         ("accuracy.csv", study::csv(studies)),

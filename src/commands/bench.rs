@@ -47,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if !args.json {
         writeln!(out, "{}, {} threads, {}", machine.cpu, machine.threads, machine.os)?;
     }
-    // A closed pipe is told after the measurement: there is nothing else to end it with.
+    // A closed pipe is reported after the measurement.
     let mut written = Ok(());
     let figures = measure(time, |figure| {
         if !args.json && written.is_ok() {

@@ -26,7 +26,7 @@ impl Failure {
         self.code
     }
 
-    /// Whether there is nothing to say: whoever read the output has seen enough.
+    /// Whether there is nothing to say: the reader of the output has closed it.
     pub fn is_silent(&self) -> bool {
         self.message.is_empty()
     }

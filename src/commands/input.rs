@@ -157,7 +157,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
         }
         writeln!(out)?;
         if file == "-" {
-            // Whoever asks over a pipe waits for this answer before the next question.
+            // A program at the other end of a pipe waits for this answer before its next question.
             out.flush()?;
         }
     }

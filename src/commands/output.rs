@@ -15,12 +15,12 @@ use crate::{
 };
 
 /// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
-/// nobody to tell any more, that is all.
+/// no reader any more, that is all.
 pub fn tell(sentence: impl Display) {
     let _ = writeln!(printing::stderr(), "{sentence}");
 }
 
-/// Asks whoever sits at the terminal.
+/// Asks the user at the terminal.
 pub fn prompt(words: &str) {
     if io::stdin().is_terminal() {
         // Nobody reads a prompt that cannot be written.

@@ -97,7 +97,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         // A run that has just been taken up again is over until it says otherwise.
         over = condition.is_over().then(|| over.unwrap_or_else(Instant::now));
         let is_settled = over.is_none_or(|since| since.elapsed() >= GRACE);
-        // A measurement is told by its line.
+        // A measurement is reported by its line.
         if is_settled && condition != Condition::Is(Phase::Measuring) && !condition.is_like(before) {
             before = condition;
             tell(OneLine(followed.sentence()));

@@ -38,7 +38,7 @@ pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
 }
 
 /// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread over the categories and
-/// grades as evenly as the library allows; the player's own positions, for which nobody has measured a par, have no
+/// grades as evenly as the library allows; the player's own positions, which have no measured par, have no
 /// part. The same seed draws the same.
 ///
 /// # Errors

@@ -103,7 +103,7 @@ pub struct Exercise {
     pub title: String,
     /// What it is about.
     pub category: Category,
-    /// How hard it is: 1 the easiest, 5 the hardest; 0 where nobody has measured it.
+    /// How hard it is: 1 the easiest, 5 the hardest; 0 where it has not been measured.
     #[serde(default)]
     pub grade: u8,
     /// What counts as a point.

@@ -10,7 +10,7 @@ pub struct Record {
     pub tried: usize,
     /// Points.
     pub made: usize,
-    /// Attempts with help; they count among the others.
+    /// Attempts with a hint; they count among the others.
     pub helped: usize,
     /// Share of points with its 95 % interval.
     pub rate: SuccessRate,
@@ -49,7 +49,7 @@ impl Record {
             let mut run = 0;
             for attempt in &session.attempts {
                 if !counts(session, attempt) {
-                    // Whoever else has played, or something else: no run goes on beyond it.
+                    // Another player's attempt, or another exercise's, ends a run.
                     innings += usize::from(run > 0);
                     run = 0;
                     continue;

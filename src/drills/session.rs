@@ -54,7 +54,7 @@ pub struct Attempt {
     pub at: u64,
     /// Whether it made the point.
     pub made: bool,
-    /// Whether the player had looked at a shot that makes it, or had the coach play. A hint counts all the same, and is told.
+    /// Whether the player had looked at a shot that makes it, or had the coach play. An attempt with a hint counts too, and is marked.
     #[serde(default, skip_serializing_if = "is_false")]
     pub helped: bool,
     /// Whether the coach played it: then it is none of the player's record.
@@ -72,7 +72,7 @@ pub struct Attempt {
     /// How often the player makes what was meant, a share from 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chance: Option<f64>,
-    /// What was taught: the exercise's own shot where the balls lay for it, else the coach's.
+    /// The advised shot: the model shot where the balls lay for it, else the coach's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub advised: Option<CueInputs>,
     /// How often the player makes that, a share from 0 to 1.
@@ -101,7 +101,7 @@ pub struct Session {
     /// Whether the balls are shifted a little at every repetition but the first.
     #[serde(default, skip_serializing_if = "is_false")]
     pub shifted: bool,
-    /// Whether nobody knows in which order makes and misses came: then they tell nothing of runs and innings.
+    /// Whether the order of makes and misses is not known: then they do not count for runs and innings.
     #[serde(default, skip_serializing_if = "is_false")]
     pub unordered: bool,
     /// The ball that is the cue ball at first.

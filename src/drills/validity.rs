@@ -1,4 +1,4 @@
-//! What a session must hold to be counted: whoever wrote its file, all that others rely on is checked.
+//! What a session must hold to be counted: all that other code relies on is checked, whoever wrote its file.
 
 use super::{Attempt, Exercise, ExerciseError, Session};
 use crate::{physics::CueInputs, table::Table};
@@ -20,7 +20,7 @@ pub enum SessionError {
     /// It has an attempt at something else.
     #[error("it has an attempt at {0:?}, which is none of its exercises")]
     Stray(String),
-    /// A time that no date can be told for.
+    /// A time that has no date.
     #[error("the time {0} is no date; accepted are seconds from 1970 to the year 9999")]
     Time(u64),
     /// An attempt that cannot have been made.

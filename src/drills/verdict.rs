@@ -1,4 +1,4 @@
-//! What came of a stroke, and how it differs from the one that is taught, in words a player uses.
+//! The result of a stroke, and how it differs from the model shot, in words a player uses.
 
 use super::{Played, difference};
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     table::{CueBall, Table},
 };
 
-/// Differences that nobody can see or do: degrees of aim, mm of the tip, degrees of the cue, m/s.
+/// Differences too small to see or to play: degrees of aim, mm of the tip, degrees of the cue, m/s.
 const SEEN: (f64, f64, f64, f64) = (0.05, 0.5, 1.0, 0.1);
 /// Degrees of aim beyond which it is another shot altogether.
 const ANOTHER_SHOT: f64 = 12.0;

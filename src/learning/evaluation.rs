@@ -1,4 +1,4 @@
-//! How well a player does on layouts that nobody has trained on.
+//! How well a player does on held-out layouts.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;

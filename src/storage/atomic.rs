@@ -8,7 +8,7 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-/// Begin and end of the names of files that are being written: what a killed process leaves can be told by them.
+/// Begin and end of the names of files that are being written: they show what a killed process has left.
 const PARTIAL: [&str; 2] = [".carom-", ".partial"];
 
 /// Age from which a file that is being written has lost its writer: a few kilobytes do not take an hour.

@@ -7,7 +7,7 @@ use std::{
 
 use signal_hook::{consts::SIGXFSZ, flag};
 
-/// Has a write beyond the limit on file sizes fail, to be told like a full disk; otherwise a signal ends the process there,
+/// Makes a write beyond the limit on file sizes fail with an error, like a full disk; otherwise a signal ends the process there,
 /// without a word and with half a file left.
 ///
 /// # Errors

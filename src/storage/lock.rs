@@ -7,7 +7,7 @@ use std::{
     time::Duration,
 };
 
-/// Attempts to take the lock, and the pause between them: whoever asks [`Lock::is_held`] holds it for an instant.
+/// Attempts to take the lock, and the pause between them: [`Lock::is_held`] holds it for an instant.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
 

@@ -1,4 +1,4 @@
-//! What is said once to whoever has saved things with an older version.
+//! A notice that is shown once to users who have saved things with an older version.
 
 use std::{fs, path::Path};
 
@@ -10,7 +10,7 @@ const MATCH: &str = "\"match\" is now a table as filmed balls show it, and what 
 /// How the file remembers that [`MATCH`] was said.
 const MATCH_TOLD: &str = "match";
 
-/// What this user has to be told once, if they have saved anything with an older version; from then on `None`. Where
+/// The notice to this user, if they have saved anything with an older version; from then on `None`. Where
 /// that cannot be written down, it is said again.
 pub fn notice(places: &Places, settings: &Path) -> Option<&'static str> {
     let told = read_text(&places.notices, SMALL).unwrap_or_default();

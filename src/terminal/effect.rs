@@ -4,23 +4,14 @@ use std::path::PathBuf;
 
 use crate::{
     learning::run::request::Request,
-    terminal::{
-        config::SettingsTask,
-        tasks::{
-            drills::DrillTask,
-            recommender::Job,
-            training::{Keeping, Launch},
-        },
-    },
+    terminal::{DrillTask, Job, Keeping, Launch, SettingsTask},
 };
 
 /// What the program around the app has to do.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Ask the coach and hand the answer to [`App::receive`](super::App::receive).
-    Recommend(Box<Job>),
-    /// Ask it for a closer look at the shot that is shown, in the same way.
-    Study(Box<Job>),
+    /// Ask the coach for a shot, or for a closer look at the job's own; the answers go to [`App::receive`](super::App::receive).
+    Ask(Box<Job>),
     /// Start a process that trains; how it ends goes to [`App::receive_report`](super::App::receive_report), as do the answers to what follows.
     Train(Box<Launch>),
     /// Ask a run for something.

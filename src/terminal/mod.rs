@@ -33,8 +33,9 @@ use crate::{
 
 pub use app::{
     App, Overlay,
-    bindings::{Action, Condition, KeyContext},
+    bindings::{Action, Condition},
     document::document as keys_document,
+    key_context::KeyContext,
     palette::{Command, CommandPalette},
     palette_keys::PaletteAction,
 };
@@ -92,7 +93,7 @@ pub enum TerminalError {
     Io(#[from] io::Error),
 }
 
-/// Opens the coach on `table` as the user wants it, until the player quits. The `complaints` about the settings are told.
+/// Opens the coach on `table` as the user wants it, until the player quits. The `complaints` about the settings are shown.
 ///
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.

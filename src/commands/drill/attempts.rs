@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// Play a stroke at an exercise, with the player's errors, and compare it with the exercise's own, or else the coach's.
+/// Play a stroke at an exercise, with the player's errors, and compare it with the model shot, or with the coach's where there is none.
 ///
 /// Every attempt is logged.
 #[derive(Debug, clap::Args)]

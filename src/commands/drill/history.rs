@@ -84,7 +84,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     match (&args.name, args.games) {
         (Some(name), _) => {
             let mut subject = Subject::Exercise(name.clone());
-            // A name that nobody knows is a mistake; one that was never tried is none.
+            // An unknown name is an error; an exercise that was never tried is none.
             if subject.record(&sessions).tried == 0 {
                 subject = Subject::Exercise(workspace.exercise(name)?.name.clone());
             }

@@ -21,7 +21,7 @@ pub struct ListArgs {
     /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion or own.
     #[arg(long, value_parser = category_called)]
     category: Option<Category>,
-    /// Only this grade, 1 (easy) to 5; 0 is what nobody has measured.
+    /// Only this grade, 1 (easy) to 5; 0 for exercises without a grade.
     #[arg(long, value_parser = clap::value_parser!(u8).range(0..=5))]
     grade: Option<u8>,
     /// Only those with this tag.
@@ -120,12 +120,12 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
         line(format_args!("{name:<6} {x:>8.1} {y:>7.1} mm from the centre   {across:.2} {up:.2} diamonds"))?;
     }
     if let Some(shot) = shot {
-        line(format_args!("shot   {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
+        line(format_args!("shot    {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
     }
     if let Some(par) = par {
         let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(|share| 100.0 * share);
-        line(format_args!("par    beginner {beginner:.0} %, club {club:.0} %, world-class {best:.0} %"))?;
+        line(format_args!("typical beginner {beginner:.0} %, club {club:.0} %, world-class {best:.0} %"))?;
     }
-    line(format_args!("record {}", words(&record)))?;
-    line(format_args!("code   {code}"))
+    line(format_args!("record  {}", words(&record)))?;
+    line(format_args!("code    {code}"))
 }

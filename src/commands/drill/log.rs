@@ -27,7 +27,7 @@ pub struct Args {
     /// any, they are read from the standard input, a word a line, and each is safe on the disk when it is answered.
     #[arg(conflicts_with_all = ["made", "of"])]
     results: Vec<String>,
-    /// Points, where nobody knows in which order: they tell nothing of runs.
+    /// Points made, where their order is not known: they do not count for runs.
     #[arg(long, requires = "of")]
     made: Option<u32>,
     /// Attempts, points included.
@@ -125,7 +125,7 @@ impl Log {
                 earlier.find(is_noted).ok_or_else(|| Failure::wrong_input("there is no attempt to take back"))?;
         }
         if self.session.unordered {
-            // They were noted together, and nobody knows which came last.
+            // They were noted together, so the last one is not known.
             self.session.attempts.clear();
             self.session.unordered = false;
         } else {

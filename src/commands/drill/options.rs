@@ -11,7 +11,7 @@ use crate::{
 /// The word for the coach's shot in the place of one's own.
 const COACH: &str = "coach";
 
-/// Who plays, and how it is told.
+/// Who plays, and how results are printed.
 #[derive(Debug, clap::Args)]
 pub struct PlayOptions {
     /// Who plays: perfect, expert, world-class, national, club, beginner, own, or standard errors in mm, degrees and m/s like

@@ -47,7 +47,7 @@ pub struct ShareArgs {
     name: String,
 }
 
-/// Add a position that somebody has shared.
+/// Add a position from a share code.
 #[derive(Debug, clap::Args)]
 pub struct AddArgs {
     /// Its code; line breaks and blanks in it do not matter.

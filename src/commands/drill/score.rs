@@ -50,7 +50,7 @@ pub fn words(record: &Record) -> String {
     let average = record.average.map_or_else(String::new, |average| {
         format!(", average {average:.2} in {}, high run {}", plural(record.innings, "inning"), record.high_run)
     });
-    let helped = if record.helped > 0 { format!(", {} with help", record.helped) } else { String::new() };
+    let helped = if record.helped > 0 { format!(", {} with a hint", record.helped) } else { String::new() };
     format!(
         "{} of {} made, {:.0} % ({:.0} to {:.0} %){average}{helped}",
         record.made,

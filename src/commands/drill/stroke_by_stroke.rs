@@ -1,4 +1,4 @@
-//! A session that is played stroke by stroke: each is judged, saved, and then told.
+//! A session that is played stroke by stroke: each is judged, saved, and then printed.
 
 use std::time::Duration;
 
@@ -33,12 +33,12 @@ pub struct StrokeByStroke<'a> {
     store: &'a Store,
     session: Session,
     options: &'a PlayOptions,
-    /// Whether every stroke is compared with the one that is taught, or else with the coach's: that takes the coach's time.
+    /// Whether every stroke is compared with the model shot, or else with the coach's, which takes time.
     compares: bool,
     coaches: ByTable<Coach, MakeCoach>,
     /// The coach's shot in a layout: while nothing moves, it is looked for once.
     advice: Option<(Layout, Advice)>,
-    /// The exercise and the layout that were told last.
+    /// The exercise and the layout that were printed last.
     shown: Option<(String, Layout)>,
 }
 
@@ -78,7 +78,7 @@ struct AttemptLine<'a> {
     end: Layout,
 }
 
-/// The shot that is taught, or the coach's, beside the player's.
+/// The model shot, or the coach's, beside the player's.
 #[derive(Serialize)]
 struct Advised {
     #[serde(rename = "advised")]
@@ -87,7 +87,7 @@ struct Advised {
     chance: f64,
     #[serde(rename = "advised_interval")]
     interval: [f64; 2],
-    /// Whose shot it is: the exercise's own where the balls lie for it, else the coach's.
+    /// Whose shot it is: the model shot where the balls lie for it, else the coach's.
     #[serde(rename = "advised_by")]
     by: &'static str,
     /// What was meant less what is advised.
@@ -145,7 +145,7 @@ impl<'a> StrokeByStroke<'a> {
         &self.session
     }
 
-    /// Tells what is to be played, where that is news.
+    /// Prints what is to be played, if that has changed.
     pub fn show(&mut self, layout: &Layout) -> Result<(), Failure> {
         let Some(Exercise { name, title, rule, table, .. }) = self.session.exercise() else { return Ok(()) };
         let shown = Some((name.clone(), *layout));
@@ -159,7 +159,7 @@ impl<'a> StrokeByStroke<'a> {
             json_line(&Position { kind: "position", number, exercise: name, title, rule, table, cue_ball, layout })?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
-            // Where it is white in every stroke, nobody asks.
+            // Where it is white in every stroke, it is not said.
             let is_told = self.session.is_match() || cue_ball != CueBall::White;
             let turn = if is_told { format!("; the cue ball is {cue_ball}") } else { String::new() };
             line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
@@ -168,7 +168,7 @@ impl<'a> StrokeByStroke<'a> {
         Ok(())
     }
 
-    /// Plays one stroke; when its result is told, it is safe on the disk. `false` where the coach is to play and finds no point.
+    /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is to play and finds no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let helped = matches!(stroke, StrokeInput::Coach);
@@ -201,12 +201,12 @@ impl<'a> StrokeByStroke<'a> {
             attempt.advised_chance = advice.map(|advice| advice.chance.rate);
         }
         if let Err(error) = self.store.save(&self.session) {
-            // The score tells what is kept.
+            // The score counts what is kept.
             self.session.undo();
             return Err(Failure::failed(error));
         }
 
-        let whose = if own.is_some() { "exercise" } else { "coach" };
+        let by = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
         let (verdict, run) = (played.verdict(cue_ball), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
@@ -229,7 +229,7 @@ impl<'a> StrokeByStroke<'a> {
                     chance: advice.chance.rate,
                     interval: [advice.chance.low, advice.chance.high],
                     difference: difference(&meant, &advice.cue),
-                    by: whose,
+                    by,
                     changes,
                 }),
                 end: played.end,
@@ -248,7 +248,8 @@ impl<'a> StrokeByStroke<'a> {
         } else if let Some(advice) = advice {
             let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };
             let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
-            line(format_args!("   the {whose}'s shot {shot} is made {share} of the time{changes}"))?;
+            let whose = if own.is_some() { "model shot" } else { "coach's shot" };
+            line(format_args!("   the {whose} {shot} is made {share} of the time{changes}"))?;
         }
         Ok(true)
     }
@@ -259,7 +260,7 @@ impl<'a> StrokeByStroke<'a> {
         Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may do"))
     }
 
-    /// The shot that the exercise teaches, where the balls lie for it.
+    /// The model shot, where the balls lie for it.
     fn own(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
         exercise.model_shot().filter(|_| !self.session.is_game())
@@ -291,7 +292,7 @@ impl<'a> StrokeByStroke<'a> {
         Ok(())
     }
 
-    /// Tells the score.
+    /// Prints the score.
     pub fn finish(&self) -> Result<(), Failure> {
         let session = &self.session;
         let record = session.record();

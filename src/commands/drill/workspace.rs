@@ -16,7 +16,7 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// Reads the library; files that cannot be read are told on the standard error.
+    /// Reads the library; files that cannot be read are named on the standard error.
     pub fn open() -> Result<Self, Failure> {
         let places = Places::of_this_user();
         note(storage::notice(&places, &Settings::path()).map(str::to_owned).as_slice());
@@ -31,7 +31,7 @@ impl Workspace {
         self.library.called(text).map_err(Failure::failed)
     }
 
-    /// All sessions; files that cannot be read are told on the standard error.
+    /// All sessions; files that cannot be read are named on the standard error.
     pub fn sessions(&self) -> Vec<Session> {
         let found = self.store.sessions();
         note(&found.notes);
@@ -39,7 +39,7 @@ impl Workspace {
     }
 }
 
-/// The skill that was given, else the user's own, else an expert's: also where the user's own cannot be read, which is told.
+/// The skill that was given, else the user's own, else an expert's: also where the user's own cannot be read, with a warning.
 pub fn player(given: Option<Skill>) -> Skill {
     let own = || {
         own_skill().unwrap_or_else(|failure| {

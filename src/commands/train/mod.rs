@@ -203,7 +203,7 @@ fn say_result(run: &Run, score: Score, json: bool) -> io::Result<()> {
     )
 }
 
-/// Removes a run that somebody has given up.
+/// Removes a run that was given up.
 fn abandon(run: Run) -> Result<(), RunError> {
     let folder = run.folder().to_owned();
     // It holds the lock.

@@ -28,7 +28,7 @@ pub fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<()
 fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let seeds: Vec<u64> = group.seeds().collect();
     let (next, begin) = (AtomicUsize::new(0), Instant::now());
-    // A worker takes seeds until there are none, or it is told to stop. It returns what went wrong, and whether all its
+    // A worker takes seeds until there are none, or until it is stopped. It returns what went wrong, and whether all its
     // runs are finished.
     let work = || {
         let (mut errors, mut finished) = (Vec::new(), true);

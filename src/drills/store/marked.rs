@@ -1,4 +1,4 @@
-//! Files that say what they are and of which version: one of a newer version is told from one that is damaged.
+//! Files that say what they are and of which version: one of a newer version is distinguished from one that is damaged.
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 

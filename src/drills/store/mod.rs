@@ -1,6 +1,6 @@
 //! Where practice is kept: one file a session and one file a position of the player's own, so that sessions of programs that
 //! run at the same time are never in each other's way. Only a later correction or an import writes a session's file from
-//! elsewhere; whichever program writes last then counts. What cannot be read is told in a sentence and left as it is.
+//! elsewhere; whichever program writes last then counts. What cannot be read is named in a sentence and left as it is.
 
 mod error;
 mod marked;
@@ -68,7 +68,7 @@ impl Store {
         found
     }
 
-    /// Writes a session's file, or writes it anew. When this returns, the session is safe on the disk.
+    /// Writes a session's file, or replaces it. When this returns, the session is safe on the disk.
     ///
     /// # Errors
     /// Where that fails, or a file of this name holds something else or is of a newer version; the file is then what it was.

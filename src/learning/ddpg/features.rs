@@ -1,4 +1,4 @@
-//! What the networks are told: numbers about an observation for both, and about an observation and an action for the critic.
+//! Input features of the networks: of an observation for both, and of an observation and an action for the critic.
 
 use std::f64::consts::PI;
 

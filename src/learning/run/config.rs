@@ -40,7 +40,7 @@ pub struct Schedule {
 /// Fewest shots between two measurements by default: with fewer, a short run would do little but measure itself.
 const FEWEST_SHOTS: u64 = 10_000;
 
-/// Lines of metrics for each measurement: whoever watches a run of an hour sees news every one or two seconds.
+/// Lines of metrics for each measurement: a run of an hour has news every one or two seconds.
 const LINES: u64 = 50;
 
 /// Layouts of a measurement by default: enough for a standard error of half a percent near 0.95.
@@ -157,10 +157,10 @@ impl Config {
 /// Letters of a table's name in that of a folder.
 const LONGEST_TABLE: usize = 40;
 
-/// How a new run's folder is called where nobody says: names sort by the `moment` of the start, as `timestamp` gives it.
+/// Default name of a new run's folder: names sort by the `moment` of the start, as `timestamp` gives it.
 pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: impl Display) -> String {
     let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '_' };
-    // Whoever named the table thought of no folder.
+    // A named table has no folder.
     let table: String = table.chars().map(plain).take(LONGEST_TABLE).collect();
     format!("{moment}-{agent}-{table}-{reward}-{seed}")
 }

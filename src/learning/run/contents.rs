@@ -29,7 +29,7 @@ struct Header {
     checksum: String,
     format: u32,
     agent: String,
-    /// Shots played, for whoever reads nothing but the header.
+    /// Shots played, for programs that read only the header.
     shots: u64,
     #[serde(flatten)]
     state: State,

@@ -1,4 +1,4 @@
-//! The latest shots on held-out layouts, for whoever wants to see how an agent plays.
+//! The latest shots on held-out layouts, to see how an agent plays.
 
 use std::path::Path;
 

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::learning::learner::Learner;
 
-/// Time between two beats. Whoever watches takes a run that misses many for stalled.
+/// Time between two beats. A run that misses many of them counts as stalled.
 pub const BEAT: Duration = Duration::from_secs(1);
 
 /// Time between two looks for a request.
@@ -21,7 +21,7 @@ const EAR: Duration = Duration::from_millis(200);
 /// Beats over which speeds are taken.
 const SPEED_BEATS: usize = 6;
 
-/// What a run tells those who watch it. Nothing of it is needed to go on, so what cannot be written is not told.
+/// Status for watchers of a run. Nothing of it is needed to resume, so a failure to write it is ignored.
 #[derive(Debug)]
 pub struct Heartbeat {
     folder: PathBuf,
@@ -91,7 +91,7 @@ impl Heartbeat {
             self.status.updates_per_second = (updates - first.2) as f64 / passed;
         }
         if phase == Phase::Measuring {
-            // A measurement is no part of the speed: it begins anew afterwards.
+            // A measurement is no part of the speed: it is measured again from its end.
             self.track.clear();
         }
         self.status.phase = phase;

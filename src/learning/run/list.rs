@@ -26,7 +26,7 @@ use crate::{game::Reward, learning::calendar::moment};
 pub enum Stage {
     /// A process is training it.
     Running,
-    /// Its process waits until it is told to go on.
+    /// Its process waits for a request to go on.
     Paused,
     /// Its process is there and says nothing.
     Stalled,

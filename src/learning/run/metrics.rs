@@ -98,7 +98,7 @@ impl MetricsFile {
             match serde_json::from_slice::<Record>(line) {
                 Ok(record) if record.shots > shots => break,
                 Ok(record) => last = Some(record),
-                // Whoever wrote this line, it is not ours to drop.
+                // A line of unknown origin is kept.
                 Err(_) => {}
             }
             length += line.len() as u64;
@@ -145,7 +145,7 @@ impl MetricsFile {
             }
             file.set_len(self.length)?;
             file.seek(SeekFrom::End(0))?;
-            // In one call: whoever follows the file sees whole lines.
+            // In one call, so that readers see whole lines.
             if let Err(error) = file.write_all(&self.waiting) {
                 let _ = file.set_len(self.length);
                 return Err(error);

@@ -120,7 +120,7 @@ impl Run {
             notices.push(format!("{damage}; going on from {name}, after {shots} shots"));
         }
         let config = Config::read(folder).or_else(|_| {
-            // It was killed before it had one, or somebody took it away: the checkpoint knows what it said.
+            // It was killed before it had one, or it was removed: the checkpoint has the same values.
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             config.write(folder).map(|()| config)
         })?;

@@ -1,4 +1,4 @@
-//! What a run at work is asked to do, by a word in a file of its folder: whoever may write there may steer it, from any
+//! Requests to a running training, a word in a file of its folder: anyone who may write there may steer it, from any
 //! terminal.
 
 use std::{fs, io, path::Path};
@@ -8,7 +8,7 @@ use crate::storage::{self, replace};
 /// The file's name.
 pub const FILE: &str = "request";
 
-/// The file while it is read; what a killed process leaves of it is told by the name ([`crate::storage`]).
+/// The file while it is read; its name shows what a killed process has left ([`crate::storage`]).
 const TAKEN: &str = ".carom-request.partial";
 
 /// A request to a run.

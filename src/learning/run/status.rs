@@ -1,4 +1,4 @@
-//! The run status, schema of `state.json`: a small file that is replaced about once a second, for whoever watches.
+//! The run status, schema of `state.json`: a small file that is replaced about once a second, for watchers.
 //!
 //! It is no part of what a run goes on from. Whether its process still lives the lock tells, not this file.
 
@@ -20,7 +20,7 @@ pub enum Phase {
     Training,
     /// It plays the held-out layouts.
     Measuring,
-    /// It waits until it is told to go on.
+    /// It waits for a request to go on.
     Paused,
     /// It has played all its shots.
     Finished,

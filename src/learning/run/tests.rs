@@ -15,7 +15,7 @@ use crate::{
     table::Table,
 };
 
-/// What a run told its watcher.
+/// What a run reported to its watcher.
 #[derive(Default)]
 pub struct Told {
     pub lines: Vec<Record>,

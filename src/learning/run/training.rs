@@ -27,7 +27,7 @@ const CHECKPOINT_INTERVAL: Duration = Duration::from_mins(1);
 /// Time between two looks at whether a pause is over.
 const NAP: Duration = Duration::from_millis(100);
 
-/// Who is told what a run does, where it does it. Others follow its folder ([`super::follow`]).
+/// Receives the events of a run in its own process. Other processes follow its folder ([`super::follow`]).
 pub trait Watcher {
     /// A line of metrics.
     fn line(&mut self, record: &Record);
@@ -66,7 +66,7 @@ struct Reporting<'a> {
 
 impl Run {
     /// Trains until the plan is finished, a limit is reached or a [`Request`] in the folder says so. The folder then holds
-    /// a checkpoint from which the run can go on. A checkpoint on the way that cannot be written is told to the watcher,
+    /// a checkpoint from which the run can go on. A checkpoint on the way that cannot be written is reported to the watcher,
     /// and the next one tried.
     ///
     /// # Errors

@@ -233,7 +233,7 @@ impl Agent for PlainDdpg {
         Ok(Self::with(settings, networks, replay, noise, shots))
     }
 
-    /// The learning networks become both the learning ones and the targets; the optimisers begin anew.
+    /// The learning networks become both the learning ones and the targets; the optimisers start again.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         let mut values = values(&self.settings, reader)?;
         let (sizes, rates) = (self.settings.sizes(), self.settings.rates());

@@ -39,7 +39,7 @@ pub struct OrnsteinUhlenbeck {
 }
 
 impl OrnsteinUhlenbeck {
-    /// Standard deviation of the noise on a shot: of the first step where it begins anew with each, else in the long run.
+    /// Standard deviation of the noise on a shot: of the first step where it restarts with each, else in the long run.
     pub fn deviation(&self, restarts: bool) -> f64 {
         let pushed = self.sigma * self.dt.sqrt();
         let kept = 1.0 - self.theta * self.dt;

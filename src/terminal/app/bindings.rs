@@ -1,27 +1,20 @@
 //! All keys of the program: what each page's tables say, as one kind of action, with the keys that all pages have.
 
 use crossterm::event::{
-    KeyCode::{Char, Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
+    KeyCode::{Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
     KeyEvent,
 };
 
 use super::palette_keys::{self, PaletteAction};
 use crate::terminal::{
-    effect::PageId,
+    CoachAction, CoachCondition, DrillAction, DrillCondition, KeyContext, PageId, SettingsAction, SettingsCondition,
+    TrainingAction, TrainingCondition,
     keymap::{
-        Binding, KeyEntry, KeyPage,
+        Binding, Chord, KeyEntry, KeyPage,
         Section::{self, Program},
-        bind,
-        chord::Chord,
-        chord_of, ctrl, key, letter,
+        bind, chord_of, ctrl, key, letter,
     },
-    pages::{
-        coach::keys::{self as coach, CoachAction, CoachCondition, SavingContext},
-        drills::keys::{self as drills, DrillAction, DrillCondition, DrillContext},
-        settings::keys::{self as settings, SettingsAction, SettingsCondition, SettingsContext},
-        training::keys::{self as training, TrainingAction, TrainingCondition, TrainingContext},
-    },
-    ui::input::is_typed,
+    pages::{coach::keys as coach, drills::keys as drills, settings::keys as settings, training::keys as training},
 };
 
 use Action as A;
@@ -76,70 +69,6 @@ pub enum Condition {
     Drill(DrillCondition),
     /// As the settings' screen says.
     Settings(SettingsCondition),
-}
-
-/// What is on the screen: each has its own keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeyContext {
-    /// The coach.
-    Coach,
-    /// What is asked over its table before the balls are saved.
-    Saving(SavingContext),
-    /// One of the training pages, or what is asked there.
-    Training(TrainingContext),
-    /// One of the drill screens.
-    Drill(DrillContext),
-    /// One of the settings' pages, or what is asked there.
-    Settings(SettingsContext),
-    /// The command palette, over any of them.
-    CommandPalette,
-}
-
-impl KeyContext {
-    /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 14] = [
-        (Self::Coach, "Coach"),
-        (Self::Drill(DrillContext::Library), "Drills: library"),
-        (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
-        (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
-        (Self::Drill(DrillContext::Result), "Drills: result of an exam"),
-        (Self::Drill(DrillContext::Record), "Drills: record"),
-        (Self::Drill(DrillContext::Films), "Drills: filmed shots"),
-        (Self::Drill(DrillContext::Film), "Drills: a filmed shot"),
-        (Self::Training(TrainingContext::Runs), "Training: runs"),
-        (Self::Training(TrainingContext::Form), "Training: new run"),
-        (Self::Training(TrainingContext::Watch), "Training: a run"),
-        (Self::Training(TrainingContext::Compare), "Training: compare"),
-        (Self::Settings(SettingsContext::Values), "Settings"),
-        (Self::Settings(SettingsContext::Keys), "Settings: keys"),
-    ];
-
-    /// Whether letters are typed there, or answers.
-    pub const fn takes_letters(self) -> bool {
-        match self {
-            Self::Coach => false,
-            Self::Training(place) => place.takes_letters(),
-            Self::Drill(place) => place.takes_letters(),
-            Self::Settings(place) => place.takes_letters(),
-            Self::Saving(_) | Self::CommandPalette => true,
-        }
-    }
-
-    /// Whether `pressed` is typed there, whatever work of another key it was given.
-    pub fn types(self, pressed: Chord) -> bool {
-        let event = pressed.event();
-        match self {
-            Self::Training(TrainingContext::Name)
-            | Self::Saving(SavingContext::Title)
-            | Self::CommandPalette
-            | Self::Drill(DrillContext::Search | DrillContext::Text)
-            | Self::Settings(SettingsContext::Typing) => is_typed(&event),
-            Self::Training(TrainingContext::Form) => {
-                matches!(event.code, Char('0'..='9')) && event.modifiers.is_empty()
-            }
-            _ => false,
-        }
-    }
 }
 
 /// One line of a page's table, as the app reads it.
@@ -290,7 +219,7 @@ pub fn find<'a>(
         let Some((_, action, _)) = binding.keys.iter().find(|(chord, ..)| chord.matches(event)) else { continue };
         match disabled_reason(binding.when) {
             None => return Some(Ok(*action)),
-            // Who has not opened the help does not press its keys.
+            // While the help is closed, its keys mean nothing.
             Some(_) if binding.when == Condition::Help => {}
             Some(reason) => refused = Some(Err(reason)),
         }
@@ -300,8 +229,12 @@ pub fn find<'a>(
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::KeyCode::Char;
+
     use super::*;
-    use crate::terminal::keymap::works_of;
+    use crate::terminal::{
+        DrillContext, SettingsContext, TrainingContext, keymap::works_of, pages::coach::keys::SavingContext,
+    };
 
     fn places() -> impl Iterator<Item = KeyContext> {
         [KeyContext::Coach, KeyContext::CommandPalette]

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use crate::terminal::{
-    app::bindings::{Bound, Condition, KeyContext, bindings},
-    capabilities::{Capabilities, Depth, Glyphs},
-    keymap::chord::keys_text,
+    Capabilities, Condition, Depth, Glyphs, KeyContext,
+    app::bindings::{Bound, bindings},
+    keymap::keys_text,
 };
 
 /// What [`TextField`](crate::terminal::ui::input::TextField) does with keys.

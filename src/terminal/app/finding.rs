@@ -1,13 +1,6 @@
 //! The command palette as the app has it: what it lists, and what each of its keys does.
 
-use crate::terminal::{
-    app::{
-        App,
-        palette::{Command, CommandPalette, commands},
-        palette_keys::PaletteAction,
-    },
-    effect::Effect,
-};
+use crate::terminal::{App, Command, CommandPalette, Effect, PaletteAction, app::palette::commands};
 
 impl App {
     /// Does what an action of the command palette asks for.
@@ -36,10 +29,17 @@ impl App {
         None
     }
 
-    /// What can be done at the place below the command palette, what may be used now first.
+    /// What can be done at the place below the command palette, what may be used now first. What one action does in several
+    /// states of the page is listed once, with the words of its present state.
     pub fn commands(&self) -> Vec<Command> {
-        let mut commands = commands(self.place_below(), self.keys(), self.caps);
-        commands.sort_by_key(|command| self.disabled_reason(command.when).is_some());
+        let mut all = commands(self.place_below(), self.keys(), self.caps);
+        all.sort_by_key(|command| self.disabled_reason(command.when).is_some());
+        let mut commands: Vec<Command> = Vec::with_capacity(all.len());
+        for command in all {
+            if commands.iter().all(|known| known.action != command.action) {
+                commands.push(command);
+            }
+        }
         commands
     }
 }

@@ -3,14 +3,10 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
 use crate::terminal::{
-    app::{
-        App,
-        bindings::{self, Action, Condition, KeyContext},
-        view,
-    },
-    effect::{Effect, PageId},
+    Action, App, Condition, Effect, KeyContext, PageId,
+    app::{bindings, view},
     pages::settings::Input,
-    ui::input::Typed,
+    ui::Typed,
 };
 
 impl App {

@@ -5,6 +5,7 @@
 pub mod bindings;
 pub mod document;
 mod finding;
+pub mod key_context;
 mod keys;
 mod mouse;
 mod news;
@@ -27,24 +28,14 @@ use crate::{
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        app::{bindings::Action, palette::CommandPalette},
-        capabilities::{Capabilities, Glyphs},
-        config::{
-            Complaint, Settings,
-            saved_session::{SavedSession, SessionParts},
-        },
-        effect::{Effect, PageId},
+        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, PageId, Palette, SavedSession,
+        SessionParts, Settings, SettingsPage, Subscriptions, Toasts,
         pages::{
-            coach::{CoachPage, keys::CoachAction},
+            coach::CoachPage,
             drills::{Balls, DrillsPage},
-            settings::SettingsPage,
             training::TrainingPage,
         },
-        tasks::training::Subscriptions,
-        ui::{
-            theme::{Palette, Theme},
-            toasts::Toasts,
-        },
+        ui::Theme,
     },
 };
 
@@ -234,7 +225,7 @@ impl App {
             }
             Action::Coach(action) => {
                 return match self.coach.update(action) {
-                    // Where positions are saved may not be known yet: it is told with what is to be read there.
+                    // The folder of the positions may not be known yet: it comes with the task that reads it.
                     Some(Effect::Drill(tasks)) => {
                         Some(Effect::Drill(std::iter::once(self.drills.load()).chain(tasks).collect()))
                     }

@@ -3,24 +3,11 @@
 use crossterm::event::{MouseButton::Left, MouseEvent, MouseEventKind as Kind};
 
 use crate::terminal::{
-    app::{
-        App,
-        bindings::{Action, Condition, KeyContext},
-        palette_keys::PaletteAction,
-        view::{Pointed, pointed_at},
-    },
-    effect::Effect,
-    pages::{
-        Target,
-        coach::{
-            keys::{CoachAction, CoachCondition},
-            view::table_mapping,
-        },
-        drills::keys::{DrillAction, DrillCondition, DrillContext},
-        settings::keys::{SettingsAction, SettingsCondition},
-        training::keys::{TrainingAction, TrainingCondition},
-    },
-    ui::{geometry::Mapping, table::ball_at},
+    Action, App, CoachAction, CoachCondition, Condition, DrillAction, DrillCondition, DrillContext, Effect, KeyContext,
+    Mapping, PaletteAction, SettingsAction, SettingsCondition, TrainingAction, TrainingCondition,
+    app::view::{Pointed, pointed_at},
+    pages::{Target, coach::view::table_mapping},
+    ui::ball_at,
 };
 
 /// Lines of the help that a notch of the wheel scrolls.

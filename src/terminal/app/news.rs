@@ -1,15 +1,6 @@
-//! What comes from outside, and what is told of it: sentences on the status line, refusals and failures as toasts.
+//! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
 
-use crate::terminal::{
-    app::App,
-    effect::{Effect, PageId},
-    tasks::{
-        drills::{DrillReport, DrillTask},
-        recommender::Answer,
-        training::Report,
-    },
-    ui::toasts::Toasts,
-};
+use crate::terminal::{Answer, App, DrillReport, DrillTask, Effect, PageId, Report, Toasts};
 
 impl App {
     /// The coach has something to say. Late answers to cancelled questions are dropped.

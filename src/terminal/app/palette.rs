@@ -1,16 +1,10 @@
 //! The command palette: everything that the keys do at a place, narrowed by typed words.
 
 use crate::terminal::{
-    app::{
-        bindings::{Action, Condition, KeyContext, bindings},
-        palette_keys::PaletteAction,
-    },
-    capabilities::Capabilities,
-    keymap::{
-        chord::{Chord, keys_text},
-        remap::Keys,
-    },
-    ui::input::{TextField, Typed},
+    Action, Capabilities, Condition, KeyContext, Keys, PaletteAction,
+    app::bindings::bindings,
+    keymap::{Chord, keys_text},
+    ui::{TextField, Typed},
 };
 
 /// Most that is typed, bytes.
@@ -141,10 +135,7 @@ mod tests {
     use crossterm::event::KeyCode;
 
     use super::*;
-    use crate::terminal::{
-        capabilities::{Depth, Glyphs},
-        pages::coach::keys::CoachAction,
-    };
+    use crate::terminal::{CoachAction, Depth, Glyphs};
 
     const LOOK: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
 

@@ -4,9 +4,8 @@ use crossterm::event::KeyCode::{Down, Enter, Esc, PageDown, PageUp, Up};
 
 use super::bindings::{Action, Condition};
 use crate::terminal::keymap::{
-    Binding,
+    Binding, Chord,
     Section::{self, Program},
-    chord::Chord,
     ctrl, letter, mark,
 };
 

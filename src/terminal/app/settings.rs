@@ -3,15 +3,8 @@
 use crate::{
     table::{CueBall, PRESETS, Table},
     terminal::{
-        app::App,
-        capabilities::{Capabilities, Depth, Glyphs},
-        config::{Settings, SettingsReport},
-        effect::Effect,
-        tasks::advice::CoachQuery,
-        ui::{
-            message::Message,
-            theme::{Palette, Theme},
-        },
+        App, Capabilities, CoachQuery, Depth, Effect, Glyphs, Palette, Settings, SettingsReport,
+        ui::{Message, Theme},
     },
 };
 

@@ -5,19 +5,10 @@ use std::sync::Arc;
 use crate::{
     table::{CueBall, Layout, Table},
     terminal::{
-        app::{App, Overlay, palette::CommandPalette},
-        capabilities::Capabilities,
-        effect::PageId,
-        keymap::remap::Keys,
-        pages::{
-            Page,
-            coach::{CoachPage, Mode},
-            drills::DrillsPage,
-            settings::SettingsPage,
-            training::TrainingPage,
-        },
-        shot::{Shot, playback::Playback},
-        ui::{message::Message, theme::Theme},
+        App, Capabilities, CommandPalette, Keys, Mode, Overlay, PageId, SettingsPage, Shot,
+        pages::{Page, coach::CoachPage, drills::DrillsPage, training::TrainingPage},
+        shot::Playback,
+        ui::{Message, Theme},
     },
 };
 

@@ -1,9 +1,6 @@
 //! Going from screen to screen.
 
-use crate::terminal::{
-    app::{App, Overlay},
-    effect::{Effect, PageId},
-};
+use crate::terminal::{App, Effect, Overlay, PageId};
 
 impl App {
     pub(super) fn lay_over(&mut self, page: Overlay) {
@@ -14,12 +11,12 @@ impl App {
     /// Opens a screen where it was left. What is thought about or trained meanwhile goes on, and is there when one comes back.
     pub(super) fn open(&mut self, screen: PageId) -> Option<Effect> {
         (self.help, self.command_palette) = (None, None);
-        // What nobody watches does not play on.
+        // A shot that is not on the screen is paused.
         self.coach.playback.pause();
         self.coach.drop_ball();
         let before = std::mem::replace(&mut self.screen, screen);
         if before == PageId::Drills {
-            // Whoever was chosen there plays at the coach's table too.
+            // The player who was chosen there also plays at the coach's table.
             self.coach.take_skill(self.drills.player.at_coach);
         }
         match screen {

@@ -5,7 +5,7 @@ use toml_edit::{DocumentMut, Item, Table, TomlError, Value};
 use crate::terminal::{
     config::read::{KEYS, line_at},
     keymap::{
-        chord::Chord,
+        Chord,
         remap::{chord, name},
     },
 };

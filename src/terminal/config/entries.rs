@@ -9,10 +9,8 @@ use crate::{
     game::Rule,
     table::PRESETS,
     terminal::{
-        capabilities::{Depth, Glyphs},
-        config::Settings,
+        Depth, Glyphs, Palette, Settings,
         shot::{placing::STEPS, playback::SPEEDS},
-        ui::theme::Palette,
     },
 };
 

@@ -7,10 +7,12 @@ use std::{
 
 use crate::{
     storage::{self, write_atomic},
-    terminal::config::{
+    terminal::{
         Change, Complaint, Settings,
-        change::{changed, is_changeable},
-        read::{line_at, read},
+        config::{
+            change::{changed, is_changeable},
+            read::{line_at, read},
+        },
     },
 };
 
@@ -34,7 +36,7 @@ pub struct SettingsReport {
     pub settings: Option<Settings>,
     /// Whether the file can be changed, as far as is known.
     pub is_writable: bool,
-    /// Whether the change was not made because somebody else had changed the file.
+    /// Whether the change was not made because another program had changed the file.
     pub is_refused: bool,
     /// What is wrong, a sentence each.
     pub troubles: Vec<String>,
@@ -49,7 +51,7 @@ pub struct SettingsFile {
 }
 
 impl SettingsFile {
-    /// Does a task. What somebody else has changed since the last one is read, and not written over.
+    /// Does a task. What another program has changed since the last one is read, and not overwritten.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
         let SettingsTask { number, path, change } = task;
         let report = |settings, is_writable, troubles| SettingsReport {
@@ -80,8 +82,10 @@ impl SettingsFile {
             return report(known, is_sound && !self.has_failed, troubles(path, found.as_deref()));
         };
         if !is_as_seen {
-            let sentence =
-                format!("{} has been changed by somebody else; it is read anew, change it again", path.display());
+            let sentence = format!(
+                "{} has been changed by another program and was read again; make your change once more",
+                path.display()
+            );
             return SettingsReport { is_refused: true, ..report(known, is_sound, vec![sentence]) };
         }
         let text = found.as_deref().map(str::from_utf8).transpose();
@@ -135,7 +139,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::terminal::ui::theme::Palette;
+    use crate::terminal::Palette;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
         SettingsTask { number: 1, path: path.to_owned(), change: change.into() }
@@ -171,12 +175,12 @@ mod tests {
         for text in ["speed = 2.0\n", "speed = \n", ""] {
             fs::write(&path, text).unwrap();
             let report = file.run(&task(&path, theme("light")));
-            assert!(report.troubles[0].contains("changed by somebody else"), "{report:?}");
+            assert!(report.troubles[0].contains("changed by another program"), "{report:?}");
             assert_eq!((report.settings, report.is_refused), (is_changeable(text).then(|| read(text).0), true));
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         fs::remove_file(&path).unwrap();
-        assert!(file.run(&task(&path, theme("light"))).troubles[0].contains("changed by somebody else"));
+        assert!(file.run(&task(&path, theme("light"))).troubles[0].contains("changed by another program"));
         assert!(file.run(&task(&path, theme("light"))).troubles.is_empty(), "once more does it");
     }
 

@@ -19,11 +19,7 @@ use crate::{
     game::Rule,
     storage,
     table::{PRESETS, Table},
-    terminal::{
-        capabilities::{Depth, Glyphs},
-        keymap::remap::{self, Keys},
-        ui::theme::Palette,
-    },
+    terminal::{Depth, Glyphs, Keys, Palette, keymap::remap},
 };
 
 pub use change::Change;
@@ -150,9 +146,7 @@ impl Settings {
 
     /// The settings as a file with everything that may stand in it, each key with what it means and accepts.
     pub fn document(&self) -> String {
-        let mut text = String::from(
-            "# Everything that carom can be told once and for all. A key that is left out has its default.\n",
-        );
+        let mut text = String::from("# All settings of carom. A key that is left out has its default.\n");
         for entry in ENTRIES {
             // Writing into a text never fails.
             let _ = write!(

@@ -8,10 +8,8 @@ use toml::{
 };
 
 use crate::terminal::{
-    config::{
-        Settings,
-        entries::{ENTRIES, Entry},
-    },
+    Settings,
+    config::entries::{ENTRIES, Entry},
     keymap::remap::chord,
 };
 
@@ -130,7 +128,7 @@ fn shown(text: &str, value: &Spanned<DeValue>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{coach::Skill, game::Rule, terminal::ui::theme::Palette};
+    use crate::{coach::Skill, game::Rule, terminal::Palette};
 
     #[test]
     fn the_documentation_is_itself_a_file_and_changes_nothing() {

@@ -86,7 +86,7 @@ impl SavedSession {
     }
 
     /// What the file says. One that is missing, damaged or from a newer version says nothing: it is a convenience, and
-    /// nobody is to be bothered about it.
+    /// the player need not know.
     pub fn load(path: &Path) -> Option<Self> {
         let mut last: Self = serde_json::from_slice(&storage::read(path, storage::SMALL).ok()?).ok()?;
         last.table = renewed(last.table);

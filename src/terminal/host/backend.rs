@@ -145,7 +145,7 @@ impl AnsiBackend {
     }
 }
 
-/// Whether nobody sees the colour of what stands in the cell.
+/// Whether the foreground colour of the cell cannot be seen.
 fn is_blank(cell: &Cell) -> bool {
     cell.symbol() == " " && !cell.modifier.intersects(Modifier::REVERSED | Modifier::UNDERLINED)
 }

@@ -37,7 +37,7 @@ pub fn open() -> io::Result<(Sender<Event>, Receiver<Event>)> {
     let to_screen = sender.clone();
     thread::Builder::new().name("signals".into()).spawn(move || {
         for signal in signals.forever() {
-            // The system's way to say that the terminal is somebody else's now.
+            // The system says so that another process has the terminal now.
             if matches!(signal, SIGTTIN | SIGTTOU) && !signals::has_the_terminal() {
                 let _ = signals::stop();
                 continue;
@@ -52,7 +52,7 @@ pub fn open() -> io::Result<(Sender<Event>, Receiver<Event>)> {
     })?;
     let to_screen = sender.clone();
     thread::Builder::new().name("input".into()).spawn(move || {
-        // The screen is told of whatever ends it; where it is gone already, nobody is.
+        // The end of the input ends the screen; a screen that is gone already needs no event.
         let _ = read_input(&to_screen);
         let _ = to_screen.send(Event::InputEnded);
     })?;

@@ -63,7 +63,7 @@ impl TerminalGuard {
         Ok(session)
     }
 
-    /// Takes the terminal over again after [`TerminalGuard::leave`], or after somebody else has changed it.
+    /// Takes the terminal over again after [`TerminalGuard::leave`], or after another program has changed it.
     ///
     /// # Errors
     /// What the terminal answers.
@@ -122,7 +122,7 @@ impl TerminalGuard {
 
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
-        // There is nobody left to tell.
+        // There is no terminal left to write to.
         let _ = self.leave();
     }
 }
@@ -133,7 +133,7 @@ pub fn has_terminal() -> bool {
     io::stdin().is_terminal() && io::stdout().is_terminal() && !dumb
 }
 
-/// Writes what gives the terminal back, in one piece: nobody sees half of it.
+/// Writes what gives the terminal back, in one piece, so that no half of it is seen.
 fn give_back(output: &mut impl Write) -> io::Result<()> {
     let mut bytes = Vec::new();
     queue!(bytes, EndSynchronizedUpdate, Print(DISABLE_MOUSE), DisableBracketedPaste, Show, LeaveAlternateScreen)?;
@@ -142,7 +142,7 @@ fn give_back(output: &mut impl Write) -> io::Result<()> {
 }
 
 /// Lets a panic of this thread restore the terminal before it is reported. Panics of other threads are caught where
-/// they happen and told on the status line; a report in the middle of the picture would help nobody.
+/// they happen and shown on the status line, not in the middle of the picture.
 fn restore_on_panic() {
     let screen = thread::current().id();
     let report = panic::take_hook();
@@ -183,7 +183,7 @@ mod tests {
         let mut child = pair.slave.spawn_command(command).unwrap();
         drop(pair.slave);
         let (mut reader, mut bytes) = (pair.master.try_clone_reader().unwrap(), Vec::new());
-        // The end of a pseudo-terminal is an error to whoever reads it.
+        // Reading beyond the end of a pseudo-terminal is an error.
         let _ = reader.read_to_end(&mut bytes);
         assert_eq!(child.wait().unwrap().exit_code(), 101);
         let text = String::from_utf8_lossy(&bytes);

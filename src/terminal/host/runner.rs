@@ -15,16 +15,9 @@ use crate::{
     printing::OneLine,
     storage::Places,
     terminal::{
-        app::App,
-        config::saved_session::{SavedSession, SessionParts},
-        effect::Effect,
+        Answer, App, CoachNews, Effect, Job, Report, SavedSession, SessionParts,
         host::{events, guard::TerminalGuard, log, pace::Pace, signals},
-        tasks::{
-            Tasks,
-            event::Event,
-            recommender::{Answer, CoachNews, Job},
-            training::Report,
-        },
+        tasks::{Tasks, event::Event},
     },
 };
 
@@ -38,7 +31,7 @@ const REMEMBERED: Duration = Duration::from_secs(2);
 enum Next {
     GoOn,
     Quit,
-    /// The process was told to end by a signal.
+    /// A signal ends the process.
     Die(i32),
 }
 
@@ -84,7 +77,7 @@ struct Runner {
     session: TerminalGuard,
     tasks: Tasks,
     places: Places,
-    /// When the app was last told how much time had passed, or the program came back from being stopped.
+    /// When the app last ticked, or the program came back from being stopped.
     ticked: Instant,
     /// What was last remembered of the session, and when.
     remembered: (Option<SavedSession>, Instant),
@@ -225,7 +218,7 @@ impl Runner {
         match effect {
             Some(Effect::Quit) => return Ok(Next::Quit),
             Some(Effect::Suspend) => self.suspend()?,
-            Some(Effect::Recommend(job) | Effect::Study(job)) => self.ask(job)?,
+            Some(Effect::Ask(job)) => self.ask(job)?,
             Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
             Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
             Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
@@ -252,7 +245,7 @@ impl Runner {
         self.come_back()
     }
 
-    /// Takes the terminal again. A shot that plays goes on from where it was: nobody has seen the time between.
+    /// Takes the terminal again. A shot that plays goes on from where it was: the time between does not count.
     fn come_back(&mut self) -> io::Result<()> {
         self.ticked = Instant::now();
         self.session.enter()

@@ -1,4 +1,4 @@
-//! Colours as a terminal wants to be told of them: select graphic rendition.
+//! Colours as escape sequences: select graphic rendition (SGR).
 
 use std::fmt;
 

@@ -2,7 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use crate::terminal::capabilities::Capabilities;
+use crate::terminal::Capabilities;
 
 /// A key with its modifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +108,7 @@ pub fn keys_text(chords: impl IntoIterator<Item = Chord>, caps: Capabilities) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::capabilities::{Depth, Glyphs};
+    use crate::terminal::{Depth, Glyphs};
 
     #[test]
     fn keys_are_written_as_on_the_keyboard() {

@@ -9,8 +9,10 @@ mod section;
 
 use crossterm::event::KeyCode;
 
-pub use self::section::Section;
-use chord::Chord;
+pub use self::{
+    chord::{Chord, keys_text},
+    section::Section,
+};
 
 /// One line of a table: keys that do `A`, at times that `W` names.
 #[derive(Debug)]
@@ -103,7 +105,7 @@ pub fn works_of(pages: &[KeyPage], chord: Chord) -> Vec<(&'static str, &'static 
     let mut works = Vec::new();
     for page in pages {
         for entry in page.entries.iter().filter(|entry| entry.chords.contains(&chord)) {
-            // What all pages have is told once.
+            // What all pages have is listed once.
             if works.iter().all(|(_, known)| *known != entry.words) {
                 works.push((page.name, entry.words));
             }

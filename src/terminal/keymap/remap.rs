@@ -2,7 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use crate::terminal::keymap::chord::Chord;
+use crate::terminal::keymap::Chord;
 
 /// What the documentation says of the keys.
 pub const ABOUT: &str = "
@@ -102,7 +102,7 @@ pub fn chord(text: &str) -> Option<Chord> {
     };
     Some(match (code, modifiers) {
         (KeyCode::Tab, KeyModifiers::SHIFT) => Chord::plain(KeyCode::BackTab),
-        // Shift makes a letter a capital; of signs nobody knows what it makes.
+        // Shift makes a letter a capital; what it makes of a sign depends on the keyboard.
         (KeyCode::Char(letter), KeyModifiers::SHIFT) => Chord::char(letter.to_ascii_uppercase()),
         (code, KeyModifiers::SHIFT) => Chord::shift(code),
         (code, KeyModifiers::CONTROL) => Chord::ctrl(code),

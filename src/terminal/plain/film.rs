@@ -4,13 +4,14 @@ use crate::{
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
+        FilmScene,
         plain::speech,
-        shot::film::{FilmScene, listed, table},
+        shot::film::{listed, table},
         words::fixed,
     },
 };
 
-/// Moments at which the distances are told, s after the stroke; the end comes after them.
+/// Moments at which the distances are given, s after the stroke; the end comes after them.
 const TOLD: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 
 /// Which filmed shots there are.

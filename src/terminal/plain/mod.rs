@@ -20,9 +20,9 @@ use crate::{
     simulation::Recording,
     table::{CueBall, Layout, Side, Table},
     terminal::{
-        config::Settings,
+        Settings,
         plain::order::{HELP, Order},
-        shot::{history::History, placing::slide},
+        shot::{History, placing::slide},
     },
 };
 

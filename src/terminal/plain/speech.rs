@@ -41,11 +41,8 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
         "0.0" => "level cue".to_owned(),
         degrees => format!("cue raised {degrees} degrees"),
     };
-    let speed = format!(
-        "Speed {} metres a second, {cue_words}, direction {} degrees.",
-        fixed(cue.speed, 2),
-        fixed(cue.phi.to_degrees(), 2)
-    );
+    let speed =
+        format!("Speed {} metres a second, {cue_words}, direction {} degrees.", fixed(cue.speed, 2), cue.phi_text(2));
     let mut lines = vec![tip, speed];
     if let Some(Aim { ahead, behind, hit }) = aim {
         lines.push(format!(

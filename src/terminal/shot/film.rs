@@ -7,7 +7,7 @@ use crate::{
     physics::{CueInputs, level_stroke},
     study::filmed::{FilmedShot, Replay, bundled},
     table::{Layout, Table},
-    terminal::shot::Shot,
+    terminal::Shot,
 };
 
 /// A filmed shot as it is listed.

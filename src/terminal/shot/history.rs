@@ -1,6 +1,6 @@
 //! Undo and redo, as far back as is kept.
 
-/// Steps that are kept. An answered shot is a tenth of a megabyte, and nobody goes back further.
+/// Steps that are kept. An answered shot is a tenth of a megabyte, and players go back no further.
 const LONGEST: usize = 200;
 
 /// A value with its past and the future that was undone.

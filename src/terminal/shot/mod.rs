@@ -8,12 +8,13 @@ pub mod spin;
 
 use glam::DVec2;
 
+pub use self::{history::History, playback::Playback, spin::Spin};
+
 use crate::{
     coach::{Hit, first_hit},
     physics::{CueInputs, Impulse},
     simulation::{EventKind, Rail, Recording, ShotError},
     table::{BALLS, CueBall, Layout, Table},
-    terminal::shot::spin::Spin,
 };
 
 /// Distance of two dots of a path, m. The screen shows every second or third of them, as its sub-pixels ask for.

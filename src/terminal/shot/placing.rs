@@ -26,7 +26,7 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
     let reach = table.reach();
     for (from, along, limit) in [(start.x, direction.x, reach.x), (start.y, direction.y, reach.y)] {
         let room = if along == 0.0 { f64::INFINITY } else { ((limit.copysign(along) - from) / along).max(0.0) };
-        // The last bit of a limit that was computed from other numbers refuses nobody.
+        // A ball is not refused for the last bit of a computed limit.
         if room + TOUCHING_TOLERANCE < free {
             free = room;
             let wanted = start + step;

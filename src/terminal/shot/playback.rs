@@ -5,7 +5,7 @@ use crate::simulation::Event;
 /// Speeds of playback, the real one in the middle.
 pub const SPEEDS: [f64; 7] = [0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 const REAL: usize = 3;
-/// Seconds between two changes of the numbers on the screen while the balls move: nobody reads thirty a second, and
+/// Seconds between two changes of the numbers on the screen while the balls move: thirty a second cannot be read, and
 /// each costs bytes on a slow link.
 const READOUT_INTERVAL: f64 = 0.1;
 

@@ -6,13 +6,13 @@ use crate::{
     coach::{Doubt, Kind, Map, Margin, Risk, Scatter, Shooter, Skill},
     game::Rule,
     learning::{Policy, evaluation::SuccessRate},
-    terminal::shot::Shot,
+    terminal::Shot,
 };
 
 /// Whose advice is asked, and for what. Two are equal if they ask the same.
 #[derive(Clone, Debug)]
 pub struct CoachQuery {
-    /// A policy that somebody has trained, with its name; without one those that are bundled are asked.
+    /// A policy that a user has trained, with its name; without one the bundled ones are asked.
     pub policy: Option<(String, Arc<Policy>)>,
     /// What counts as a point.
     pub rule: Rule,
@@ -88,7 +88,7 @@ pub struct Proposal {
 pub struct Advice {
     /// The shot that it recommends, then the others that may be chosen.
     pub proposals: Vec<Proposal>,
-    /// What it has cost, where that is to be told.
+    /// What it has cost, if that is to be shown.
     pub effort: Option<Effort>,
 }
 

@@ -10,7 +10,7 @@ use crate::{
     storage::Places,
     study::filmed::FilmedShot,
     table::{Layout, Table},
-    terminal::shot::{Shot, film::FilmScene},
+    terminal::{FilmScene, Shot},
 };
 
 /// Something that is to be done.
@@ -60,7 +60,7 @@ pub struct Position {
     pub plan: bool,
     /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
     pub own: Option<CueInputs>,
-    /// Set when nobody waits for the answer any more.
+    /// Set when the answer is no longer wanted.
     pub cancel: Arc<AtomicBool>,
 }
 

@@ -2,10 +2,7 @@
 
 use crossterm::event::Event as TerminalEvent;
 
-use crate::terminal::{
-    config::SettingsReport,
-    tasks::{drills::DrillReport, recommender::Answer, training::Report},
-};
+use crate::terminal::{Answer, DrillReport, Report, SettingsReport};
 
 /// Something that the screen has to deal with.
 #[derive(Debug)]

@@ -34,16 +34,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        config::{SettingsFile, SettingsTask},
-        tasks::{
-            drills::DrillTask,
-            event::Event,
-            polling::Poll,
-            recommender::{CoachWorker, Job},
-            reel::Reel,
-            training::{Keeping, Launch, Report, Slot, Subscriptions},
-            worker::Worker,
-        },
+        CoachWorker, DrillTask, Job, Keeping, Launch, Reel, Report, SettingsFile, SettingsTask, Slot, Subscriptions,
+        tasks::{event::Event, polling::Poll, worker::Worker},
     },
 };
 
@@ -67,7 +59,7 @@ pub struct Tasks {
     practice: Option<Worker<DrillTask>>,
     /// The thread of the settings' file.
     settings: Option<Worker<SettingsTask>>,
-    /// Set when nobody waits for answers any more.
+    /// Set when answers are no longer wanted.
     is_closing: Arc<AtomicBool>,
 }
 
@@ -130,7 +122,7 @@ impl Tasks {
         Ok(())
     }
 
-    /// The screen has taken a report: whoever sent it may look again. Events never pile up before a screen that is slow.
+    /// The screen has taken a report: its sender may look again. Events never pile up before a slow screen.
     pub fn taken(&self, report: &Report) {
         let poll = match report {
             Report::Runs(_) => &self.list,
@@ -163,7 +155,7 @@ impl Tasks {
                     practice.work(task, &to_screen);
                 }
             };
-            // A thread that is gone has told so by its last report.
+            // A thread that has ended has sent its last report.
             started(&mut self.practice, "practice", work)?.give(task);
         }
         Ok(())
@@ -277,7 +269,7 @@ fn list(folder: PathBuf) -> impl FnMut() -> Option<Report> {
     }
 }
 
-/// Follows a run. The shots of the one that is watched are recorded apart, and whether it has a policy is told.
+/// Follows a run. For the one that is watched, its shots are recorded too, and whether it has a policy is reported.
 ///
 /// # Errors
 /// A thread that could not be started.
@@ -291,7 +283,7 @@ fn follow(
     let (mut table, mut examples, mut had_policy) = (None, None, None);
     Ok(move || {
         let update = follower.look();
-        // Told first, so that a run that has just finished never seems to have left none.
+        // Reported first, so that a run that has just finished never seems to have no policy.
         if slot == Slot::Main {
             let has_policy = folder.join(POLICY).exists();
             if had_policy.replace(has_policy) != Some(has_policy) {

@@ -8,10 +8,7 @@ use crate::{
         policy::kept::{self, KeepError},
         run::POLICY,
     },
-    terminal::{
-        tasks::training::NO_POLICY,
-        tasks::training::{Keeping, Kept},
-    },
+    terminal::{Keeping, Kept, tasks::training::NO_POLICY},
 };
 
 /// The policy of the run in `folder`.

@@ -1,4 +1,4 @@
-//! Looking for something again and again on a thread, as long as somebody wants to know.
+//! Polling on a thread, as long as its answers are wanted.
 
 use std::{
     io,
@@ -11,7 +11,7 @@ use std::{
     time::Duration,
 };
 
-use crate::terminal::tasks::{event::Event, training::Report};
+use crate::terminal::{Report, tasks::event::Event};
 
 /// Looks without news after which they come less often: a run that has ended seldom changes.
 const PATIENT_LOOKS: u32 = 30;

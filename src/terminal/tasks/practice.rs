@@ -15,11 +15,7 @@ use crate::{
     },
     table::Table,
     terminal::{
-        shot::{Shot, film::FilmScene},
-        tasks::{
-            drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
-            event::Event,
-        },
+        DrillReport, DrillTask, FilmScene, Loaded, Outcome, Position, Shot, Stroke, Taught, tasks::event::Event,
     },
 };
 
@@ -146,7 +142,7 @@ impl PracticeWorker {
         Ok(self.coach.insert(coach))
     }
 
-    /// Plays a stroke. The attempt is safe on the disk before it is told; how good the stroke was comes after that.
+    /// Plays a stroke. The attempt is on the disk before its result is reported; how good the stroke was comes after that.
     fn play(&mut self, stroke: Stroke, reply: &mut dyn FnMut(DrillReport)) {
         let Stroke { mut session, meant, helped, position } = stroke;
         self.remember(&mut session);
@@ -171,7 +167,7 @@ impl PracticeWorker {
         reply(DrillReport::Played(Ok(Box::new(Outcome { session: session.clone(), played, shot, next })), saved));
         let share = chance(session.skill, rule, &table, &layout, &meant).rate;
         session.attempts[number].chance = Some(share);
-        // Where the disk refuses, that has just been told.
+        // An error of the disk has just been reported.
         let _ = self.save(&session);
         reply(DrillReport::Judged(session.id.clone(), number, share));
         self.last = Some(session);
@@ -186,7 +182,7 @@ impl PracticeWorker {
     }
 }
 
-/// What is said before the first look at the disk, which nobody sees: that look comes first.
+/// Message before the first look at the disk; it is never shown, because that look comes first.
 const UNKNOWN: &str = "it is not known where to write";
 
 /// The player's skill, and how sure that is.

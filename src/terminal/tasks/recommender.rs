@@ -14,13 +14,10 @@ use crate::{
     learning::Policy,
     physics::CueInputs,
     table::{Layout, Table},
-    terminal::{
-        shot::Shot,
-        tasks::advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
-    },
+    terminal::{Advice, CoachQuery, Effort, Proposal, Shot, ShotAnalysis},
 };
 
-/// Least time between two better shots that are told: each moves all paths on the screen, which is 3 KB on a slow link, and
+/// Least time between two better shots that are reported: each moves all paths on the screen, which is 3 KB on a slow link, and
 /// nobody follows more of them.
 const TELLING: Duration = Duration::from_millis(250);
 
@@ -133,7 +130,7 @@ impl CoachWorker {
                 return;
             }
             told = Some(Instant::now());
-            // What cannot be shown is not told; the answer will say why.
+            // A shot that cannot be shown is not reported; the answer will say why.
             let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
             tell(Proposal {
                 shot: Arc::new(shot),

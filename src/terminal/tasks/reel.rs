@@ -3,7 +3,7 @@
 use crate::{
     learning::run::examples::{Example, Examples},
     table::Table,
-    terminal::shot::Shot,
+    terminal::Shot,
 };
 
 /// A set of shots, recorded.

@@ -8,7 +8,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-use crate::terminal::tasks::training::Failure;
+use crate::terminal::Failure;
 
 /// Bytes at the end of what a process says in which its last sentence is looked for.
 const LAST_BYTES: i64 = 4096;

@@ -11,7 +11,7 @@ use crate::{
         Policy,
         run::{follow::Update, list::Listing, request::Request},
     },
-    terminal::tasks::reel::Reel,
+    terminal::Reel,
 };
 
 /// Why a run's weights are of no use to the coach.

@@ -46,7 +46,7 @@ impl<T: Send + 'static> Worker<T> {
     /// Waits until everything is done.
     pub fn finish(self) {
         drop(self.queue);
-        // A panic there was told when it happened.
+        // A panic there was reported when it happened.
         let _ = self.thread.join();
     }
 }

@@ -7,7 +7,7 @@ use ratatui::{
     symbols::pixel::{OCTANTS, SEXTANTS},
 };
 
-use crate::terminal::capabilities::Glyphs;
+use crate::terminal::Glyphs;
 
 /// Half blocks by the bits of their upper (1) and lower (2) half.
 const HALVES: [char; 4] = [' ', '▀', '▄', '█'];

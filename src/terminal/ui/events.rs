@@ -5,8 +5,9 @@ use ratatui::{layout::Rect, text::Span};
 use crate::{
     simulation::Event,
     terminal::{
-        shot::{Shot, playback::passed},
-        ui::{Ui, panel::draw_title, text::write_right},
+        Shot,
+        shot::playback::passed,
+        ui::{Ui, draw_title, write_right},
         words::{event_words, fixed},
     },
 };

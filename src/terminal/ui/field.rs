@@ -7,12 +7,8 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    capabilities::{Capabilities, Glyphs},
-    ui::{
-        Ui,
-        canvas::{Canvas, Ink, sub_pixels},
-        theme::Theme,
-    },
+    Capabilities, Glyphs,
+    ui::{Canvas, Ink, Theme, Ui, canvas::sub_pixels},
 };
 
 /// What is at a place.
@@ -110,7 +106,7 @@ pub fn spot_mark(theme: &Theme, weight: u8) -> Mark {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::capabilities::Depth;
+    use crate::terminal::Depth;
 
     /// The sub-pixels, or letters, of a face that a spot at `place` covers.
     fn covered(place: DVec2, glyphs: Glyphs) -> Vec<(i32, i32)> {

@@ -7,10 +7,7 @@ use crossterm::event::{
 use ratatui::{layout::Rect, style::Modifier};
 use unicode_segmentation::UnicodeSegmentation;
 
-use crate::terminal::ui::{
-    Ui,
-    text::{columns, ending},
-};
+use crate::terminal::ui::{Ui, columns, ending};
 
 /// What the user gives: a key, or text from the clipboard.
 #[derive(Clone, Copy, Debug)]
@@ -178,11 +175,7 @@ mod tests {
     use ratatui::buffer::Buffer;
 
     use super::*;
-    use crate::terminal::{
-        capabilities::{Capabilities, Depth, Glyphs},
-        keymap::remap::Keys,
-        ui::theme::Theme,
-    };
+    use crate::terminal::{Capabilities, Depth, Glyphs, Keys, ui::Theme};
 
     /// `text` with a bar where the cursor is, after these keys.
     fn after(text: &str, keys: &[(KeyModifiers, KeyCode)]) -> String {

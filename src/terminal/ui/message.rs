@@ -1,4 +1,4 @@
-//! What is told: news, answers, refusals and failures.
+//! Messages to the player: news, answers, refusals and failures.
 
 /// What kind of news a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

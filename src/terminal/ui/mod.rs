@@ -21,8 +21,22 @@ pub mod toasts;
 
 use ratatui::buffer::Buffer;
 
-use self::theme::Theme;
-use super::{capabilities::Capabilities, keymap::remap::Keys};
+pub use self::{
+    canvas::{Canvas, Ink},
+    events::draw_events,
+    field::{Dot, draw_field, face_in, spot_mark},
+    input::{TextField, Typed, is_typed},
+    message::{Message, Tone},
+    panel::{draw_nothing, draw_title, frame, write_paragraphs},
+    sight::draw_sight,
+    spin::draw_spin,
+    status_line::{draw_question, draw_status},
+    table::{Spot, TableView, ball_at, cue_sign, draw_table},
+    text::{columns, cut, end_of, ending, shorten, wrap, write_right},
+    theme::Theme,
+    tip::{draw_face, draw_tip},
+};
+use crate::terminal::{Capabilities, Keys};
 
 /// The drawing context: where to draw, with which colours and characters, and the user's own keys to name.
 #[derive(Debug)]

@@ -3,11 +3,8 @@
 use ratatui::{layout::Rect, style::Style, symbols::border, text::Line, widgets::Block};
 
 use crate::terminal::{
-    capabilities::Capabilities,
-    ui::{
-        Ui,
-        text::{cut, wrap},
-    },
+    Capabilities,
+    ui::{Ui, cut, wrap},
 };
 
 /// Draws a panel's first row, a rule with its title, and gives the rest of the panel.

@@ -6,13 +6,7 @@ use crate::{
     coach::Hit,
     terminal::{
         shot::Meeting,
-        ui::{
-            Ui,
-            canvas::Ink,
-            field::{Mark, draw_field},
-            panel::draw_title,
-            theme::Theme,
-        },
+        ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark},
         words::rail_name,
     },
 };
@@ -110,11 +104,7 @@ fn draw_hit(hit: &Hit, area: Rect, ui: &mut Ui) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{
-        capabilities::{Capabilities, Depth, Glyphs},
-        keymap::remap::Keys,
-        ui::theme::Theme,
-    };
+    use crate::terminal::{Capabilities, Depth, Glyphs, Keys, ui::Theme};
     use glam::DVec2;
     use ratatui::buffer::Buffer;
 

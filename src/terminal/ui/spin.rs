@@ -3,8 +3,8 @@
 use ratatui::layout::Rect;
 
 use crate::terminal::{
-    shot::spin::Spin,
-    ui::{Ui, field::face_in, panel::draw_title, text::write_right, tip::draw_face},
+    shot::Spin,
+    ui::{Ui, draw_face, draw_title, face_in, write_right},
     words::fixed,
 };
 

@@ -3,11 +3,8 @@
 use glam::DVec2;
 
 use crate::terminal::{
-    capabilities::Glyphs,
-    ui::{
-        canvas::{Canvas, Ink, sub_pixels},
-        geometry::Mapping,
-    },
+    Glyphs, Mapping,
+    ui::{Canvas, Ink, canvas::sub_pixels},
 };
 
 /// A ball is drawn a little larger than it is, since its corners are cut.

@@ -5,12 +5,7 @@ use ratatui::{
     widgets::{Clear, Widget},
 };
 
-use crate::terminal::ui::{
-    Ui,
-    input::TextField,
-    message::{Message, Tone},
-    text::{columns, cut, wrap},
-};
+use crate::terminal::ui::{Message, TextField, Tone, Ui, columns, cut, wrap};
 
 /// Most rows that a long sentence on the status line may take, and a question with what was answered wrongly.
 const STATUS_ROWS: u16 = 3;

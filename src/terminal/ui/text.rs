@@ -9,7 +9,7 @@ use ratatui::{
 };
 use unicode_segmentation::UnicodeSegmentation;
 
-use crate::terminal::capabilities::Capabilities;
+use crate::terminal::Capabilities;
 
 /// Columns that drawing `text` takes.
 pub fn columns(text: &str) -> usize {
@@ -112,7 +112,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::terminal::capabilities::{Depth, Glyphs};
+    use crate::terminal::{Depth, Glyphs};
 
     const UNICODE: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: true };
     const ASCII: Capabilities = Capabilities { unicode: false, ..UNICODE };

@@ -6,12 +6,7 @@ use ratatui::layout::Rect;
 use crate::{
     physics::CueInputs,
     table::Table,
-    terminal::ui::{
-        Ui,
-        canvas::Ink,
-        field::{Dot, Mark, draw_field, face_in, spot_mark},
-        panel::draw_title,
-    },
+    terminal::ui::{Dot, Ink, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark},
 };
 
 /// Radius of the tip's contact as it is drawn, in ball radii; a real one is smaller than a sub-pixel.

@@ -22,7 +22,7 @@ pub struct Toast {
     left: f64,
 }
 
-/// The toasts that are shown, and what was told before.
+/// The toasts that are shown, and the messages before them.
 #[derive(Debug, Default)]
 pub struct Toasts {
     shown: Vec<Toast>,
@@ -75,7 +75,7 @@ impl Toasts {
         self.past.iter().map(String::as_str)
     }
 
-    /// What has been told since this was asked last, for the log.
+    /// The messages since the last call, for the log.
     pub fn take_unwritten(&mut self) -> Vec<String> {
         std::mem::take(&mut self.unwritten)
     }

@@ -89,9 +89,14 @@ fn conversation() {
         said.extend(line);
         said.push(b'\n');
     }
+    // Some lines ask the coach, who is to answer soon.
+    let config = tempfile::tempdir().unwrap();
+    std::fs::create_dir(config.path().join("carom")).unwrap();
+    std::fs::write(config.path().join("carom/config.toml"), "think_ms = 100\n").unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_carom"))
         .arg("--plain")
         .envs(home())
+        .env("XDG_CONFIG_HOME", config.path())
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()

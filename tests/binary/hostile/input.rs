@@ -35,24 +35,36 @@ const CUT: [&str; 27] = [
     "\x1b[200~a paste without an end",
 ];
 
+/// Programs that run at the same time.
+const AT_ONCE: usize = 4;
+
 #[test]
 fn ctrl_c_is_heard_after_every_cut_sequence() {
-    for sequence in CUT {
-        for pause in [0, 300] {
-            let mut session = Session::start(80, 24);
-            session.wait_for(OPENING);
-            session.send(sequence);
-            thread::sleep(Duration::from_millis(pause));
-            session.send("\x03");
-            assert!(session.assert_left_without_trace().success(), "{sequence:?} {pause}");
+    let check = |sequence: &str, pause: u64| {
+        let mut session = Session::start(80, 24);
+        session.wait_for(OPENING);
+        session.send(sequence);
+        thread::sleep(Duration::from_millis(pause));
+        session.send("\x03");
+        assert!(session.assert_left_without_trace().success(), "{sequence:?} {pause}");
+    };
+    // Each of them waits most of the time: several at once.
+    thread::scope(|scope| {
+        for sequences in CUT.chunks(CUT.len().div_ceil(AT_ONCE)) {
+            scope.spawn(move || {
+                for sequence in sequences {
+                    check(sequence, 0);
+                    check(sequence, 300);
+                }
+            });
         }
-    }
+    });
 }
 
 #[test]
 fn other_keys_are_heard_too() {
     // How long each may stand still on its way: a tenth of a second, and a paste ten times as long.
-    for (sequence, pause) in [("\x1b[<", 300), ("\x1b[<0;", 300), ("\x1b[?", 300), ("\x1b[200~half a paste", 1500)] {
+    let check = |sequence: &str, pause: u64| {
         let mut session = Session::start(80, 24);
         session.wait_for(OPENING);
         session.send(sequence);
@@ -61,7 +73,13 @@ fn other_keys_are_heard_too() {
         session.wait_for("Placing the balls");
         session.send("\x03");
         assert!(session.assert_left_without_trace().success());
-    }
+    };
+    thread::scope(|scope| {
+        for (sequence, pause) in [("\x1b[<", 300), ("\x1b[<0;", 300), ("\x1b[?", 300), ("\x1b[200~half a paste", 1500)]
+        {
+            scope.spawn(move || check(sequence, pause));
+        }
+    });
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Lines that are slow, stand still, or are cut.
 
-use std::{fs, time::Duration};
+use std::{
+    fs, thread,
+    time::{Duration, Instant},
+};
 
 use crate::{
     terminal::{OPENING, PATIENCE, REST, Session, carom},
@@ -49,20 +52,68 @@ fn without_a_signal_too_the_end_of_the_line_is_the_end() {
     session.ends_within(SOON);
 }
 
+/// Most bytes of a picture, and most that the screen may be late, s.
+const PICTURE: u64 = 3_000;
+const LATE: f64 = 0.5;
+
+/// Takes nothing until the line is full, so that the program writes no more; gives the bytes that it has written so far, to
+/// whatever.
+fn fill(session: &Session) -> u64 {
+    let (mut written, mut silent) = (session.written(), 0);
+    let start = Instant::now();
+    while silent < 10 {
+        assert!(start.elapsed() < PATIENCE, "the line is never full");
+        thread::sleep(Duration::from_millis(50));
+        let now = session.written();
+        silent = if now == written { silent + 1 } else { 0 };
+        written = now;
+    }
+    written.unwrap()
+}
+
+/// Takes what comes until the screen shows something; gives the bytes that came before.
+fn taken_until(session: &mut Session, what: &str, is_shown: impl Fn(&Session) -> bool) -> u64 {
+    let (start, before) = (Instant::now(), session.bytes);
+    while !is_shown(session) {
+        assert!(start.elapsed() < PATIENCE, "never came: {what}\n{}", session.screen().contents());
+        session.take(Duration::from_millis(20)).unwrap();
+    }
+    (session.bytes - before) as u64
+}
+
+/// The moment of the shot that the header shows, and the shot's length, s.
+fn shown(session: &Session) -> Option<(f64, f64)> {
+    let header = session.screen().rows(0, 120).next()?;
+    let (before, behind) = header.split_once('/')?;
+    let number = |word: Option<&str>| word?.trim().parse().ok();
+    Some((number(before.split_whitespace().next_back())?, number(behind.split_whitespace().next())?))
+}
+
 #[test]
 fn on_a_slow_line_pictures_are_left_out_and_a_key_is_answered_as_soon_as_the_line_allows() {
-    let mut session = begun(&["\r", " "]);
-    // At 2 KB/s, of which playback could fill three times as many.
-    for _ in 0..40 {
-        let start = std::time::Instant::now();
-        let bytes = session.take(Duration::from_millis(100)).map_or(0, |bytes| bytes.len());
-        std::thread::sleep(Duration::from_millis(bytes as u64 / 2).saturating_sub(start.elapsed()));
-    }
-    let before = session.bytes;
+    let mut session = begun(&["\r"]);
+    session.wait_for_advice();
+    session.settle(REST);
+    let Some(before) = session.written() else { return };
+    session.send(" ");
+    let start = Instant::now();
+    let held = fill(&session) - before;
+    // A second more, in which thirty pictures would come.
+    thread::sleep(Duration::from_secs(1));
+    // What the line holds shows the past; the picture that follows it shows the present.
+    let is_late = |(moment, _): (f64, f64)| -> bool { start.elapsed().as_secs_f64() - moment > LATE };
+    let bytes = taken_until(&mut session, "the present", |session| shown(session).is_some_and(|shown| !is_late(shown)));
+    assert!(bytes < held + PICTURE, "{bytes} bytes came, of which the line held {held}");
+    let (moment, length) = shown(&session).unwrap();
+    assert!(moment < length, "the shot goes on: {moment} of {length} s");
+    // A key that is pressed while the line is full is answered by the first picture that it lets through.
+    let before = session.written().unwrap();
+    let held = fill(&session) - before;
+    session.send(" ");
+    let bytes = taken_until(&mut session, "the pause", |session| session.screen().contents().contains('‖'));
+    assert!(bytes < held + PICTURE, "{bytes} bytes came before the answer, of which the line held {held}");
     session.send("q");
     assert!(session.assert_left_without_trace().success());
-    // What a pseudo-terminal holds, and a picture.
-    assert!(session.bytes - before < 16_000, "{} bytes were on their way", session.bytes - before);
 }
 
 #[test]
@@ -72,7 +123,7 @@ fn on_a_line_that_stands_still_the_program_can_be_ended_and_gives_the_terminal_b
     let (mut written, mut silent) = (session.written(), 0);
     for _ in 0..60 {
         session.send("v");
-        std::thread::sleep(Duration::from_millis(50));
+        thread::sleep(Duration::from_millis(50));
         let now = session.written();
         silent = if now.is_some() && now == written { silent + 1 } else { 0 };
         written = now;
@@ -99,7 +150,6 @@ fn a_line_that_is_cut_while_a_run_is_watched_ends_the_watching() {
     command.arg(&run);
     let mut session = Session::start_command(command, 120, 40);
     session.wait_for("finished");
-    session.settle(REST);
     session.cut();
     assert!(!session.ends_within(PATIENCE).success());
 }

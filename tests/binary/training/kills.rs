@@ -1,26 +1,42 @@
 //! Runs that are killed at any moment and go on as if they had not been.
+//!
+//! `CAROM_KILLS=500 cargo test --profile quick --test binary training::kills -- --nocapture` kills until 500 have hit.
 
-use std::{path::Path, time::Duration};
+use std::{env, path::Path, time::Duration};
 
 use super::common::{Files, done, folder, start};
 
-/// A run of two seconds or more with a checkpoint every hundredth.
-const LONG: &str = "train --config small.toml --steps 240000 --evaluate-every 1000 --evaluation-layouts 20 --seed 9";
+/// A run with a checkpoint every twentieth.
+const LONG: &str = "train --config small.toml --steps 20000 --evaluate-every 1000 --evaluation-layouts 20";
 
-/// Fewest kills that have to hit the program at work, and most that are tried.
+/// Kills that have to hit the program at work, and most that are tried on one run.
 const KILLS: [u32; 2] = [8, 40];
 
 #[test]
 fn a_run_that_is_killed_at_random_moments_ends_in_the_same_files() {
+    let wanted = env::var("CAROM_KILLS").ok().map_or(KILLS[0], |kills| kills.parse().expect("CAROM_KILLS: a number"));
+    let (mut hits, mut runs) = (0, 0);
+    while hits < wanted {
+        runs += 1;
+        let before = hits;
+        hits += hits_on_one_run(runs, wanted - hits);
+        assert!(hits > before, "run {runs} was hit by no kill at all");
+        println!("{hits} kills have hit {runs} runs, each of which ended in the files of a run that nobody killed");
+    }
+}
+
+/// Kills the run of this seed again and again, until `wanted` have hit or it has ended; gives how many have hit. What it ends
+/// in is what it ends in without.
+fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
     let folder = folder();
     let here = folder.path();
-    done(here, &format!("{LONG} --run whole"));
+    let mut whole = start(here, &format!("{LONG} --seed {seed} --run whole"));
     let killed = here.join("killed");
     // Delays that differ and are spread evenly (multiples of the golden ratio); the machine's own timing does the rest.
     let delays = (1..=KILLS[1]).map(|kill| Duration::from_secs_f64(0.004 + 0.15 * (f64::from(kill) * 0.618).fract()));
     let mut hits = 0;
     for delay in delays {
-        let mut child = start(here, &resume_or_start(&killed));
+        let mut child = start(here, &resume_or_start(&killed, seed));
         std::thread::sleep(delay);
         child.kill().unwrap();
         if child.wait().unwrap().code().is_some() {
@@ -28,15 +44,19 @@ fn a_run_that_is_killed_at_random_moments_ends_in_the_same_files() {
             break;
         }
         hits += 1;
+        if hits == wanted {
+            break;
+        }
     }
-    done(here, &resume_or_start(&killed));
-    assert!(hits >= KILLS[0], "{hits}");
-    Files::of(&here.join("whole")).assert_same(&Files::of(&killed), &format!("after {hits} kills"));
+    done(here, &resume_or_start(&killed, seed));
+    assert!(whole.wait().unwrap().success());
+    Files::of(&here.join("whole")).assert_same(&Files::of(&killed), &format!("seed {seed}, after {hits} kills"));
+    hits
 }
 
 /// A run that is killed before its first checkpoint is none: it can be started again in the same folder.
-fn resume_or_start(run: &Path) -> String {
+fn resume_or_start(run: &Path, seed: u32) -> String {
     let is_run =
         ["checkpoint.safetensors", "checkpoint-previous.safetensors"].iter().any(|name| run.join(name).exists());
-    if is_run { "train --resume killed".to_owned() } else { format!("{LONG} --run killed") }
+    if is_run { "train --resume killed".to_owned() } else { format!("{LONG} --seed {seed} --run killed") }
 }

@@ -90,7 +90,7 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
 fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
     let folder = folder();
     let here = folder.path();
-    done(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "300000")));
+    done(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "60000")));
     let list = |state: &str| {
         let list = done(here, "train --list . --json").out;
         let run = lines(&list).remove(0);
@@ -128,49 +128,57 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
     let folder = folder();
     let here = folder.path();
     done(here, &format!("{SHORT} --run run"));
-    let run = here.join("run");
-    let (metrics, config) = (run.join("metrics.jsonl"), run.join("config.json"));
-    let (lines, settings) = (fs::read_to_string(&metrics).unwrap(), fs::read_to_string(&config).unwrap());
-    let look = |what: &str| {
-        let seen = carom(here, "watch run");
-        assert!(seen.err.contains(what), "{what}: {}", seen.err);
-        seen
-    };
-    fs::write(&metrics, &lines[..lines.len() - 20]).unwrap();
-    assert_eq!(look("the last line of metrics.jsonl is cut off").out.lines().count(), 9);
-    fs::write(&metrics, lines.replacen("time/fps", "time/other", 2)).unwrap();
-    look("2 lines of metrics.jsonl cannot be read");
-    fs::write(&metrics, "").unwrap();
-    assert!(look("emptied or cut off: it ends after 0 of the 640 shots").out.is_empty());
-    let half = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect::<String>();
-    fs::write(&metrics, half).unwrap();
-    look("emptied or cut off: it ends after 320 of the 640 shots");
-    fs::remove_file(&metrics).unwrap();
-    assert!(look("metrics.jsonl is missing").out.is_empty());
-    fs::create_dir(&metrics).unwrap();
-    look("metrics.jsonl cannot be read");
-    fs::remove_dir(&metrics).unwrap();
-    fs::write(&metrics, &lines).unwrap();
+    let lines = fs::read_to_string(here.join("run/metrics.jsonl")).unwrap();
+    let settings = fs::read_to_string(here.join("run/config.json")).unwrap();
     let newer = settings.replacen("\"version\": \"0", "\"version\": \"90", 1);
-    fs::write(&config, &newer).unwrap();
-    look("which is newer than this one");
-    fs::write(&config, newer.replacen("\"reward\": \"r3\"", "\"reward\": \"r9\"", 1)).unwrap();
-    assert_eq!(look("config.json is of carom 90").out.lines().count(), 10);
+    let unknown = newer.replacen("\"reward\": \"r3\"", "\"reward\": \"r9\"", 1);
+    let half = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect::<String>();
+    let unread = lines.replacen("time/fps", "time/other", 2);
+    // Which file of the run is what, what is said of it, and how many lines are shown where that matters.
+    let cases: [(&str, &str, &str, Option<usize>); 8] = [
+        ("metrics.jsonl", &lines[..lines.len() - 20], "the last line of metrics.jsonl is cut off", Some(9)),
+        ("metrics.jsonl", &unread, "2 lines of metrics.jsonl cannot be read", None),
+        ("metrics.jsonl", "", "emptied or cut off: it ends after 0 of the 640 shots", Some(0)),
+        ("metrics.jsonl", &half, "emptied or cut off: it ends after 320 of the 640 shots", None),
+        ("config.json", &newer, "which is newer than this one", None),
+        ("config.json", &unknown, "config.json is of carom 90", Some(10)),
+        ("config.json", "{", "config.json cannot be read", None),
+        ("state.json", "[]", "state.json cannot be read", None),
+    ];
+    let copy = |name: &str| {
+        let run = here.join(name);
+        fs::create_dir(&run).unwrap();
+        for entry in fs::read_dir(here.join("run")).unwrap() {
+            let entry = entry.unwrap();
+            fs::copy(entry.path(), run.join(entry.file_name())).unwrap();
+        }
+        run
+    };
+    let look = |name: &str, what: &str, count: Option<usize>| {
+        let seen = carom(here, &format!("watch {name}"));
+        assert!(seen.err.contains(what), "{what}: {}", seen.err);
+        assert!(count.is_none_or(|count| seen.out.lines().count() == count), "{what}: {}", seen.out);
+    };
+    // Whoever looks on waits a second for what may still come: all at once.
+    thread::scope(|scope| {
+        for (n, (file, text, what, count)) in cases.into_iter().enumerate() {
+            let name = format!("case-{n}");
+            fs::write(copy(&name).join(file), text).unwrap();
+            scope.spawn(move || look(&name, what, count));
+        }
+        fs::remove_file(copy("missing").join("metrics.jsonl")).unwrap();
+        scope.spawn(|| look("missing", "metrics.jsonl is missing", Some(0)));
+        let folder = copy("folder").join("metrics.jsonl");
+        fs::remove_file(&folder).unwrap();
+        fs::create_dir(&folder).unwrap();
+        scope.spawn(|| look("folder", "metrics.jsonl cannot be read", None));
+    });
     let list = done(here, "train --list .");
-    assert!(
-        list.err.contains("run: config.json is of carom 90") && !list.out.contains("ddpg"),
-        "{}{}",
-        list.out,
-        list.err
-    );
-    fs::write(&config, "{").unwrap();
-    look("config.json cannot be read");
-    fs::write(run.join("state.json"), "[]").unwrap();
-    look("state.json cannot be read");
+    assert!(list.err.contains("case-5: config.json is of carom 90"), "{}", list.err);
+    assert!(!list.out.lines().any(|line| line.contains("case-5") && line.contains("ddpg")), "{}", list.out);
     // Numbers that are none have names, and nobody stumbles over them.
-    fs::write(&config, settings).unwrap();
     let odd = lines.replacen("\"train/critic_loss\":0", "\"train/critic_loss\":\"NaN\",\"was\":0", 1);
-    fs::write(&metrics, odd).unwrap();
+    fs::write(here.join("run/metrics.jsonl"), odd).unwrap();
     let json = carom(here, "watch run --json");
     assert!(json.out.contains("\"train/critic_loss\":\"NaN\""), "{}", json.out);
 }

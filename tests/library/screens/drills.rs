@@ -51,6 +51,17 @@ fn the_library_of_own_positions() {
 }
 
 #[test]
+fn attempts_that_were_noted_together_have_no_best_run() {
+    let mut noted = session(1, "opening", Goal::Free, "xxx--");
+    let positions = [exercise("opening", "From the opening")];
+    Player::at_library(TRUE_COLOUR, &positions, &[noted.clone()]).press("Left").shows(&["3 of 5, 60 %, best run 3"]);
+    noted.unordered = true;
+    let player = Player::at_library(TRUE_COLOUR, &positions, &[noted]).press("Left");
+    player.shows(&["3/5   -", "you: 3 of 5, 60 %"]).is_silent_on("best run");
+    player.press("r").shows(&["high run  -"]);
+}
+
+#[test]
 fn every_bundled_exercise_is_listed_and_can_be_opened() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]);
     let library = player.app.drills().catalogue.library().clone();
@@ -88,11 +99,11 @@ fn a_stroke_is_set_with_keys() {
     check("aiming", &player);
     player.says("yellow 100 % full");
     let set = player.press("S-Left Left Left Left C-Right h h k K Up S-Up +");
-    for part in ["-84.41°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "2.3° up"] {
+    for part in ["275.59°", "1.0 mm left", "3.5 mm up", "3.10 m/s", "2.3° up"] {
         set.says(part);
     }
     let full = set.press("Tab 0");
-    full.says("-90.00°").says("side   middle");
+    full.says("270.00°").says("side   middle");
     let plain = Player::practising(NO_COLOUR).press("S-Left");
     plain.is_plain().shows(&["yellow 74 % full, left side, 12 cm", "no attempt yet"]);
     let plain = Player::practising(ASCII).press("S-Right S-Right");
@@ -104,6 +115,21 @@ fn a_stroke_is_set_with_keys() {
     }
     let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");
     far.says("further out the tip would slip off the ball");
+}
+
+#[test]
+fn a_text_that_has_no_room_is_read_page_by_page() {
+    let is_page = |player: &Player, title: &str, end: bool| {
+        let text = player.text(80, 24);
+        assert!(text.contains(title) && text.contains("rest.") == end, "{text}");
+    };
+    let player = Player::practising(TRUE_COLOUR);
+    is_page(&player, "Aim, 1 of 2: PgDn", false);
+    let player = player.press("PageDown");
+    is_page(&player, "Aim, 2 of 2: PgDn", true);
+    is_page(&player.press("PageDown"), "Aim, 1 of 2: PgDn", false);
+    let large = Player::practising(TRUE_COLOUR).text(120, 40);
+    assert!(large.contains("rest.") && !large.contains("PgDn"), "{large}");
 }
 
 #[test]

@@ -22,9 +22,16 @@ pub fn key(word: &str) -> KeyEvent {
         "BackTab" => KeyCode::BackTab,
         "Delete" => KeyCode::Delete,
         "Home" => KeyCode::Home,
+        "PageDown" => KeyCode::PageDown,
+        "PageUp" => KeyCode::PageUp,
         "Space" => KeyCode::Char(' '),
         function if function.len() > 1 && function.starts_with('F') => KeyCode::F(function[1..].parse().unwrap()),
-        letter => KeyCode::Char(letter.chars().next().unwrap()),
+        letter => {
+            let mut letters = letter.chars();
+            let first = letters.next().unwrap();
+            assert_eq!(letters.next(), None, "no key is called {letter}");
+            KeyCode::Char(first)
+        }
     };
     KeyEvent::new(code, modifiers)
 }

@@ -207,8 +207,8 @@ impl Player {
 impl Player {
     fn take(&mut self, effect: Effect) {
         match effect {
-            Effect::Recommend(job) => self.asked = Some(job),
-            Effect::Study(job) => self.study = Some(job),
+            Effect::Ask(job) if job.shot.is_some() => self.study = Some(job),
+            Effect::Ask(job) => self.asked = Some(job),
             Effect::Copy(text) => self.copied.push(text),
             Effect::Drill(tasks) => self.run(tasks),
             Effect::Settings(mut task) => {
@@ -220,7 +220,7 @@ impl Player {
         }
     }
 
-    /// Does errands, and what comes of them.
+    /// Does tasks, and what comes of them.
     pub fn run(&mut self, tasks: Vec<DrillTask>) {
         for task in tasks {
             let mut reports = Vec::new();

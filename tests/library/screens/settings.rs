@@ -104,7 +104,7 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \"dark\"\nspeed = 4.0\n").unwrap();
     let player = player.press("Right");
-    player.says("has been changed by somebody else; it is read anew");
+    player.says("has been changed by another program and was read again");
     assert_eq!(player.settings_text(), "theme = \"dark\"\nspeed = 4.0\n");
     assert_eq!(player.app.playback().speed(), 4.0);
     player.wait(60.0).shows(&["1 changed", "theme      ◂ dark ▸", "speed     •  4.0"]);

@@ -324,7 +324,7 @@ fn a_reward_that_is_no_success_is_not_called_one() {
 #[test]
 fn abandoning_asks_first_and_says_what_is_lost() {
     let player = Player::watching(TRUE_COLOUR).press("A");
-    check("abandon", &player);
+    player.shows(&["delete its folder?", "1,200,000 shots are lost", "held-out reward of 0.874", "y yes   n no"]);
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Question));
     let player = player.press("x q");
     assert!(player.effects.is_empty(), "q is no here, and leaves nothing");

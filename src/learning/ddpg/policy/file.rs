@@ -39,7 +39,7 @@ pub struct Origin {
     pub reward: Reward,
     /// What its actions mean ([`ActionSpace::meaning`](crate::learning::ddpg::action::ActionSpace::meaning)).
     pub actions: String,
-    /// What its networks are told ([`FEATURE_VERSION`]).
+    /// Version of the input features ([`FEATURE_VERSION`]).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,

@@ -1,4 +1,4 @@
-//! What a policy earns on layouts that nobody has trained on.
+//! What a policy earns on held-out layouts.
 
 use super::{Policy, Proposal};
 use crate::{

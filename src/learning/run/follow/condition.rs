@@ -34,7 +34,7 @@ pub enum Condition {
     Stalled(Duration),
     /// Its process is gone without having said so: it was killed, or the machine stopped.
     Died,
-    /// It is not finished and nobody works on it; how it ended is not known.
+    /// It is not finished and no process works on it; how it ended is not known.
     Interrupted,
     /// Its folder has been removed.
     Removed,
@@ -46,7 +46,7 @@ impl Condition {
         self == other || matches!((self, other), (Self::Stalled(_), Self::Stalled(_)))
     }
 
-    /// Whether nothing more will come unless somebody goes on with the run.
+    /// Whether nothing more will come unless the run is resumed.
     pub const fn is_over(self) -> bool {
         match self {
             Self::Is(phase) => phase.is_over(),

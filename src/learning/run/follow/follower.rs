@@ -47,7 +47,7 @@ pub struct Follower {
     said: u64,
     signs: Signs,
     condition: Condition,
-    /// What is wrong with each file, in the order in which it is told.
+    /// What is wrong with each file, in the order in which it is reported.
     troubles: [Option<String>; 3],
     told: Vec<String>,
 }

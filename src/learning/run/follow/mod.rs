@@ -106,7 +106,7 @@ impl Followed {
         self.history.best().into_iter().chain(self.held_out()).max_by(f64::total_cmp)
     }
 
-    /// Time until all shots have been played, if it goes on as on average so far; none where nobody trains.
+    /// Time until all shots have been played, if it goes on as on average so far; none while it does not train.
     pub fn time_left(&self) -> Option<Duration> {
         let standing = self.standing.as_ref().filter(|_| !self.condition.is_over())?;
         let left = self.config.as_ref()?.plan.shots.saturating_sub(standing.shots);

@@ -1,4 +1,4 @@
-//! Whether a file has changed, told without reading it.
+//! Whether a file has changed, found without reading it.
 
 use std::{
     fs::Metadata,

@@ -1,4 +1,4 @@
-//! The end of a file of metrics that somebody else writes: only whole lines, each once, whatever happens to the file.
+//! The end of a file of metrics that another process writes: only whole lines, each once, whatever happens to the file.
 
 use std::{
     fs::File,

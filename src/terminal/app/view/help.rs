@@ -9,13 +9,11 @@ use ratatui::{
 use crate::{
     learning::run::quantity::Quantity,
     terminal::{
-        app::{
-            App, Overlay,
-            bindings::{Condition, KeyContext, bindings},
-        },
-        keymap::{Section, chord::keys_text},
-        pages::{PageArea, drills::keys::DrillContext},
-        ui::{Ui, text::wrap},
+        App, Condition, DrillContext, KeyContext, Overlay,
+        app::bindings::bindings,
+        keymap::{Section, keys_text},
+        pages::PageArea,
+        ui::{Ui, wrap},
     },
 };
 

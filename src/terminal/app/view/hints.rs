@@ -6,16 +6,9 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    app::{
-        App,
-        bindings::{Action, Bound, Condition, KeyContext, bindings},
-        palette_keys::PaletteAction,
-    },
-    keymap::{
-        Section,
-        chord::{Chord, keys_text},
-    },
-    pages::settings::keys::SettingsContext,
+    Action, App, Condition, KeyContext, PaletteAction, SettingsContext,
+    app::bindings::{Bound, bindings},
+    keymap::{Chord, Section, keys_text},
     ui::Ui,
 };
 

@@ -11,7 +11,7 @@ mod too_small;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
-use crate::terminal::{app::App, pages::PageArea, ui::Ui};
+use crate::terminal::{App, pages::PageArea, ui::Ui};
 
 pub use self::{
     help::end as help_end,

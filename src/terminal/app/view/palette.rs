@@ -8,18 +8,8 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    app::{
-        App,
-        palette::{Command, CommandPalette},
-    },
-    ui::{
-        Ui,
-        list::in_view,
-        message::Message,
-        panel::frame,
-        status_line::draw_status,
-        text::{shorten, write_right},
-    },
+    App, Command, CommandPalette,
+    ui::{Message, Ui, draw_status, frame, list::in_view, shorten, write_right},
 };
 
 /// Columns of the box at most, and beside it at least; its rows at most.

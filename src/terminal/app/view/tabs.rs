@@ -2,12 +2,7 @@
 
 use ratatui::{layout::Rect, style::Modifier, text::Span};
 
-use crate::terminal::{
-    app::{App, bindings::chord_of_tab},
-    effect::PageId,
-    keymap::chord::keys_text,
-    ui::Ui,
-};
+use crate::terminal::{App, PageId, app::bindings::chord_of_tab, keymap::keys_text, ui::Ui};
 
 /// Columns of the screen from which on neighbours do not share a blank, so that the open tab has its own on either side, and
 /// from which on each tab has its key.

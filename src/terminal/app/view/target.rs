@@ -3,7 +3,7 @@
 use ratatui::layout::{Position, Rect};
 
 use super::{is_too_small, page_area, tabs::tabs};
-use crate::terminal::{app::App, effect::PageId, pages::Target};
+use crate::terminal::{App, PageId, pages::Target};
 
 /// Something on the screen that answers to the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]

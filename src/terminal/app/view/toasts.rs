@@ -7,12 +7,8 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    app::App,
-    ui::{
-        Ui,
-        panel::frame,
-        text::{columns, cut, wrap},
-    },
+    App,
+    ui::{Ui, columns, cut, frame, wrap},
 };
 
 /// Columns of a box at most, and at most of a hundred of the screen's.

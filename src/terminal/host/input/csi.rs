@@ -7,7 +7,7 @@ use crate::terminal::host::input::{
     mouse,
 };
 
-/// What `ESC [ parameters last` says; `None` where it is an answer to somebody else, or nothing that is known.
+/// What `ESC [ parameters last` says; `None` where it is unknown, or an answer to another program.
 pub fn event(parameters: &[u8], last: u8) -> Option<Event> {
     let text = std::str::from_utf8(parameters).ok()?;
     if let Some(report) = text.strip_prefix('<') {

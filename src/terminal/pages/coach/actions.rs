@@ -8,19 +8,50 @@ use crate::{
     game::Point,
     table::{BALLS, CueBall, Layout, LayoutError, Opening, Side},
     terminal::{
-        effect::Effect,
-        pages::coach::{CoachPage, Mode, Position, keys::CoachAction as Action},
+        CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode,
+        pages::coach::{CoachPage, Position},
         shot::{
-            history::History,
+            History,
             placing::{self, STEPS},
         },
-        tasks::advice::CoachQuery,
-        ui::message::Message,
+        ui::Message,
         words::step_words,
     },
 };
 
 impl CoachPage {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: CoachCondition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
+        match when {
+            CoachCondition::Anytime => None,
+            CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
+            _ if thinking.is_some() => thinking,
+            CoachCondition::Placing => {
+                refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls")
+            }
+            CoachCondition::Shot | CoachCondition::Watching if self.shot().is_none() => {
+                Some("there is no shot yet; Enter asks the coach")
+            }
+            CoachCondition::Idle | CoachCondition::Shot => None,
+            CoachCondition::Watching => {
+                refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one")
+            }
+            CoachCondition::Choice => refuse(
+                self.advised().is_none_or(|advised| advised.choices().len() < 2),
+                "there is no other shot to choose",
+            ),
+            CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
+            CoachCondition::Interrupted => {
+                let is_gone = self.before.is_none() || self.is_begun();
+                refuse(is_gone && self.left_exam.is_none(), "there is no earlier session to go on with")
+            }
+            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
+            CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
+        }
+    }
+
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
@@ -113,7 +144,7 @@ impl CoachPage {
         self.place_balls();
     }
 
-    /// Leaves the shot: what nobody watches does not play on.
+    /// Leaves the shot, which is paused.
     fn place_balls(&mut self) {
         self.playback.pause();
         self.mode = Mode::Placing;

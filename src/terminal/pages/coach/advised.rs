@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::terminal::tasks::advice::{Advice, CoachQuery, Proposal, ShotAnalysis};
+use crate::terminal::{Advice, CoachQuery, Proposal, ShotAnalysis};
 
 /// Advice on a layout.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub struct Choice {
 }
 
 impl AdviceState {
-    /// `advice` that `tutor` gave; `None` if it is empty.
+    /// `advice` that `query` gave; `None` if it is empty.
     pub fn new(query: CoachQuery, advice: Advice) -> Option<Self> {
         let choice = |proposal| Choice { proposal, study: None, next: None, is_studied: false };
         let choices: Vec<_> = advice.proposals.into_iter().map(choice).collect();

@@ -11,14 +11,9 @@ use crate::{
     physics::CueInputs,
     table::CueBall,
     terminal::{
-        effect::Effect,
-        pages::coach::{AdviceState, CoachPage, Mode},
-        shot::Shot,
-        tasks::{
-            advice::{Advice, CoachQuery, Effort, Proposal},
-            recommender::{Answer, CoachNews, Job},
-        },
-        ui::message::Message,
+        Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot,
+        pages::coach::CoachPage,
+        ui::Message,
         words::{chance_words, skill_word},
     },
 };
@@ -28,7 +23,7 @@ use crate::{
 pub struct Pending {
     id: u64,
     cancel: Arc<AtomicBool>,
-    /// What was asked: meanwhile somebody else may have been chosen to play.
+    /// What was asked: another player may have been chosen meanwhile.
     pub query: CoachQuery,
     /// Seconds since it was asked.
     pub waited: f64,
@@ -50,7 +45,7 @@ impl CoachPage {
         let job = self.job(None);
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
-        Effect::Recommend(Box::new(job))
+        Effect::Ask(Box::new(job))
     }
 
     fn job(&mut self, shot: Option<CueInputs>) -> Job {
@@ -124,7 +119,7 @@ impl CoachPage {
         self.study()
     }
 
-    /// Keeps the advice on the layout that `tutor` gave, and shows it from its best shot on if that is what is asked now.
+    /// Keeps the advice on the layout that `query` gave, and shows it from its best shot on if that is what is asked now.
     fn show(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
         self.balls.present_mut().advised = AdviceState::new(query, advice);
@@ -154,7 +149,7 @@ impl CoachPage {
         let shot = wanted?;
         let job = self.job(Some(shot.cue));
         self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
-        Some(Effect::Study(Box::new(job)))
+        Some(Effect::Ask(Box::new(job)))
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::terminal::{effect::Effect, pages::coach::CoachPage, shot::placing};
+use crate::terminal::{Effect, pages::coach::CoachPage, shot::placing};
 
 /// A ball that is held; it is the selected one.
 #[derive(Clone, Copy, Debug)]

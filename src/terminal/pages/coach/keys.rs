@@ -3,11 +3,9 @@
 use crossterm::event::KeyCode::{BackTab, Down, End, Enter, Esc, Home, Left, Right, Tab, Up};
 
 use crate::terminal::keymap::{
-    Binding,
+    Binding, Chord,
     Section::{self, Balls, Program, Shot},
-    bind,
-    chord::Chord,
-    ctrl, key, letter,
+    bind, ctrl, key, letter,
 };
 
 use CoachAction as A;
@@ -113,7 +111,7 @@ pub enum CoachCondition {
     Undoable,
     /// Where a change was taken back.
     Redoable,
-    /// Where a policy is asked that somebody has trained.
+    /// Where a policy is asked that a user has trained.
     Trained,
     /// Where an earlier session can be gone on with.
     Interrupted,

@@ -24,19 +24,15 @@ use crate::{
     learning::Policy,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        config::{
-            Settings,
-            saved_session::{SavedSession, SessionParts},
-        },
+        CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
         pages::coach::{
             asking::{Pending, Studying},
             dragging::Drag,
-            keys::{CoachCondition, SavingContext},
+            keys::SavingContext,
             saving::Saving,
         },
-        shot::{Shot, history::History, placing::STEPS, playback::Playback},
-        tasks::advice::{CoachQuery, Proposal},
-        ui::message::Message,
+        shot::{History, Playback, placing::STEPS},
+        ui::Message,
     },
 };
 
@@ -256,7 +252,7 @@ impl CoachPage {
         self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
     }
 
-    /// Asks the policy of `tutor` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
+    /// Asks the policy of `query` from now on, under its rule, on `table`: balls stay where they lie if it is the same table.
     pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
         let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
@@ -268,7 +264,7 @@ impl CoachPage {
         self.message = Some(Message::good(news));
     }
 
-    /// Plays for somebody else from now on; a shot for whoever it was before is shown no more.
+    /// Plays for another player from now on; a shot for the one before is no longer shown.
     pub fn take_skill(&mut self, skill: Skill) {
         if self.query.skill != skill {
             self.query.skill = skill;
@@ -276,7 +272,7 @@ impl CoachPage {
         }
     }
 
-    /// Takes balls from elsewhere, and what counts as a point there; whoever was asked before is asked still if the table
+    /// Takes balls from elsewhere, and what counts as a point there; the same policy is asked if the table
     /// is the same.
     pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule) {
         let policy = self.query.policy.clone().filter(|_| self.table() == table);
@@ -284,7 +280,7 @@ impl CoachPage {
         self.message = Some(Message::plain("the balls of the exercise; Enter asks the coach"));
     }
 
-    /// Puts balls on a table, as a step that can be taken back, for `tutor` to be asked.
+    /// Puts balls on a table, as a step that can be taken back, for `query` to be asked.
     fn take(&mut self, table: &Table, layout: Layout, query: CoachQuery) {
         self.cancel();
         self.drop_ball();
@@ -316,7 +312,7 @@ impl CoachPage {
         self.balls.present().advised.as_ref().filter(|advised| advised.query == self.query)
     }
 
-    /// The same for whoever looks at it: nothing while the coach thinks of something better.
+    /// The same as it is shown: nothing while the coach looks for something better.
     pub fn shown(&self) -> Option<&AdviceState> {
         self.advised().filter(|_| self.pending.is_none())
     }
@@ -351,38 +347,6 @@ impl CoachPage {
     /// Number of the spinner's picture, while the coach thinks.
     pub fn spinner(&self) -> Option<usize> {
         self.pending.as_ref().map(|pending| (pending.waited / SPINNER_INTERVAL) as usize)
-    }
-
-    /// Why a binding may not be used now; `None` where it may.
-    pub fn disabled_reason(&self, when: CoachCondition) -> Option<&'static str> {
-        let refuse = |refused: bool, reason| refused.then_some(reason);
-        let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
-        match when {
-            CoachCondition::Anytime => None,
-            CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
-            _ if thinking.is_some() => thinking,
-            CoachCondition::Placing => {
-                refuse(self.mode != Mode::Placing, "a shot is being watched; Esc goes back to the balls")
-            }
-            CoachCondition::Shot | CoachCondition::Watching if self.shot().is_none() => {
-                Some("there is no shot yet; Enter asks the coach")
-            }
-            CoachCondition::Idle | CoachCondition::Shot => None,
-            CoachCondition::Watching => {
-                refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one")
-            }
-            CoachCondition::Choice => refuse(
-                self.advised().is_none_or(|advised| advised.choices().len() < 2),
-                "there is no other shot to choose",
-            ),
-            CoachCondition::Undoable => refuse(!self.balls.can_undo(), "there is nothing to take back"),
-            CoachCondition::Interrupted => {
-                let is_gone = self.before.is_none() || self.is_begun();
-                refuse(is_gone && self.left_exam.is_none(), "there is no earlier session to go on with")
-            }
-            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
-            CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
-        }
     }
 
     /// The thread that thinks is gone, and with it the answer.

@@ -5,10 +5,9 @@ use crate::{
     drills::{Category, Exercise, Library},
     learning::policy::kept::is_name,
     terminal::{
-        effect::Effect,
+        DrillTask, Effect,
         pages::coach::{CoachPage, keys::SavingContext},
-        tasks::drills::DrillTask,
-        ui::{input::TextField, message::Message},
+        ui::{Message, TextField},
     },
 };
 
@@ -35,7 +34,7 @@ enum Question {
 }
 
 impl Saving {
-    /// Whose keys are in force; `None` where nothing is asked.
+    /// The key context; `None` where nothing is asked.
     pub const fn context(&self) -> Option<SavingContext> {
         match &self.question {
             Some(Question::Title(..)) => Some(SavingContext::Title),

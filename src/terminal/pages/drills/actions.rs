@@ -3,15 +3,36 @@
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
     terminal::{
-        effect::Effect,
-        pages::drills::{Balls, DrillsPage, Question, Screen, Turn, keys::DrillAction as Action},
-        tasks::drills::DrillTask,
-        ui::message::Message,
+        DrillAction as Action, DrillCondition, DrillTask, Effect,
+        pages::drills::{Balls, DrillsPage, Question, Screen, Turn},
+        ui::Message,
         words::skill_word,
     },
 };
 
 impl DrillsPage {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
+        let refuse = |refused: bool, reason| refused.then_some(reason);
+        match when {
+            DrillCondition::Here => None,
+            DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
+            DrillCondition::MarkedOwn => {
+                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
+            }
+            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
+            DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
+            DrillCondition::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),
+            DrillCondition::Estimated => {
+                refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
+            }
+            _ => match &self.turn {
+                Some(turn) => turn.disabled_reason(when),
+                None => Some("no exercise is open"),
+            },
+        }
+    }
+
     /// Does what an enabled binding asks for.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
@@ -78,14 +99,14 @@ impl DrillsPage {
 
     fn open_marked(&mut self) -> Option<Effect> {
         let exercise = self.catalogue.marked()?.clone();
-        Some(self.begin(self.wishes.goal, vec![exercise]))
+        Some(self.begin(self.options.goal, vec![exercise]))
     }
 
     /// Begins a session of these exercises and opens the page of the first.
     pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
-        session.shifted = self.wishes.shifted && goal != Goal::Exam;
+        session.shifted = self.options.shifted && goal != Goal::Exam;
         Effect::Drill(self.practise(session))
     }
 
@@ -107,7 +128,7 @@ impl DrillsPage {
         match exam::draw(self.catalogue.library().exercises(), level, seed) {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
-                // What comes is told first; the key that chose the exam plays no stroke of it.
+                // A page says first what comes; the key that chose the exam plays no stroke of it.
                 if self.page() == Screen::Exercise {
                     self.pages = vec![Screen::Library, Screen::Exam(level)];
                 }

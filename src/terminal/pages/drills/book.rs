@@ -35,7 +35,7 @@ impl Book {
         &self.sessions
     }
 
-    /// The same for somebody who works on them elsewhere.
+    /// The same, to be used on another thread.
     pub fn shared(&self) -> Arc<[Session]> {
         self.sessions.clone().into()
     }

@@ -44,7 +44,7 @@ impl Catalogue {
         self.library.find(&self.filter).nth(self.mark)
     }
 
-    /// Whether the marked exercise is somebody's own.
+    /// Whether the marked exercise is a saved position of the player's.
     pub fn is_own(&self) -> bool {
         self.marked().is_some_and(|exercise| !self.library.is_bundled(&exercise.name))
     }

@@ -3,10 +3,10 @@
 use crate::{
     study::filmed::FilmedShot,
     terminal::{
-        pages::drills::keys::DrillAction,
+        DrillAction, FilmScene,
         shot::{
-            film::{FilmScene, Listed, listed},
-            playback::Playback,
+            Playback,
+            film::{Listed, listed},
         },
     },
 };
@@ -44,7 +44,7 @@ impl FilmsScreen {
         self.marked().map(|listed| listed.filmed.clone())
     }
 
-    /// The shot of this number has been played; one that nobody waits for any more is dropped.
+    /// The shot of this number has been played; one that is no longer wanted is dropped.
     ///
     /// # Errors
     /// Why it could not be played.
@@ -74,7 +74,7 @@ impl FilmsScreen {
         }
     }
 
-    /// Stops playing where it is: nobody watches.
+    /// Pauses: it is no longer on the screen.
     pub fn pause(&mut self) {
         self.playback.pause();
     }

@@ -3,11 +3,9 @@
 use crossterm::event::KeyCode::{BackTab, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up};
 
 use crate::terminal::keymap::{
-    Binding,
+    Binding, Chord,
     Section::{self, Film, Library, Position, Program, Record, Score, Stroke},
-    bind,
-    chord::Chord,
-    ctrl, key, letter, mark,
+    bind, ctrl, key, letter, mark,
 };
 
 use DrillAction as A;
@@ -74,6 +72,8 @@ pub enum DrillAction {
     Filmed(isize),
     /// Shows the model shot, or hides it.
     Hint,
+    /// Turns to another page of a text that has no room, the next where positive.
+    TurnText(isize),
     /// Shifts the balls by half a ball at each repetition, or not.
     Shift,
     /// Takes another goal.
@@ -105,7 +105,7 @@ pub enum DrillCondition {
     Here,
     /// Where an exercise is marked.
     Marked,
-    /// Where the marked exercise is somebody's own.
+    /// Where the marked exercise is a saved position of the player's.
     MarkedOwn,
     /// Where the list is a part of all.
     Filtered,
@@ -273,6 +273,8 @@ pub const EXERCISE: &[Binding<A, W>] = &[
         "strike softer, harder by 0.5 m/s"),
     bind(Stroke, W::AdviceState, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
+    bind(Stroke, W::Here, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
+        "turn the pages of a text that is longer than its room"),
     bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
         "note a point, a miss at a real table; nothing is played here"),
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
@@ -370,6 +372,8 @@ pub const fn words(action: DrillAction, section: Section) -> Option<&'static str
         A::Faster(-0.5) => "strike softer by 0.5 m/s",
         A::Raise(1.0) => "raise the cue by 1 degree",
         A::Raise(-1.0) => "lower the cue by 1 degree",
+        A::TurnText(1) => "the next page of a text that is longer than its room",
+        A::TurnText(-1) => "the page before of a text that is longer than its room",
         A::Event(1) => "step to the next event",
         A::Event(-1) => "step to the event before",
         A::Pace(1) => "play faster",

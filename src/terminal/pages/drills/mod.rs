@@ -18,6 +18,7 @@ mod sight;
 mod turn;
 mod turn_actions;
 mod view;
+mod watched;
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -28,16 +29,7 @@ use crate::{
     game::Rule,
     storage::Places,
     table::{Layout, Table},
-    terminal::{
-        effect::Effect,
-        pages::drills::{
-            film::FilmsScreen,
-            keys::{DrillCondition, DrillContext},
-        },
-        shot::playback::Playback,
-        tasks::drills::DrillTask,
-        ui::message::Message,
-    },
+    terminal::{DrillContext, DrillTask, Effect, pages::drills::film::FilmsScreen, shot::Playback, ui::Message},
 };
 
 pub use book::{Book, record_of};
@@ -45,7 +37,8 @@ pub use catalogue::Catalogue;
 pub use question::Question;
 pub use records::{Estimate, Records};
 pub use sight::{Meets, Sight};
-pub use turn::{Lesson, Stage, Turn, Watched};
+pub use turn::{Lesson, Stage, Turn};
+pub use watched::Watched;
 
 /// A page of the drill screens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,9 +85,9 @@ impl Player {
     }
 }
 
-/// What is wanted of a repetition, kept from exercise to exercise.
+/// How an exercise is repeated; kept from exercise to exercise.
 #[derive(Clone, Copy, Debug)]
-struct Wishes {
+struct RepetitionOptions {
     goal: Goal,
     shifted: bool,
 }
@@ -131,7 +124,7 @@ pub struct DrillsPage {
     pub question: Option<Question>,
     /// What the status line says.
     pub message: Option<Message>,
-    wishes: Wishes,
+    options: RepetitionOptions,
     for_coach: Option<Balls>,
     /// The pages one has come through; the last one is open.
     pages: Vec<Screen>,
@@ -155,7 +148,7 @@ impl DrillsPage {
             player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
             question: None,
             message: None,
-            wishes: Wishes { goal: Goal::Free, shifted: false },
+            options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
             pages: Vec::new(),
             left_exam: None,
@@ -222,7 +215,7 @@ impl DrillsPage {
         self.pages.last().copied().unwrap_or(Screen::Library)
     }
 
-    /// Whose keys are in force: the page's, or those of what is asked there.
+    /// The key context: the page's, or that of a question on it.
     pub fn place(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search(_)) => DrillContext::Search,
@@ -249,28 +242,6 @@ impl DrillsPage {
     fn search(&mut self) {
         if let Some(Question::Search(typed)) = &self.question {
             self.catalogue.find_text(typed.text().trim());
-        }
-    }
-
-    /// Why a binding may not be used now; `None` where it may.
-    pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
-        let refuse = |refused: bool, reason| refused.then_some(reason);
-        match when {
-            DrillCondition::Here => None,
-            DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
-            DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
-            }
-            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
-            DrillCondition::OfExercise => refuse(self.turn.is_none(), "no exercise is open"),
-            DrillCondition::Filmed => refuse(self.film.scene().is_none(), "there is no filmed shot on the table yet"),
-            DrillCondition::Estimated => {
-                refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
-            }
-            _ => match &self.turn {
-                Some(turn) => turn.disabled_reason(when),
-                None => Some("no exercise is open"),
-            },
         }
     }
 

@@ -7,7 +7,7 @@ use crate::{
     table::CueBall,
     terminal::{
         pages::{Page, PageArea, Target},
-        ui::{Ui, input::Typed, message::Message},
+        ui::{Message, Typed, Ui},
     },
 };
 

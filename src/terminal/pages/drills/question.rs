@@ -1,6 +1,6 @@
 //! What the drill screens ask before they do something.
 
-use crate::{drills::Exercise, terminal::ui::input::TextField};
+use crate::{drills::Exercise, terminal::ui::TextField};
 
 /// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
 const LONGEST: usize = 4000;

@@ -4,9 +4,9 @@ use crate::{
     coach::Skill,
     drills::{Exercise, Library, Session},
     terminal::{
+        DrillReport, DrillTask, Loaded,
         pages::drills::{Book, DrillsPage, Estimate, Question, Stage},
-        tasks::drills::{DrillReport, DrillTask, Loaded},
-        ui::message::Message,
+        ui::Message,
     },
 };
 
@@ -86,7 +86,7 @@ impl DrillsPage {
         let Loaded { sessions, positions, skill, troubles } = loaded;
         self.book = Book::new(sessions, troubles);
         self.take_own(positions);
-        // Whoever has kept a skill plays with it, as long as nobody has chosen another.
+        // A skill that was kept is played with, as long as no other was chosen.
         if let Some(skill) = skill.filter(|_| self.player.own.is_none()) {
             self.player.own = Some(skill);
             if self.player.skill == Skill::default() {

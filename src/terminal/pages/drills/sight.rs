@@ -86,7 +86,7 @@ mod tests {
                     prop_assert_eq!((ball, real.left), (hit.ball, hit.left));
                     prop_assert!((real.fullness - hit.fullness).abs() < 1e-3, "{:?} {:?}", real, hit);
                 }
-                // One stroke is told as the same number wherever it is told.
+                // A stroke is given by the same number everywhere.
                 (EventKind::BallRail(..), Meets::Cushion(mark)) =>
                     prop_assert_eq!(mark, aim(&table, &layout, &cue).unwrap().ahead),
                 other => prop_assert!(false, "{:?}", other),

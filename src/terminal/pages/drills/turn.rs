@@ -16,14 +16,13 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
     table::{CueBall, Layout, Table},
     terminal::{
+        DrillAction, DrillTask, Outcome, Position, Shot, Stroke, Taught,
         pages::drills::{
-            aiming,
-            keys::DrillAction,
+            Watched, aiming,
             sight::{Sight, sight},
         },
-        shot::{Shot, history::History, playback::Playback},
-        tasks::drills::{DrillTask, Outcome, Position, Stroke, Taught},
-        ui::message::Message,
+        shot::{History, Playback},
+        ui::Message,
     },
 };
 
@@ -52,21 +51,6 @@ pub enum Lesson {
     Known(Box<Taught>),
 }
 
-/// A stroke that was played.
-#[derive(Debug)]
-pub struct Watched {
-    /// What came of it.
-    pub outcome: Outcome,
-    /// What the player had meant.
-    pub meant: CueInputs,
-    /// How often the player makes that, as soon as it is known.
-    pub chance: Option<f64>,
-    /// The clock of the shot.
-    pub playback: Playback,
-    /// Whether it has been seen to its end: before, nothing tells what comes of it.
-    pub is_settled: bool,
-}
-
 /// The page of an exercise.
 #[derive(Debug)]
 pub struct Turn {
@@ -88,6 +72,8 @@ pub struct Turn {
     pub shows_hint: bool,
     /// Whether it was shown since the balls were placed.
     pub is_helped: bool,
+    /// The page of the aim's text, where one has no room for all of it; beyond the last the first comes again.
+    pub text_page: isize,
     /// The session as it will be once all notes are saved.
     ahead: Option<Session>,
     /// The stroke that is set, with what it was before.
@@ -119,6 +105,7 @@ impl Turn {
             lesson: Lesson::Pending,
             shows_hint: false,
             is_helped: false,
+            text_page: 0,
             ahead: None,
             position: 0,
             cancel: Arc::default(),
@@ -215,12 +202,12 @@ impl Turn {
         }
     }
 
-    /// Whether the last attempt of the session is still on its way: its result is not to be told.
+    /// Whether the last attempt of the session is still being watched: its result is not shown yet.
     fn is_open(&self) -> bool {
         self.watched().is_some_and(|watched| !watched.is_settled)
     }
 
-    /// The session as far as it may be told.
+    /// The session as far as it may be shown.
     pub fn told(&self) -> Session {
         let mut session = self.session.clone();
         if self.is_open() {
@@ -229,7 +216,7 @@ impl Turn {
         session
     }
 
-    /// What came of the watched stroke, once it may be told.
+    /// The result of the watched stroke, once it may be shown.
     pub fn verdict(&self) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
@@ -271,6 +258,7 @@ impl Turn {
     /// What plays the stroke that is set.
     pub(super) fn play(&mut self) -> DrillTask {
         self.changed_by = None;
+        self.text_page = 0;
         self.stage = Stage::Waiting;
         self.is_helped |= self.shows_hint;
         self.shows_hint = false;
@@ -385,17 +373,5 @@ impl Turn {
     /// Whether something moves by itself.
     pub fn is_moving(&self) -> bool {
         self.watched().is_some_and(|watched| watched.playback.playing)
-    }
-}
-
-impl Watched {
-    /// Seconds that the shot takes.
-    pub fn duration(&self) -> f64 {
-        self.outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())
-    }
-
-    /// Once it has been seen to its end, its result may be told.
-    pub(super) fn settle(&mut self) {
-        self.is_settled |= self.playback.time >= self.duration();
     }
 }

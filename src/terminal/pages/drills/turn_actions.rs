@@ -5,14 +5,10 @@ use crate::{
     drills::{Attempt, Goal, Session, Venue},
     physics::CueInputs,
     terminal::{
-        effect::Effect,
-        pages::drills::{
-            DrillsPage, Lesson, Screen, Stage, Turn, aiming,
-            keys::{DrillAction as Action, DrillCondition as Condition},
-        },
-        shot::history::History,
-        tasks::drills::{DrillTask, Taught},
-        ui::message::Message,
+        DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, Taught,
+        pages::drills::{DrillsPage, Lesson, Screen, Stage, Turn, aiming},
+        shot::History,
+        ui::Message,
         words::skill_word,
     },
 };
@@ -63,7 +59,7 @@ impl Turn {
         }
     }
 
-    /// The same practice from its beginning: with other wishes it is another session.
+    /// The same practice from its beginning: with other options it is another session.
     fn again(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
         let exercises = self.session.exercises.clone();
         let mut session = Session::new(goal, venue, exercises, skill, seed);
@@ -97,11 +93,13 @@ impl DrillsPage {
             Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
             Action::Hint => {
                 turn.shows_hint = !turn.shows_hint;
+                turn.text_page = 0;
                 turn.is_helped |= turn.shows_hint && turn.is_aiming();
             }
+            Action::TurnText(pages) => turn.text_page += pages,
             Action::Shift => {
-                self.wishes.shifted = !turn.session.shifted;
-                let news = if self.wishes.shifted {
+                self.options.shifted = !turn.session.shifted;
+                let news = if self.options.shifted {
                     "from the second repetition on, each ball is shifted by half a ball"
                 } else {
                     "the balls lie where the exercise has them"
@@ -110,7 +108,7 @@ impl DrillsPage {
                 return self.restart(None);
             }
             Action::Goal => {
-                self.wishes.goal = match turn.session.goal {
+                self.options.goal = match turn.session.goal {
                     Goal::Free => Goal::Run(FIRST_RUN),
                     Goal::Run(_) => Goal::Game { innings: FIRST_GAME },
                     Goal::Game { .. } => Goal::Match { innings: FIRST_GAME },
@@ -121,7 +119,7 @@ impl DrillsPage {
             Action::Count(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
                 let counted = |count: u32| count.saturating_add_signed(step).clamp(1, LONGEST);
-                self.wishes.goal = match turn.session.goal {
+                self.options.goal = match turn.session.goal {
                     Goal::Run(points) => Goal::Run(counted(points)),
                     Goal::Game { innings } => Goal::Game { innings: counted(innings) },
                     Goal::Match { innings } => Goal::Match { innings: counted(innings) },
@@ -141,7 +139,7 @@ impl DrillsPage {
         None
     }
 
-    /// Begins the exercise that is open anew where somebody else is to play it.
+    /// Begins the open exercise again where another player is to play it.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
         let is_other = |turn: &Turn| !turn.is_exam() && turn.skill() != self.player.skill;
         if self.turn.as_ref().is_some_and(is_other)
@@ -152,12 +150,12 @@ impl DrillsPage {
         Vec::new()
     }
 
-    /// Begins the same practice anew with the wishes as they are now.
+    /// Begins the same practice again with the options as they are now.
     fn restart(&mut self, venue: Option<Venue>) -> Option<Effect> {
-        let (seed, wishes, skill) = (self.seed(), self.wishes, self.player.skill);
+        let (seed, options, skill) = (self.seed(), self.options, self.player.skill);
         let turn = self.turn.as_mut()?;
         let venue = venue.unwrap_or(turn.newest().venue);
-        let session = turn.again(wishes.goal, wishes.shifted, venue, skill, seed);
+        let session = turn.again(options.goal, options.shifted, venue, skill, seed);
         Some(Effect::Drill(turn.begin(session)))
     }
 
@@ -177,7 +175,7 @@ impl DrillsPage {
         let turn = self.turn.as_mut()?;
         let Stage::Watching(watched) = &mut turn.stage else { return None };
         if !watched.is_settled {
-            // The first press goes to the end, where the result is told.
+            // The first press goes to the end, where the result is shown.
             watched.playback.jump(watched.duration());
             watched.settle();
             return None;
@@ -226,8 +224,8 @@ impl DrillsPage {
                 let is_shown = |note: &&mut Attempt| note.layout.unwrap_or(turn.exercise.layout) == turn.layout;
                 if let Some(note) = session.attempts.last_mut().filter(is_shown) {
                     note.helped = turn.is_helped;
-                    // What was to be played tells how good whoever made it is: the shot must have been taught, for where
-                    // the balls lie.
+                    // The advised shot goes into the estimate of the skill: it must be the model shot, or have been shown, for
+                    // this layout.
                     let known = |taught: &&Taught| (taught.is_own || turn.is_helped) && !turn.session.is_game();
                     let advice = turn.taught().filter(known).map(|taught| taught.advice);
                     note.advised = advice.map(|advice| advice.cue);

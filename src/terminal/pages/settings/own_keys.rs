@@ -3,11 +3,10 @@
 use crossterm::event::KeyCode::{Char, Down, Enter, Esc, F, Tab, Up};
 
 use crate::terminal::{
-    config::Change,
+    Change, Keys,
     keymap::{
-        KeyEntry, KeyPage, Section,
-        chord::Chord,
-        remap::{Keys, chord as chord_named, name},
+        Chord, KeyEntry, KeyPage, Section,
+        remap::{chord as chord_named, name},
         works_of,
     },
 };

@@ -5,7 +5,7 @@ use ratatui::layout::Position;
 use super::{Input, SettingsPage, view};
 use crate::terminal::{
     pages::{Page, PageArea, Target},
-    ui::{Ui, input::Typed, message::Message},
+    ui::{Message, Typed, Ui},
 };
 
 impl Page for SettingsPage {

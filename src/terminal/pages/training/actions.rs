@@ -8,14 +8,10 @@ use crate::{
         run::{follow::Condition as RunCondition, request::Request},
     },
     terminal::{
-        effect::Effect,
-        pages::training::{
-            Form, Question, Screen, TrainingPage, Watch,
-            keys::{TrainingAction as Action, TrainingCondition as Condition},
-            watch::Named,
-        },
-        tasks::training::{Keeping, Launch, NO_POLICY},
-        ui::message::Message,
+        Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition,
+        pages::training::{Form, Question, Screen, TrainingPage, Watch, watch::Named},
+        tasks::training::NO_POLICY,
+        ui::Message,
     },
 };
 

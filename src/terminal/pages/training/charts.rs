@@ -35,7 +35,7 @@ pub struct Progress {
 
 impl Progress {
     /// The shots by which a part that follows the end moves at least: a power of two, because a speed is never quite the
-    /// same, and each other step would draw all anew.
+    /// same, and each other step would draw everything again.
     fn least_step(&self) -> f64 {
         let step = FOLLOW_SECONDS * self.speed;
         if step >= 1.0 && step.is_finite() { step.log2().ceil().exp2() } else { 0.0 }
@@ -77,7 +77,7 @@ impl Default for Charts {
 }
 
 impl Charts {
-    /// The quantities whose charts are drawn, by their places in [`Quantity::ALL`].
+    /// The quantities whose charts are drawn, by their indices in [`Quantity::ALL`].
     pub fn drawn(&self) -> Vec<usize> {
         if self.enlarged {
             return vec![self.selected];

@@ -12,7 +12,7 @@ use crate::{
         run::{list::Summary, run_name},
         timestamp,
     },
-    terminal::{pages::training::charts::around, tasks::training::Launch},
+    terminal::{Launch, pages::training::charts::around},
 };
 
 /// Tables that a run can be started on.
@@ -27,7 +27,7 @@ const DIGITS: usize = 18;
 const DAY: f64 = 86_400.0;
 /// Shots a second that the agents usually play and learn from, measurements included, on one core of which others work as
 /// well: those of the first 20 s of `carom train`, `ddpg` on `match`, the others on `thesis`. An idle core is two to three
-/// times as fast. They only decide whether somebody is asked before a run of more than a day.
+/// times as fast. They only decide whether a run of more than a day has to be confirmed.
 const USUAL_SPEEDS: [(&str, f64); 4] =
     [("ddpg", 3000.0), ("q-learning", 15_000.0), ("dqn", 2500.0), ("thesis-ddpg", 12_000.0)];
 /// The same of an agent that has not been measured.

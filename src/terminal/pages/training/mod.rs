@@ -31,14 +31,7 @@ use crate::{
     },
     storage::Places,
     table::Table,
-    terminal::{
-        pages::training::keys::TrainingContext,
-        tasks::{
-            advice::CoachQuery,
-            training::{Failure, Keeping, Kept, Report, Slot, Subscriptions},
-        },
-        ui::message::Message,
-    },
+    terminal::{CoachQuery, Failure, Keeping, Kept, Report, Slot, Subscriptions, TrainingContext, ui::Message},
 };
 
 pub use form::{Field, Form};
@@ -270,7 +263,7 @@ impl TrainingPage {
                 let call = watch::quoted(&name);
                 self.message = Some(Message::good(format!("kept; use it by: carom recommend --policy {call}")));
             }
-            // Whoever has left the run meanwhile is not asked any more.
+            // A player who has left the run meanwhile is not asked any more.
             Ok(Kept::Taken) if self.page() == Screen::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }

@@ -3,8 +3,9 @@
 use crate::{
     learning::policy::kept::{LONGEST_NAME, is_letter},
     terminal::{
-        pages::training::{keys::TrainingCondition, watch::Watch},
-        ui::input::TextField,
+        TrainingCondition,
+        pages::training::watch::Watch,
+        ui::TextField,
         words::{count, long_time_words},
     },
 };

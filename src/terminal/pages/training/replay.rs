@@ -3,10 +3,7 @@
 //! A new set of shots plays through once and rests at its last shot; then nothing moves until another set comes or
 //! somebody wants to see it again.
 
-use crate::terminal::{
-    shot::playback::Playback,
-    tasks::reel::{Reel, Scene},
-};
+use crate::terminal::{Reel, Scene, shot::Playback};
 
 /// Seconds between two pictures.
 pub const INTERVAL: f64 = 0.1;
@@ -16,7 +13,7 @@ const REST: f64 = 1.0;
 /// What moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Motion {
-    /// Nothing: the set has been played, or somebody has stopped it.
+    /// Nothing: the set has been played, or the user has stopped it.
     Stopped,
     /// The shot.
     Playing,
@@ -33,7 +30,7 @@ pub struct Replay {
     index: usize,
     playback: Playback,
     motion: Motion,
-    /// Whether somebody has stopped it: then nothing moves until somebody wants it.
+    /// Whether the user has stopped it: then nothing moves until it is started again.
     held: bool,
 }
 

@@ -125,7 +125,7 @@ impl Watch {
         is_at_work(self.condition())
     }
 
-    /// Whether it waits to be told to go on.
+    /// Whether it is paused until a request to go on.
     pub fn is_paused(&self) -> bool {
         self.condition() == Condition::Is(Phase::Paused)
     }
@@ -188,7 +188,7 @@ impl Watch {
     }
 }
 
-/// Shots that a run plays a second, on average; 0 where nobody trains.
+/// Shots that a run plays a second, on average; 0 while it does not train.
 fn speed(run: &Followed) -> f64 {
     let standing = run.standing.as_ref().filter(|_| is_at_work(run.condition));
     standing.map_or(0.0, |standing| standing.shots as f64 / standing.seconds.max(1.0))

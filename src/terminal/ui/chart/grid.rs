@@ -10,8 +10,8 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    capabilities::{Capabilities, Glyphs},
-    ui::{Ui, theme::Theme},
+    Capabilities, Glyphs,
+    ui::{Theme, Ui},
 };
 
 /// What dots are part of, from the lowest to the uppermost.
@@ -97,7 +97,7 @@ pub struct Grid {
     area: Rect,
     dots: Dots,
     unicode: bool,
-    /// Whether lines at the ticks can be told from curves.
+    /// Whether lines at the ticks can be distinguished from curves.
     lined: bool,
     /// For each layer and cell the dots that are set, the bits row by row.
     cells: [Vec<u8>; Layer::ALL.len()],
@@ -224,7 +224,7 @@ fn braille(bits: u8) -> char {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{capabilities::Depth, keymap::remap::Keys};
+    use crate::terminal::{Depth, Keys};
     use ratatui::buffer::Buffer;
 
     #[test]

@@ -13,17 +13,16 @@ use ratatui::{layout::Rect, text::Span};
 use crate::{
     learning::run::history::{Odd, Point},
     terminal::{
-        capabilities::Capabilities,
+        Capabilities,
         ui::{
-            Ui,
+            Theme, Ui,
             chart::{
                 grid::{Grid, Layer},
                 scale::{LABEL_WIDTH, Scale, shot_ticks},
                 step::Step,
                 trace::Frame,
             },
-            text::{columns, write_right},
-            theme::Theme,
+            columns, write_right,
         },
     },
 };
@@ -124,7 +123,7 @@ fn values(point: &Point, log: bool) -> Option<(f64, f64)> {
 }
 
 /// The range of shots that shows all of a run that has played `shots` of `planned`: from 0 to the next of 1, 2 and 5 times
-/// a power of ten, or to the plan where that comes first. It grows seldom, because each time all is drawn anew.
+/// a power of ten, or to the plan where that comes first. It grows seldom, because each time everything is drawn again.
 pub fn whole(shots: u64, planned: Option<u64>) -> (f64, f64) {
     /// Shots that the smallest range shows.
     const FIRST: u64 = 1000;

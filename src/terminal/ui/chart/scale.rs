@@ -4,7 +4,7 @@ use crate::terminal::ui::chart::{label::Unit, step::Step};
 
 /// Columns of the labels; a range whose labels do not fit is widened until they do.
 pub const LABEL_WIDTH: usize = 6;
-/// Beyond this nothing is told apart, so that no range overflows.
+/// Largest magnitude that is drawn, so that no range overflows.
 const LARGEST: f64 = 1e300;
 /// Below this a value is taken for zero.
 const SMALLEST: f64 = 1e-300;

@@ -12,11 +12,7 @@ use crate::{
         metrics::Record,
         quantity::Quantity,
     },
-    terminal::{
-        capabilities::{Capabilities, Depth, Glyphs},
-        host::backend::AnsiBackend,
-        keymap::remap::Keys,
-    },
+    terminal::{Capabilities, Depth, Glyphs, Keys, host::backend::AnsiBackend},
 };
 
 /// A point of one line.

@@ -9,11 +9,10 @@ use ratatui::{
 use crate::{
     learning::run::history::{Odd, Point},
     terminal::{
-        capabilities::Capabilities,
+        Capabilities,
         ui::{
-            Ui,
+            Theme, Ui,
             chart::{Chart, Curve, SeriesId, label::compact},
-            theme::Theme,
         },
     },
 };

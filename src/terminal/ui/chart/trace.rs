@@ -84,7 +84,7 @@ fn draw(marks: &[Option<Mark>], layer: Layer, grid: &mut Grid) {
 }
 
 /// Fills a mark's columns from its largest value to its smallest. One without neighbours gets a second row and column
-/// where dots are small, or nobody would see it.
+/// where dots are small, so that it is seen.
 fn block(mark: &Mark, alone: bool, layer: Layer, grid: &mut Grid) {
     let width = grid.size().0;
     let (first, last) = (dot(mark.x.0), dot(mark.x.1));

@@ -10,14 +10,11 @@ use ratatui::{layout::Rect, style::Color};
 use crate::{
     table::{BALLS, Layout, Table},
     terminal::{
-        capabilities::{Capabilities, Glyphs},
-        shot::Shot,
+        Capabilities, Glyphs, Mapping, Shot,
         ui::{
-            Ui,
-            geometry::Mapping,
+            Theme, Ui,
             sprites::Sprite,
             table::{rails::draw_rails, scene::Scene},
-            theme::Theme,
         },
     },
 };
@@ -112,7 +109,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
 /// The centres at which the pictures of the balls are drawn: where the pictures are larger than the balls, those of balls
 /// that touch are to touch as well, and not to hide each other.
 fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
-    // Twice, since moving one pair may bring another together; a third time nobody would see.
+    // Twice, since moving one pair may bring another together; a third time would not be seen.
     for (one, other) in [(0, 1), (0, 2), (1, 2), (0, 1), (0, 2), (1, 2)] {
         let way = balls[other] - balls[one];
         let push = 0.5 * (least - way.length());

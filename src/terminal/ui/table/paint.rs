@@ -6,12 +6,10 @@ use ratatui::style::{Color, Modifier, Style};
 use crate::{
     table::BALLS,
     terminal::{
-        capabilities::Glyphs,
+        Glyphs,
         ui::{
-            Ui,
-            canvas::{Canvas, Ink},
+            Canvas, Ink, Theme, Ui,
             table::scene::{Age, Scene},
-            theme::Theme,
         },
     },
 };
@@ -121,7 +119,7 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::terminal::{capabilities::Depth, ui::theme::Palette};
+    use crate::terminal::{Depth, Palette};
 
     #[test]
     fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_palette() {

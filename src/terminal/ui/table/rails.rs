@@ -8,12 +8,8 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    capabilities::{Capabilities, Glyphs},
-    ui::{
-        Ui,
-        geometry::{Mapping, RAIL_COLUMNS},
-        theme::Theme,
-    },
+    Capabilities, Glyphs, Mapping,
+    ui::{Theme, Ui, geometry::RAIL_COLUMNS},
 };
 
 /// Draws the rails, the sights at every `diamond`, m, and pointers to `marked`, a place on the table.

@@ -5,13 +5,9 @@ use glam::DVec2;
 use crate::{
     table::BALLS,
     terminal::{
-        capabilities::{Capabilities, Glyphs},
+        Capabilities, Glyphs, Mapping,
         shot::DOT_SPACING,
-        ui::{
-            geometry::Mapping,
-            sprites::Sprite,
-            table::{Spot, TableView},
-        },
+        ui::{Spot, TableView, sprites::Sprite},
     },
 };
 
@@ -154,11 +150,10 @@ mod tests {
         physics::CueInputs,
         table::{Layout, Table},
         terminal::{
-            capabilities::Depth,
-            shot::Shot,
+            Depth, Shot,
             ui::{
+                Theme,
                 table::{CLEAR_PICTURES, CLEAR_RADII, apart},
-                theme::Theme,
             },
         },
     };

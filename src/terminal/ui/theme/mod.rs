@@ -4,7 +4,7 @@ mod palette;
 
 use ratatui::style::{Color, Modifier, Style};
 
-use crate::{table::CueBall, terminal::capabilities::Depth};
+use crate::{table::CueBall, terminal::Depth};
 
 pub use palette::{Palette, UnknownPalette};
 

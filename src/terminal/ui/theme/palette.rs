@@ -5,8 +5,8 @@ use std::{fmt, str::FromStr};
 use ratatui::style::{Color, Modifier};
 
 use crate::terminal::{
-    capabilities::Depth,
-    ui::theme::{Theme, resolve},
+    Depth,
+    ui::{Theme, theme::resolve},
 };
 
 /// A choice of colours.

@@ -1,11 +1,8 @@
-//! Whether the colours can be read and told apart, at every depth, and by people who see fewer of them.
+//! Whether the colours can be read and distinguished, at every depth, and by people who see fewer of them.
 
 use ratatui::style::{Color, Modifier};
 
-use crate::terminal::{
-    capabilities::Depth,
-    ui::theme::{Palette, Theme},
-};
+use crate::terminal::{Depth, Palette, ui::Theme};
 
 /// The 16 colours as terminals have them, in the order of their codes: the Linux console (and VGA), xterm, Visual Studio Code.
 const SIXTEEN: [[u32; 16]; 3] = [
@@ -95,7 +92,7 @@ fn contrast(one: Color, other: Color, sixteen: &[u32; 16]) -> f64 {
     (one.max(other) + 0.05) / (one.min(other) + 0.05)
 }
 
-/// Distance of two colours in CIELAB as these eyes see them; 2 can just be told apart side by side.
+/// Distance of two colours in CIELAB as these eyes see them; 2 is the least that can be seen side by side.
 fn distance(one: Color, other: Color, sixteen: &[u32; 16], eyes: &[[f64; 3]; 3]) -> f64 {
     let lab = |color| {
         let rgb = linear(color, sixteen);

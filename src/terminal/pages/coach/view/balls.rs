@@ -9,9 +9,10 @@ use ratatui::{
 use crate::{
     table::BALLS,
     terminal::{
-        pages::coach::{CoachPage, Mode},
-        shot::spin::Spin,
-        ui::{Ui, panel::draw_title, text::write_right, theme::Theme},
+        Mode,
+        pages::coach::CoachPage,
+        shot::Spin,
+        ui::{Theme, Ui, draw_title, write_right},
         words::{fixed, millimetres, step_words},
     },
 };

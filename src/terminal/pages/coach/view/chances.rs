@@ -5,13 +5,8 @@ use ratatui::{layout::Rect, text::Span};
 use crate::{
     table::CueBall,
     terminal::{
-        pages::coach::AdviceState,
-        tasks::advice::Proposal,
-        ui::{
-            Ui, list,
-            panel::{draw_nothing, draw_title},
-            text::write_right,
-        },
+        AdviceState, Proposal,
+        ui::{Ui, draw_nothing, draw_title, list, write_right},
         words::{chance_words, kind_words, percent, skill_word},
     },
 };

@@ -6,12 +6,10 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    keymap::{chord::keys_text, chord_of},
-    pages::coach::{
-        CoachPage, Mode,
-        keys::{COACH, CoachAction},
-    },
-    ui::{Ui, text::end_of},
+    CoachAction, Mode,
+    keymap::{chord_of, keys_text},
+    pages::coach::{CoachPage, keys::COACH},
+    ui::{Ui, end_of},
     words::{fixed, rule_word, skill_word},
 };
 
@@ -19,7 +17,7 @@ use crate::terminal::{
 /// it.
 const BAR: (usize, usize) = (6, 40);
 const WORDY: usize = 16;
-/// Columns behind the tabs from which on the usual table is named, and its size told.
+/// Columns behind the tabs from which on the usual table is named, and its size given.
 const NAMED: usize = 60;
 const MEASURED: usize = 90;
 /// Fewest columns of a policy's name that still tell something.

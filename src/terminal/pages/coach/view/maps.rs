@@ -11,14 +11,8 @@ use crate::{
     physics::CueInputs,
     table::Table,
     terminal::{
-        capabilities::Glyphs,
-        ui::{
-            Ui,
-            canvas::Ink,
-            field::{Dot, Mark, draw_field, face_in, spot_mark},
-            panel::draw_title,
-            text::write_right,
-        },
+        Glyphs,
+        ui::{Dot, Ink, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark, write_right},
         words::fixed,
     },
 };

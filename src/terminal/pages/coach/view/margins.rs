@@ -9,14 +9,8 @@ use ratatui::{
 use crate::{
     coach::{Input, Margin, Skill},
     terminal::{
-        capabilities::Capabilities,
-        tasks::advice::ShotAnalysis,
-        ui::{
-            Ui,
-            panel::{draw_nothing, draw_title},
-            text::write_right,
-            theme::Theme,
-        },
+        Capabilities, ShotAnalysis,
+        ui::{Theme, Ui, draw_nothing, draw_title, write_right},
         words::fixed,
     },
 };

@@ -15,11 +15,11 @@ use crate::{
     coach::{Mark, line_of_aim},
     table::BALLS,
     terminal::{
-        capabilities::Capabilities,
+        AdviceState, Capabilities, Mapping, Mode, Shot, View,
         pages::{
             PageArea, Target,
             coach::{
-                AdviceState, CoachPage, Mode, View,
+                CoachPage,
                 view::{
                     balls::draw_balls,
                     chances::{choice_at, draw_chances},
@@ -32,17 +32,10 @@ use crate::{
                 },
             },
         },
-        shot::{Shot, playback::passed},
+        shot::playback::passed,
         ui::{
-            Ui,
-            events::draw_events,
-            geometry::Mapping,
-            message::Message,
-            sight::draw_sight,
-            spin::draw_spin,
-            status_line::{draw_question, draw_status},
-            table::{TableView, draw_table},
-            tip::draw_tip,
+            Message, TableView, Ui, draw_events, draw_question, draw_sight, draw_spin, draw_status, draw_table,
+            draw_tip,
         },
         words::{event_words, fixed, millimetres, percent, rail_word, step_words},
     },

@@ -3,7 +3,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::{table::Table, terminal::ui::geometry::Mapping};
+use crate::{table::Table, terminal::Mapping};
 
 /// Rows of the panels below the table where all of them stand there: a title and seven lines at least; of every so many
 /// rows beyond those of the second size one more is theirs, up to the third number.

@@ -8,16 +8,9 @@ use ratatui::{
 use crate::{
     table::BALLS,
     terminal::{
-        capabilities::Glyphs,
+        Glyphs, Proposal,
         pages::coach::{Choice, view::chances::sort_words},
-        tasks::advice::Proposal,
-        ui::{
-            Ui,
-            panel::{draw_nothing, draw_title},
-            table::Spot,
-            text::wrap,
-            theme::Theme,
-        },
+        ui::{Spot, Theme, Ui, draw_nothing, draw_title, wrap},
         words::{fixed, percent},
     },
 };
@@ -26,7 +19,7 @@ use crate::{
 const WAY_LETTER: char = '*';
 
 /// What the distances of the stops are.
-const SPREAD_WORDS: &str = "half of the points leave the balls so near to the places that are meant";
+const SPREAD_WORDS: &str = "half of the points leave the balls so near to the planned positions";
 
 /// Draws the panel; without a shot it says `empty`.
 pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) {
@@ -74,7 +67,7 @@ fn shot_words(proposal: &Proposal, theme: &Theme) -> String {
     format!("{so_far}{chance} % {}", sort_words(proposal, theme.cue_ball))
 }
 
-/// How near to the meant places the balls stop, in half of the attempts that make the point.
+/// How near to the planned positions the balls stop, in half of the attempts that make the point.
 fn stop_words(choice: &Choice, theme: &Theme) -> String {
     let Some(study) = &choice.study else { return "being tried".to_owned() };
     let meant = choice.proposal.shot.recording.final_layout();

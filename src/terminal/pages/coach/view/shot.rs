@@ -10,15 +10,8 @@ use crate::{
     learning::evaluation::SuccessRate,
     table::{Layout, Table},
     terminal::{
-        capabilities::Capabilities,
-        shot::Shot,
-        tasks::advice::Proposal,
-        ui::{
-            Ui,
-            panel::{draw_nothing, draw_title},
-            text::columns,
-            theme::Theme,
-        },
+        Capabilities, Proposal, Shot,
+        ui::{Theme, Ui, columns, draw_nothing, draw_title},
         words::{across_word, chance_words, fixed, height_word, percent, rail_word},
     },
 };
@@ -107,10 +100,10 @@ fn line((name, value, note): Row, columns: usize, theme: &Theme) -> Line<'static
 /// The narrow rows in two fewer: both angles stand in one, and the spin in another.
 fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> Vec<Line<'static>> {
     let degree = caps.pick("°", "");
-    let angle = |angle: f64| fixed(angle.to_degrees(), 1) + degree;
     let (phi, theta) = (caps.pick("φ", "ph"), caps.pick("θ", "th"));
     let room = NARROW - columns(phi) - columns(theta);
-    let [phi_angle, theta_angle] = [shot.cue.phi, shot.cue.theta].map(angle);
+    let [phi_angle, theta_angle] =
+        [shot.cue.phi_text(1), fixed(shot.cue.theta.to_degrees(), 1)].map(|angle| angle + degree);
     // Blanks go where the numbers leave them room.
     let phi_width = (room.saturating_sub(columns(&theta_angle) + 1)).min(6 + columns(degree));
     let gap = usize::from(columns(&phi_angle).max(phi_width) + columns(&theta_angle) < room);
@@ -151,7 +144,7 @@ fn wide_rows(shot: &Shot, aim: String, radius: f64, caps: Capabilities) -> Vec<R
         ("a", value(fixed(cue.a, 3)), offset(cue.a, across_word(cue.a))),
         ("b", value(fixed(cue.b, 3)), offset(cue.b, height_word(cue.b))),
         (caps.pick("θ", "th"), value(elevation + degree), words.into()),
-        (caps.pick("φ", "ph"), value(fixed(cue.phi.to_degrees(), 2) + caps.pick("°", "")), aim),
+        (caps.pick("φ", "ph"), value(cue.phi_text(2) + caps.pick("°", "")), aim),
         ("V", value(fixed(cue.speed, 2)), "m/s, the cue".into()),
         ("V0", format!("{:>6} {:>6}", fixed(v.x, 3), fixed(v.y, 3)), "m/s".into()),
         (
@@ -171,7 +164,7 @@ fn narrow_rows(shot: &Shot, caps: Capabilities) -> Vec<Row> {
         ("a", format!("{:>6}", fixed(cue.a, 3)), across_word(cue.a).into()),
         ("b", format!("{:>6}", fixed(cue.b, 3)), height_word(cue.b).into()),
         (caps.pick("θ", "th"), format!("{:>6}", fixed(cue.theta.to_degrees(), 1)) + degree, none()),
-        (caps.pick("φ", "ph"), format!("{:>6}", fixed(cue.phi.to_degrees(), 1)) + degree, none()),
+        (caps.pick("φ", "ph"), format!("{:>6}", cue.phi_text(1)) + degree, none()),
         ("V", format!("{:>6}", fixed(cue.speed, 2)), "m/s".into()),
         ("V0", format!("{:>6}{:>6}", fixed(v.x, 2), fixed(v.y, 2)), none()),
         (caps.pick("ω0", "w0"), format!("{:>6}{:>6}", fixed(w.x, 0), fixed(w.y, 0)), none()),

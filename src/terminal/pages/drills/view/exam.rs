@@ -9,11 +9,7 @@ use crate::{
             DrillsPage, Turn,
             view::{READABLE, draw_header},
         },
-        ui::{
-            Ui,
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-        },
+        ui::{Message, Ui, draw_title, write_paragraphs},
         words::skill_word,
     },
 };

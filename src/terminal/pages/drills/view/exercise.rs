@@ -4,21 +4,13 @@ use glam::DVec2;
 use ratatui::layout::Rect;
 
 use crate::terminal::{
-    capabilities::Capabilities,
+    Capabilities, Shot,
     pages::drills::{
         DrillsPage, Lesson, Meets, Sight, Turn,
-        view::{draw_header, panels, panes::Panes, score},
+        view::{draw_header, panels, panes::Panes, score, separator},
     },
-    shot::{Meeting, Shot},
-    ui::{
-        Ui,
-        message::Message,
-        sight::draw_sight,
-        spin::draw_spin,
-        table::{Spot, TableView, cue_sign, draw_table},
-        theme::Theme,
-        tip::draw_tip,
-    },
+    shot::Meeting,
+    ui::{Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip},
 };
 
 /// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
@@ -59,7 +51,7 @@ fn about(turn: &Turn, caps: Capabilities) -> String {
     if turn.session.shifted {
         parts.push("shifted".to_owned());
     }
-    parts.join(caps.pick(" · ", " - "))
+    parts.join(separator(caps))
 }
 
 /// What the cue ball meets first along the line of aim, or in the shot that was played.

@@ -9,7 +9,7 @@ use crate::{
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS},
     terminal::{
-        capabilities::Glyphs,
+        FilmScene, Glyphs,
         pages::drills::{
             DrillsPage,
             view::{
@@ -17,16 +17,10 @@ use crate::{
                 panes::Panes,
             },
         },
-        shot::film::{FilmScene, Listed, table},
+        shot::film::{Listed, table},
         ui::{
-            Ui,
-            events::draw_events,
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-            sight::draw_sight,
-            spin::draw_spin,
-            table::{TableView, draw_table},
-            tip::draw_tip,
+            Message, TableView, Ui, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title,
+            write_paragraphs,
         },
         words::fixed,
     },
@@ -103,7 +97,7 @@ fn draw_stroke(scene: Option<&FilmScene>, area: Rect, ui: &mut Ui) {
         ("ball", format!("{} m/s", fixed(scene.shot.impulse.velocity.length(), 2))),
         ("side", side),
         ("height", height),
-        ("fitted", format!("2 s to {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
+        ("fitted", format!("2 s, {} mm", fixed(1e3 * scene.replay.fitted.rms, 1))),
     ];
     for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let line = Line::from(vec![

@@ -6,20 +6,13 @@ use ratatui::{
 };
 
 use crate::terminal::{
+    Mapping,
     pages::{
         Target,
         drills::{DrillsPage, view::READABLE},
     },
     shot::film::{Listed, listed, table},
-    ui::{
-        Ui,
-        geometry::Mapping,
-        list,
-        message::Message,
-        panel::{draw_title, write_paragraphs},
-        table::{TableView, draw_table},
-        text::{wrap, write_right},
-    },
+    ui::{Message, TableView, Ui, draw_table, draw_title, list, wrap, write_paragraphs, write_right},
     words::fixed,
 };
 
@@ -43,7 +36,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     Message::plain("choose a shot; Enter plays it, filmed balls and simulated ones together")
 }
 
-/// The first row of a page of the film: nobody plays there.
+/// The first row of a page of the film, which names no player.
 pub fn draw_film_header(title: &str, more: &str, area: Rect, ui: &mut Ui) {
     let line = Line::from(vec![
         Span::styled(format!(" {title}"), ui.theme.text()),

@@ -8,22 +8,17 @@ use ratatui::{
 use crate::{
     drills::{Category, Exercise},
     terminal::{
+        Mapping,
         pages::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, draw_header, percent},
+                view::{READABLE, best_run, draw_header, high_run, percent},
             },
         },
         ui::{
-            Ui,
-            geometry::Mapping,
-            list,
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-            table::{TableView, draw_table},
-            text::{columns, shorten, wrap, write_right},
-            theme::Theme,
+            Message, TableView, Theme, Ui, columns, draw_table, draw_title, list, shorten, wrap, write_paragraphs,
+            write_right,
         },
         words,
     },
@@ -162,7 +157,8 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
     if let Some(score) = drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         let made = format!("{}/{}", score.made, score.tried);
         write_right(ui.buffer, area.x, area.right() - MADE_END, area.y, &made, style);
-        write_right(ui.buffer, area.x, area.right() - RUN_END, area.y, &score.high_run.to_string(), style);
+        let run = high_run(score).map_or_else(|| "-".to_owned(), |run| run.to_string());
+        write_right(ui.buffer, area.x, area.right() - RUN_END, area.y, &run, style);
     }
 }
 
@@ -220,7 +216,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, theme: &Theme) -> Vec<Paragra
     match drills.book.score_of(&exercise.name).filter(|score| score.tried > 0) {
         Some(score) => {
             let rate = percent(score.rate.rate);
-            let words = format!("you: {} of {}, {rate}, best run {}", score.made, score.tried, score.high_run);
+            let words = format!("you: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
             add(words, theme.good(), false);
         }
         None => add("you: not tried yet".to_owned(), theme.faint(), false),

@@ -16,18 +16,17 @@ use ratatui::{
     text::{Line, Span},
 };
 
-use crate::terminal::{
-    pages::{
-        PageArea, Target,
-        drills::{DrillsPage, Screen, keys::DrillContext},
+use crate::{
+    drills::Record,
+    terminal::{
+        Capabilities, DrillContext,
+        pages::{
+            PageArea, Target,
+            drills::{DrillsPage, Screen},
+        },
+        ui::{Message, Ui, columns, draw_question, draw_status, shorten, write_right},
+        words::{self, skill_word},
     },
-    ui::{
-        Ui,
-        message::Message,
-        status_line::{draw_question, draw_status},
-        text::{columns, shorten, write_right},
-    },
-    words::{self, skill_word},
 };
 
 /// Most columns of a line that is good to read.
@@ -70,12 +69,27 @@ fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mu
     let room = usize::from(area.width).saturating_sub(columns(&player) + 2);
     let title = shorten(title, room.saturating_sub(1), ui.caps);
     let mut line = Line::from(Span::styled(format!(" {title}"), ui.theme.text()));
-    let more = Span::styled(format!("  {more}"), ui.theme.faint());
-    if line.width() + more.width() <= room {
-        line.push_span(more);
-    }
+    // What stands last has to go first.
+    let parts = std::iter::successors(Some(more), |more| more.rsplit_once(separator(ui.caps)).map(|(parts, _)| parts));
+    let more = parts.map(|parts| format!("  {parts}")).find(|more| line.width() + columns(more) <= room);
+    line.push_span(Span::styled(more.unwrap_or_default(), ui.theme.faint()));
     ui.buffer.set_line(area.x, area.y, &line, room as u16);
     write_right(ui.buffer, area.x, area.right(), area.y, &player, ui.theme.text());
+}
+
+/// What stands between two parts of a header.
+const fn separator(caps: Capabilities) -> &'static str {
+    caps.pick(" · ", " - ")
+}
+
+/// The highest run of an exercise; none where the order of makes and misses is not known.
+fn high_run(record: &Record) -> Option<u32> {
+    (record.innings > 0).then_some(record.high_run)
+}
+
+/// The same behind other words.
+fn best_run(record: &Record) -> String {
+    high_run(record).map_or_else(String::new, |run| format!(", best run {run}"))
 }
 
 /// A share as people say it, like `55 %`.

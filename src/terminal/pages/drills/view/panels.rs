@@ -1,7 +1,8 @@
-//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the one that is taught.
+//! The panels of the stroke: its numbers, where it is aimed, and how it compares with the model shot.
 
 use ratatui::{
     layout::Rect,
+    style::Style,
     text::{Line, Span},
 };
 
@@ -10,13 +11,10 @@ use crate::{
     physics::{CueInputs, LeastElevation, NoRoom, Obstacle},
     table::CueBall,
     terminal::{
-        capabilities::Capabilities,
-        pages::drills::{Lesson, Meets, Sight, Turn, Watched, view::percent},
-        tasks::drills::Taught,
-        ui::{
-            Ui,
-            panel::{draw_title, write_paragraphs},
-        },
+        Capabilities, DrillAction, Taught,
+        keymap::{chord_of, keys_text},
+        pages::drills::{Lesson, Meets, Sight, Turn, Watched, keys::EXERCISE, view::percent},
+        ui::{Ui, draw_title, wrap, write_paragraphs},
         words::{fixed, rail_name},
     },
 };
@@ -40,7 +38,7 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
         }
     };
     let rows = [
-        ("aim", fixed(cue.phi.to_degrees(), 2) + degree),
+        ("aim", cue.phi_text(2) + degree),
         ("side", millimetres(cue.a, ["left", "right"])),
         ("height", millimetres(cue.b, ["up", "down"])),
         ("speed", format!("{} m/s", fixed(cue.speed, 2))),
@@ -65,8 +63,6 @@ pub fn draw_stroke(turn: &Turn, area: Rect, ui: &mut Ui) {
 pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
     let settled = turn.watched().filter(|watched| watched.is_settled);
     let title = settled.map_or("Aim".to_owned(), |watched| chances(turn, watched, ui.caps));
-    let inner = draw_title(title, area, ui);
-    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
         paragraphs.extend(differences(turn, watched, ui.caps).into_iter().map(|words| (words, ui.theme.text())));
@@ -91,7 +87,24 @@ pub fn draw_aim(turn: &Turn, area: Rect, ui: &mut Ui) {
             _ => paragraphs.push((turn.exercise.point.clone(), ui.theme.text())),
         }
     }
-    write_paragraphs(&paragraphs, text, ui);
+    write_pages(title, &paragraphs, turn.text_page, area, ui);
+}
+
+/// Writes `paragraphs` below a title; where they have no room, one page of them, and the title says which and how to turn it.
+fn write_pages(title: String, paragraphs: &[(String, Style)], page: isize, area: Rect, ui: &mut Ui) {
+    let rows = usize::from(area.height.saturating_sub(1)).max(1);
+    let width = usize::from(area.width.saturating_sub(2));
+    let wrapped =
+        paragraphs.iter().flat_map(|(words, style)| wrap(words, width).into_iter().map(move |line| (line, *style)));
+    let lines: Vec<(String, Style)> = wrapped.collect();
+    let pages = lines.len().div_ceil(rows).max(1);
+    let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
+    let turns = chord_of(EXERCISE, &DrillAction::TurnText(1)).into_iter();
+    let key = keys_text(turns.flat_map(|chord| ui.keys.for_work_of(chord).take(1)), ui.caps);
+    let title = if pages > 1 { format!("{title}, {} of {pages}: {key}", page + 1) } else { title };
+    let inner = draw_title(title, area, ui);
+    let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
+    write_paragraphs(lines.chunks(rows).nth(page).unwrap_or_default(), text, ui);
 }
 
 /// What the line of aim meets.
@@ -128,12 +141,12 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
     }
 }
 
-/// Whose shot it is that is taught.
+/// Whose shot the advice is.
 const fn teacher(taught: &Taught) -> &'static str {
     if taught.is_own { "model shot" } else { "coach" }
 }
 
-/// What a player has to change to get from one stroke to another, or `none` where nobody could tell them apart.
+/// What a player has to change to get from one stroke to another, or `none` where the difference cannot be seen.
 fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities) -> String {
     let words = changes(&turn.table, from, to).join(", ");
     match words.as_str() {
@@ -143,14 +156,14 @@ fn told(turn: &Turn, [from, to]: [&CueInputs; 2], none: &str, caps: Capabilities
     }
 }
 
-/// How often the stroke is made that is taught, and how to set it.
+/// How often the advised stroke is made, and how to set it.
 fn hint(turn: &Turn, taught: &Taught, caps: Capabilities) -> String {
     let advice = &taught.advice;
     let changes = told(turn, [&turn.raised_stroke(), &advice.cue], "as it is set", caps);
     format!("{} makes {}: {changes}", teacher(taught), percent(advice.chance.rate))
 }
 
-/// How often the stroke is made, and the one that is taught.
+/// How often the stroke is made, and the advised one.
 fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent);
     match &turn.lesson {
@@ -161,7 +174,7 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     }
 }
 
-/// What would make the stroke the one that is taught, and what the player's hand has added to it.
+/// What would make the stroke the advised one, and what the player's errors have added to it.
 fn differences(turn: &Turn, watched: &Watched, caps: Capabilities) -> [String; 2] {
     let lesson = match &turn.lesson {
         Lesson::Known(taught) => {
@@ -180,7 +193,7 @@ mod tests {
     use super::*;
     use crate::{
         simulation::Rail,
-        terminal::capabilities::{Depth, Glyphs},
+        terminal::{Depth, Glyphs},
     };
 
     #[test]

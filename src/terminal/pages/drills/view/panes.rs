@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::{table::Table, terminal::ui::geometry::Mapping};
+use crate::{table::Table, terminal::Mapping};
 
 /// Rows of the panels below the table where all of them stand there: a title and seven lines.
 const BELOW: u16 = 8;

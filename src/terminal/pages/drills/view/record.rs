@@ -18,14 +18,12 @@ use crate::{
     terminal::{
         pages::drills::{
             DrillsPage, Estimate, record_of,
-            view::{READABLE, draw_header, percent},
+            view::{READABLE, draw_header, high_run, percent},
         },
         ui::{
-            Ui,
+            Message, Ui,
             chart::{Chart, Curve, SeriesId, draw_chart},
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-            text::{shorten, write_right},
+            draw_title, shorten, write_paragraphs, write_right,
         },
         words::chance_words,
     },
@@ -86,7 +84,7 @@ fn draw_numbers(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>,
     if record.tried > 0 {
         rows.push(("made", format!("{}, {}", record.made, chance_words(&record.rate))));
         rows.push(("average", record.average.map_or("-".to_owned(), |average| format!("{average:.2} an inning"))));
-        rows.push(("high run", record.high_run.to_string()));
+        rows.push(("high run", high_run(&record).map_or("-".to_owned(), |run| run.to_string())));
     }
     if record.helped > 0 {
         rows.push(("hints", format!("{} of the attempts", record.helped)));
@@ -152,7 +150,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         ui.buffer.set_string(inner.x + 1, y, started(session), ui.theme.faint());
         put(ui.buffer, ENDS[0].0, &format!("{}/{}", record.made, record.tried), ui.theme.text());
         put(ui.buffer, ENDS[1].0, &percent(record.rate.rate), ui.theme.text());
-        put(ui.buffer, ENDS[2].0, &record.high_run.to_string(), ui.theme.text());
+        put(ui.buffer, ENDS[2].0, &high_run(&record).map_or("-".to_owned(), |run| run.to_string()), ui.theme.text());
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
         put(ui.buffer, ENDS[3].0, &average, ui.theme.text());
         let room = usize::from(inner.width.saturating_sub(WHAT));

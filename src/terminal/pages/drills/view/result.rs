@@ -9,12 +9,7 @@ use crate::{
             DrillsPage, Turn,
             view::{draw_header, percent},
         },
-        ui::{
-            Ui,
-            message::Message,
-            panel::{draw_title, write_paragraphs},
-            text::{shorten, write_right},
-        },
+        ui::{Message, Ui, draw_title, shorten, write_paragraphs, write_right},
     },
 };
 

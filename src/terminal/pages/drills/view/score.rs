@@ -9,11 +9,11 @@ use ratatui::{
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue, exam},
     terminal::{
-        pages::drills::{DrillsPage, Turn, view::percent},
-        ui::{
-            Ui,
-            panel::{draw_title, write_paragraphs},
+        pages::drills::{
+            DrillsPage, Turn,
+            view::{best_run, percent},
         },
+        ui::{Ui, draw_title, write_paragraphs},
         words::chance_words,
     },
 };
@@ -30,10 +30,10 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) {
         lines(&session).into_iter().map(|words| (words, ui.theme.text())).collect();
     let ever = drills.book.score_of(&turn.exercise.name);
     if let Some(ever) = ever.filter(|ever| ever.tried > session.attempts.len() && session.goal != Goal::Exam) {
-        // What is open is not told here either.
+        // What is still being watched is not counted here either.
         let hidden = turn.session.attempts.len() - session.attempts.len();
         if hidden == 0 {
-            let words = format!("in all: {} of {}, best run {}", ever.made, ever.tried, ever.high_run);
+            let words = format!("in all: {} of {}{}", ever.made, ever.tried, best_run(ever));
             paragraphs.push((words, ui.theme.faint()));
         }
     }

@@ -3,16 +3,10 @@
 use ratatui::{layout::Rect, text::Span};
 
 use crate::terminal::{
-    capabilities::Capabilities,
-    keymap::{
-        KeyEntry,
-        chord::{Chord, keys_text},
-    },
-    pages::settings::{
-        SettingsPage,
-        view::{Row, draw_list, write_words},
-    },
-    ui::{Ui, panel::draw_title, text::shorten},
+    Capabilities, SettingsPage,
+    keymap::{Chord, KeyEntry, keys_text},
+    pages::settings::view::{Row, draw_list, write_words},
+    ui::{Ui, draw_title, shorten},
 };
 
 /// Columns of the keys.

@@ -11,18 +11,12 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    capabilities::Capabilities,
+    Capabilities, SettingsPage,
     pages::{
         PageArea, Target,
-        settings::{Input, Screen, SettingsPage},
+        settings::{Input, Screen},
     },
-    ui::{
-        Ui, list,
-        message::Message,
-        panel::write_paragraphs,
-        status_line::{draw_question, draw_status},
-        text::end_of,
-    },
+    ui::{Message, Ui, draw_question, draw_status, end_of, list, write_paragraphs},
 };
 
 /// Columns of the list, of a hundred, and at most.

@@ -6,16 +6,10 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    config::{ENTRIES, Entry, Settings},
-    pages::settings::{
-        SettingsPage,
-        view::{Row, draw_list, write_words},
-    },
-    ui::{
-        Ui,
-        panel::draw_title,
-        text::{columns, shorten},
-    },
+    Settings, SettingsPage,
+    config::{ENTRIES, Entry},
+    pages::settings::view::{Row, draw_list, write_words},
+    ui::{Ui, columns, draw_title, shorten},
 };
 
 /// Columns of the names.

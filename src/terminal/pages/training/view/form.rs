@@ -10,11 +10,7 @@ use crate::{
     learning::{agents::AGENTS, run::Schedule},
     terminal::{
         pages::training::{Field, Form, TrainingPage},
-        ui::{
-            Ui,
-            panel::draw_title,
-            text::{columns, wrap},
-        },
+        ui::{Ui, columns, draw_title, wrap},
         words::count,
     },
 };

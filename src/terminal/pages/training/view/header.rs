@@ -9,10 +9,7 @@ use crate::{
     learning::run::{follow::Condition, status::Phase},
     terminal::{
         pages::training::Watch,
-        ui::{
-            Ui,
-            text::{columns, end_of},
-        },
+        ui::{Ui, columns, end_of},
     },
 };
 

@@ -12,15 +12,12 @@ mod watch;
 use ratatui::layout::{Position, Rect};
 
 use crate::terminal::{
+    TrainingContext,
     pages::{
         PageArea, Target,
-        training::{Screen, TrainingPage, keys::TrainingContext},
+        training::{Screen, TrainingPage},
     },
-    ui::{
-        Ui,
-        message::Message,
-        status_line::{draw_question, draw_status},
-    },
+    ui::{Message, Ui, draw_question, draw_status},
 };
 
 /// Draws the page that is open; gives the first row of what stands below it.

@@ -17,8 +17,7 @@ use crate::{
         ui::{
             Ui,
             chart::{SeriesId, curve_mark},
-            panel::draw_title,
-            text::write_right,
+            draw_title, write_right,
         },
         words::{count, time_words},
     },

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::{table::Table, terminal::ui::geometry::Mapping};
+use crate::{table::Table, terminal::Mapping};
 
 /// Rows below the charts on the smallest screen: a title and eight lines.
 const BELOW: u16 = 9;

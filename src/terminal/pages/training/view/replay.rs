@@ -6,14 +6,9 @@ use ratatui::{
 };
 
 use crate::terminal::{
+    Scene,
     pages::training::Watch,
-    tasks::reel::Scene,
-    ui::{
-        Ui,
-        panel::draw_title,
-        table::{TableView, draw_table},
-        text::write_right,
-    },
+    ui::{TableView, Ui, draw_table, draw_title, write_right},
     words::short_count,
 };
 

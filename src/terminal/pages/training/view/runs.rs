@@ -14,12 +14,7 @@ use crate::{
             Target,
             training::{Screen, TrainingPage},
         },
-        ui::{
-            Ui, list,
-            message::Message,
-            panel::draw_title,
-            text::{columns, write_right},
-        },
+        ui::{Message, Ui, columns, draw_title, list, write_right},
         words::{count, short_count},
     },
 };
@@ -109,7 +104,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
 /// The runs that have a row, by their place in the list, and their rows.
 fn in_view(training: &TrainingPage, area: Rect) -> impl Iterator<Item = (usize, u16)> {
     let list = &training.list;
-    // Above it are a blank row and the headings, below it what is told of the marked run.
+    // Above it are a blank row and the headings, below it the details of the marked run.
     let rows = area.height.saturating_sub(6);
     list::in_view(list.mark(), list.runs().len(), usize::from(rows)).zip(area.y + 2..)
 }

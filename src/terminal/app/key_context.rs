@@ -1,0 +1,71 @@
+//! Where keys are pressed: each page has its own, and so has whatever lies over it or is asked there.
+
+use crossterm::event::KeyCode::Char;
+
+use crate::terminal::{
+    DrillContext, SettingsContext, TrainingContext, keymap::Chord, pages::coach::keys::SavingContext, ui::is_typed,
+};
+
+/// What is on the screen: each has its own keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyContext {
+    /// The coach.
+    Coach,
+    /// What is asked over its table before the balls are saved.
+    Saving(SavingContext),
+    /// One of the training pages, or what is asked there.
+    Training(TrainingContext),
+    /// One of the drill screens.
+    Drill(DrillContext),
+    /// One of the settings' pages, or what is asked there.
+    Settings(SettingsContext),
+    /// The command palette, over any of them.
+    CommandPalette,
+}
+
+impl KeyContext {
+    /// The pages with their names, in the order of the screens.
+    pub const PAGES: [(Self, &'static str); 14] = [
+        (Self::Coach, "Coach"),
+        (Self::Drill(DrillContext::Library), "Drills: library"),
+        (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
+        (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
+        (Self::Drill(DrillContext::Result), "Drills: result of an exam"),
+        (Self::Drill(DrillContext::Record), "Drills: record"),
+        (Self::Drill(DrillContext::Films), "Drills: filmed shots"),
+        (Self::Drill(DrillContext::Film), "Drills: a filmed shot"),
+        (Self::Training(TrainingContext::Runs), "Training: runs"),
+        (Self::Training(TrainingContext::Form), "Training: new run"),
+        (Self::Training(TrainingContext::Watch), "Training: a run"),
+        (Self::Training(TrainingContext::Compare), "Training: compare"),
+        (Self::Settings(SettingsContext::Values), "Settings"),
+        (Self::Settings(SettingsContext::Keys), "Settings: keys"),
+    ];
+
+    /// Whether letters are typed there, or answers.
+    pub const fn takes_letters(self) -> bool {
+        match self {
+            Self::Coach => false,
+            Self::Training(place) => place.takes_letters(),
+            Self::Drill(place) => place.takes_letters(),
+            Self::Settings(place) => place.takes_letters(),
+            Self::Saving(_) | Self::CommandPalette => true,
+        }
+    }
+
+    /// Whether `pressed` is typed there, whatever work of another key it was given.
+    pub fn types(self, pressed: Chord) -> bool {
+        let event = pressed.event();
+        match self {
+            Self::Training(TrainingContext::Name)
+            | Self::Saving(SavingContext::Title)
+            | Self::CommandPalette
+            | Self::Drill(DrillContext::Search | DrillContext::Text)
+            | Self::Settings(SettingsContext::Typing) => is_typed(&event),
+            Self::Training(TrainingContext::Form) => {
+                matches!(event.code, Char('0'..='9')) && event.modifiers.is_empty()
+            }
+            _ => false,
+        }
+    }
+}

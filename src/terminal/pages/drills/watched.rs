@@ -1,0 +1,33 @@
+//! A stroke that was played, while it is watched.
+
+use crate::{
+    physics::CueInputs,
+    terminal::{Outcome, shot::Playback},
+};
+
+/// A stroke that was played.
+#[derive(Debug)]
+pub struct Watched {
+    /// What came of it.
+    pub outcome: Outcome,
+    /// What the player had meant.
+    pub meant: CueInputs,
+    /// How often the player makes that, as soon as it is known.
+    pub chance: Option<f64>,
+    /// The clock of the shot.
+    pub playback: Playback,
+    /// Whether it has been seen to its end: before, nothing tells what comes of it.
+    pub is_settled: bool,
+}
+
+impl Watched {
+    /// Seconds that the shot takes.
+    pub fn duration(&self) -> f64 {
+        self.outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())
+    }
+
+    /// Once it has been seen to its end, its result may be shown.
+    pub(super) fn settle(&mut self) {
+        self.is_settled |= self.playback.time >= self.duration();
+    }
+}

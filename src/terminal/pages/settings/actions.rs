@@ -1,0 +1,137 @@
+//! What each key of the settings' screen does, and why it may not be used now.
+
+use crossterm::event::KeyEvent;
+
+use crate::terminal::{
+    Change, Effect, Settings, SettingsAction as Action, SettingsCondition,
+    config::ENTRIES,
+    keymap::Chord,
+    pages::settings::{Input, LONGEST, Screen, SettingsPage},
+    ui::{Message, TextField},
+};
+
+impl SettingsPage {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: SettingsCondition) -> Option<&'static str> {
+        let is_changed = match self.page {
+            Screen::Values => self.is_changed(self.marked()),
+            Screen::Keys => self.keys.is_changed(&self.settings.keys),
+        };
+        (when == SettingsCondition::Changed && !is_changed).then_some("this is as it is by default")
+    }
+
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.is_left = true,
+            Action::Turn => self.page = if self.page == Screen::Values { Screen::Keys } else { Screen::Values },
+            Action::Line(lines) if self.page == Screen::Keys => self.keys.move_mark(lines),
+            Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
+            Action::KeyContext(pages) => self.keys.choose_place(pages),
+            Action::Value(step) => return self.step(step),
+            Action::Type => self.input = Some(Input::Value(TextField::new(LONGEST))),
+            Action::Press => self.input = Some(Input::Key),
+            Action::Default if self.page == Screen::Keys => {
+                self.before.clone_from(&self.settings);
+                let change = self.keys.to_default(&mut self.settings.keys);
+                return Some(self.task(Some(change)));
+            }
+            Action::Default => {
+                let entry = self.marked();
+                let default = (entry.get)(&Settings::default());
+                return self.take(&default, Change::Default(entry.key, default.clone()));
+            }
+            Action::No => self.input = None,
+            Action::Yes => return self.yes(),
+        }
+        None
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        match self.input.take()? {
+            Input::Taken(pressed) => Some(self.give(pressed)),
+            Input::Key => None,
+            // Nothing was typed: what is in force is meant, where the file does not have it already.
+            Input::Value(typed) if typed.text().trim().is_empty() => {
+                let entry = self.marked();
+                self.other_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
+            }
+            Input::Value(typed) => {
+                let effect = self.set(typed.text().trim());
+                if effect.is_none() {
+                    // What was typed stays, to be mended.
+                    self.input = Some(Input::Value(typed));
+                }
+                effect
+            }
+        }
+    }
+
+    /// The value before or after the present one: of numbers the next smaller or larger, of names around the end.
+    fn step(&mut self, step: isize) -> Option<Effect> {
+        let entry = self.marked();
+        let (choices, now) = ((entry.choices)(), (entry.get)(&self.settings));
+        let number = |text: &String| text.parse::<f64>().ok();
+        let next = match number(&now) {
+            Some(now) if step > 0 => choices.iter().find(|choice| number(choice).is_some_and(|n| n > now)),
+            Some(now) => choices.iter().rfind(|choice| number(choice).is_some_and(|n| n < now)),
+            None => {
+                let count = choices.len();
+                let place = choices.iter().position(|choice| *choice == now);
+                let next = place.map_or(0, |place| (place + count).saturating_add_signed(step) % count);
+                choices.get(next)
+            }
+        };
+        let Some(next) = next.cloned() else {
+            self.message = Some(Message::warning(format!("{} = {now}; accepted is {}", entry.key, entry.accepted)));
+            return None;
+        };
+        self.set(&next)
+    }
+
+    /// Gives the marked setting a value that was chosen or typed.
+    fn set(&mut self, typed: &str) -> Option<Effect> {
+        let entry = self.marked();
+        match self.settings.with(entry, typed) {
+            Ok(settings) => {
+                let value = (entry.get)(&settings);
+                self.take(&value.clone(), Change::Value(entry.key, value))
+            }
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                None
+            }
+        }
+    }
+
+    /// Takes a value that is accepted.
+    fn take(&mut self, value: &str, change: Change) -> Option<Effect> {
+        match self.settings.with(self.marked(), value) {
+            Ok(settings) => self.before = std::mem::replace(&mut self.settings, settings),
+            Err(sentence) => {
+                self.message = Some(Message::warning(sentence));
+                return None;
+            }
+        }
+        Some(self.task(Some(change)))
+    }
+
+    /// A key was pressed that is to do what is marked.
+    pub fn pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
+        match self.keys.check(Chord::of(key), &self.settings.keys) {
+            Ok(chord) if self.keys.other_works(chord, &self.settings.keys).is_empty() => {
+                self.input = None;
+                return Some(self.give(chord));
+            }
+            Ok(chord) => self.input = Some(Input::Taken(chord)),
+            Err(sentence) => self.message = Some(Message::warning(sentence)),
+        }
+        None
+    }
+
+    fn give(&mut self, pressed: Chord) -> Effect {
+        self.before.clone_from(&self.settings);
+        let change = self.keys.give(pressed, &mut self.settings.keys);
+        self.task(Some(change))
+    }
+}
