@@ -9,6 +9,9 @@ use crate::table::{DoubtError, Table, TableDoubt};
 /// with other roundings of up to half a percent: marks shall not jump where a slope comes to nothing.
 const LEVEL: f64 = 2e-4;
 
+/// The steepest slope that is considered, as a share of `mu_r g`: just below what a table may have.
+const STEEPEST: f64 = 0.199;
+
 /// Correlations up to this are left out of what is told.
 const TOLD: f64 = 0.05;
 
@@ -50,7 +53,10 @@ impl Belief {
     /// The table with these unknowns, its constants within their limits.
     pub fn table(&self, unknowns: &[f64]) -> Table {
         let change = |table: Table, (name, value): (&String, f64)| TableDoubt::with_value(&table, name, value);
-        self.names.iter().zip(self.values(unknowns)).fold(self.table.clone(), change)
+        let table = self.names.iter().zip(self.values(unknowns)).fold(self.table.clone(), change);
+        // On a steeper one balls might never stop.
+        let steepest = STEEPEST * table.rolling_friction * table.gravity;
+        Table { tilt: table.tilt.clamp_length_max(steepest), ..table }
     }
 
     /// The constants' values with these unknowns, as they are before a table's limits.

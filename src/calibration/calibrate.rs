@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{
     belief::Belief,
     estimate::{Trial, estimate, off},
-    forward::Hand,
+    forward::{Hand, STROKE},
     information::information,
     protocol::{PROTOCOL, Quantity, Test},
     robust::misread,
@@ -14,6 +14,16 @@ use crate::table::{DoubtError, Table, TableDoubt, TableError};
 
 /// From this share of misread tests on, they contradict each other.
 const CONTRADICTION: f64 = 0.34;
+
+/// Most trials: the time that the fit takes grows with their cube.
+const MOST: usize = 60;
+
+/// From so many deviations on, a stroke is far from what was asked for.
+const FAR: f64 = 2.5;
+
+/// What the numbers of a stroke are, in their order.
+const STROKES: [&str; STROKE] =
+    ["speed", "direction", "tip to the side", "height of the tip", "elevation", "line of the balls"];
 
 /// A calibrated table.
 #[derive(Clone, Debug)]
@@ -24,6 +34,8 @@ pub struct Calibration {
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
     pub verdicts: Vec<Verdict>,
+    /// Strokes that must have been far from what the tests ask for, if the marks are right.
+    pub strange: Vec<Strange>,
     /// All tests, the one that tells most first.
     pub next: Vec<Next>,
 }
@@ -66,6 +78,19 @@ pub struct Verdict {
     pub rails: Option<(usize, usize)>,
 }
 
+/// A stroke that the marks only fit if it was far from what its test asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Strange {
+    /// Which trial, from 1 on.
+    pub trial: usize,
+    /// Its test.
+    pub test: &'static str,
+    /// What was different.
+    pub what: &'static str,
+    /// By how many of the deviations that are assumed of any player.
+    pub off: f64,
+}
+
 /// A test that may be played next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Next {
@@ -81,8 +106,13 @@ pub enum CalibrationError {
     /// Nothing to calibrate with.
     #[error("there is no mark that can be used; carom calibrate --tests says what to play and what to mark")]
     Nothing,
+    /// More strokes than are fitted in a reasonable time.
+    #[error("there are {0} trials; accepted are at most {MOST}, three times as many as are asked for")]
+    TooMany(usize),
     /// The table is certain, or its doubt cannot be.
-    #[error("the table \"{0}\" has no constant in doubt that a calibration could find; use match or a table file of your own")]
+    #[error(
+        "the table \"{0}\" has no constant in doubt that a calibration could find; use match or a table file of your own"
+    )]
     Certain(String),
     /// Its doubt cannot be.
     #[error(transparent)]
@@ -110,6 +140,9 @@ pub fn calibrate(
     if trials.is_empty() {
         return Err(CalibrationError::Nothing);
     }
+    if trials.len() > MOST {
+        return Err(CalibrationError::TooMany(trials.len()));
+    }
     let (numbers, trials): (Vec<usize>, Vec<Trial>) = trials.iter().cloned().unzip();
     let hand = Hand::ASSUMED;
     let found = estimate(&belief, &hand, &trials);
@@ -117,13 +150,14 @@ pub fn calibrate(
     let fitted = belief.table(&found.unknowns);
     let after = Table { name: name.to_owned(), doubt: Some(belief.doubt(&covariance)), ..fitted.clone() };
     let after = Table::from_toml(&toml::to_string(&after).map_err(|error| TableError::Syntax(error.to_string()))?)?;
-    let constants = belief.told().enumerate().map(|(index, (name, before, before_deviation))| Change {
+    let change = |(index, (name, before, before_deviation)): (usize, (&str, f64, f64))| Change {
         name: name.to_owned(),
         before,
         before_deviation,
         after: TableDoubt::value(&after, name).unwrap_or(before),
         after_deviation: covariance[index][index].max(0.0).sqrt(),
-    });
+    };
+    let constants = belief.told().enumerate().map(change).collect();
     let mut verdicts = Vec::new();
     for (index, trial) in trials.iter().enumerate() {
         let all = off(&fitted, &hand, trial, &found.strokes[index]);
@@ -146,13 +180,18 @@ pub fn calibrate(
             });
         }
     }
+    let mut strange = Vec::new();
+    for ((number, trial), stroke) in numbers.iter().zip(&trials).zip(&found.strokes) {
+        let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > FAR);
+        strange.extend(far.map(|(off, what)| Strange { trial: number + 1, test: trial.test.name, what, off: *off }));
+    }
     let bits = |test: &'static Test| Next {
         test: test.name,
         bits: information(&belief, &hand, &found.unknowns, &found.covariance, test),
     };
     let mut next: Vec<Next> = PROTOCOL.iter().map(bits).collect();
     next.sort_by(|one, other| other.bits.total_cmp(&one.bits));
-    Ok(Calibration { table: after, constants: constants.collect(), verdicts, next })
+    Ok(Calibration { table: after, constants, verdicts, strange, next })
 }
 
 impl Calibration {

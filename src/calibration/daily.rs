@@ -1,7 +1,6 @@
 //! From day to day: what changes with the weather, and whether the table plays shorter or longer than yesterday.
 
 use super::{
-    belief::Belief,
     forward::{Hand, STROKE, marks},
     protocol::Test,
 };
@@ -56,7 +55,13 @@ impl Play {
         let further = 100.0 * (self.lag / before.lag - 1.0);
         let longer = before.third_rail - self.third_rail;
         let compare = |value: f64, least: f64, [less, more]: [&'static str; 2]| {
-            if value.abs() < least { "as before" } else if value > 0.0 { more } else { less }
+            if value.abs() < least {
+                "as before"
+            } else if value > 0.0 {
+                more
+            } else {
+                less
+            }
         };
         format!(
             "a lag rolls {} ({further:+.0} %), and three rails play {} (Corner-5 arrives at {:.1} on the third rail, before at {:.1})",
@@ -66,12 +71,4 @@ impl Play {
             before.third_rail,
         )
     }
-}
-
-/// What is believed of a table on the day after.
-///
-/// # Errors
-/// Where its doubt cannot be.
-pub fn next_day(table: &Table, doubt: &TableDoubt) -> Result<Belief, crate::table::DoubtError> {
-    Belief::new(table, &overnight(table, doubt))
 }

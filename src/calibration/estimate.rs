@@ -59,7 +59,14 @@ pub struct Estimate {
 
 impl Estimate {
     /// What is expected of a mark, with its deviation: the mark itself has a say in it only as far as it is believed.
-    pub fn expected(&self, belief: &Belief, hand: &Hand, trials: &[Trial], trial: usize, mark: usize) -> Option<(f64, f64)> {
+    pub fn expected(
+        &self,
+        belief: &Belief,
+        hand: &Hand,
+        trials: &[Trial],
+        trial: usize,
+        mark: usize,
+    ) -> Option<(f64, f64)> {
         let test = trials[trial].test;
         let seen = |unknowns: &[f64], stroke: &[f64; STROKE]| {
             let table = belief.table(unknowns);

@@ -19,7 +19,7 @@ mod simulated;
 #[cfg(test)]
 mod tests;
 
-pub use calibrate::{Calibration, CalibrationError, Change, Next, Verdict, calibrate};
+pub use calibrate::{Calibration, CalibrationError, Change, Next, Strange, Verdict, calibrate};
 pub use daily::{DAILY, Play, overnight};
 pub use entries::{Entries, EntriesError, Entry, Oddity, Written};
 pub use estimate::{Reading, Trial};

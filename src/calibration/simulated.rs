@@ -72,7 +72,7 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
 }
 
 /// A table that can be played on.
-pub fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
+fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
     loop {
         let table = sampler.draw(|| normal_pair(rng)[0]);
         if toml::to_string(&table).is_ok_and(|text| Table::from_toml(&text).is_ok()) {
