@@ -89,9 +89,9 @@ impl Belief {
         let deviation = |index: usize| covariance[index][index].max(0.0).sqrt();
         let deviations = self.names.iter().enumerate().map(|(index, name)| (name.clone(), deviation(index))).collect();
         let mut doubt = TableDoubt { deviations, correlations: Vec::new() };
-        for row in 0..self.count() {
-            for column in 0..row {
-                let value = covariance[row][column] / (deviation(row) * deviation(column));
+        for (row, line) in covariance.iter().enumerate() {
+            for (column, entry) in line.iter().enumerate().take(row) {
+                let value = entry / (deviation(row) * deviation(column));
                 if value.abs() > TOLD {
                     let rounded = (1e4 * value).round() / 1e4;
                     doubt.correlations.push((self.names[column].clone(), self.names[row].clone(), rounded));

@@ -41,13 +41,15 @@ impl Play {
     /// That of `table`.
     pub fn of(table: &Table) -> Self {
         let mark = |test: &str, mark: &str| {
-            let test = Test::named(test).expect("a test of the protocol");
+            let test = Test::named(test)?;
             let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
-            let index = test.marks.iter().position(|one| one.name == mark).expect("a mark of the test");
-            marks(table, test, &cue, &layout)[index].unwrap_or_default()
+            let index = test.marks.iter().position(|one| one.name == mark)?;
+            marks(table, test, &cue, &layout)[index]
         };
         let [lag, corner] = DAILY;
-        Self { lag: mark(lag, "stop"), third_rail: mark(corner, "third") }
+        // On a table on which the ball never comes there it has no way.
+        let or_none = |mark: Option<f64>| mark.unwrap_or_default();
+        Self { lag: or_none(mark(lag, "stop")), third_rail: or_none(mark(corner, "third")) }
     }
 
     /// The same in words, against an earlier day.

@@ -8,7 +8,7 @@ use super::{
     robust::{NEVER, soften},
 };
 use crate::{
-    statistics::{Problem, minimize, solve},
+    statistics::{Minimum, Problem, minimize, solve},
     table::Table,
 };
 
@@ -93,20 +93,8 @@ impl Estimate {
 
 /// Fits constants and strokes to the trials.
 pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
-    let mut problem = Joint { belief, hand, trials, unsure: FIRST };
-    let mut start = vec![0.0; belief.count()];
-    let table = belief.table(&start);
-    start.extend(trials.iter().flat_map(|trial| {
-        let squares = |speed: f64| -> f64 {
-            let stroke = [speed, 0.0, 0.0, 0.0, 0.0, 0.0];
-            problem.misses(&table, trial, &stroke).map(|miss| miss * miss).sum::<f64>() + speed * speed
-        };
-        let best = SPEEDS.into_iter().min_by(|a, b| squares(*a).total_cmp(&squares(*b))).unwrap_or_default();
-        [best, 0.0, 0.0, 0.0, 0.0, 0.0]
-    }));
-    let first = minimize(&start, ROUNDS, &mut problem);
-    problem.unsure = 1.0;
-    let found = minimize(&first.parameters, ROUNDS, &mut problem);
+    let found = descend(belief, hand, trials, &vec![0.0; belief.count()]);
+    let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
     let count = belief.count();
     let mut residuals = Vec::new();
     problem.residuals(&found.parameters, &mut residuals);
@@ -121,6 +109,24 @@ pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
     let (unknowns, strokes) = found.parameters.split_at(count);
     let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
     Estimate { unknowns: unknowns.to_vec(), covariance, strokes, normal }
+}
+
+/// The minimum that is found from these unknowns.
+pub fn descend(belief: &Belief, hand: &Hand, trials: &[Trial], unknowns: &[f64]) -> Minimum {
+    let mut problem = Joint { belief, hand, trials, unsure: FIRST };
+    let mut start = unknowns.to_vec();
+    let table = belief.table(&start);
+    start.extend(trials.iter().flat_map(|trial| {
+        let squares = |speed: f64| -> f64 {
+            let stroke = [speed, 0.0, 0.0, 0.0, 0.0, 0.0];
+            problem.misses(&table, trial, &stroke).map(|miss| miss * miss).sum::<f64>() + speed * speed
+        };
+        let best = SPEEDS.into_iter().min_by(|a, b| squares(*a).total_cmp(&squares(*b))).unwrap_or_default();
+        [best, 0.0, 0.0, 0.0, 0.0, 0.0]
+    }));
+    let first = minimize(&start, ROUNDS, &mut problem);
+    problem.unsure = 1.0;
+    minimize(&first.parameters, ROUNDS, &mut problem)
 }
 
 fn normal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {

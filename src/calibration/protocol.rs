@@ -252,10 +252,10 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "reverse-side",
-        title: "the same line with reverse side: how the rails take hold of side",
-        place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
-        strike: "through diamond 6 of the left long rail as before, but with reverse side (left), at medium speed",
-        balls: &[[0.6, 0.4]],
+        title: "a parallel line with reverse side: how the rails take hold of side",
+        place: "the cue ball near the right long rail: 1.6 along, 0.4 across",
+        strike: "through diamond 7 of the left long rail, with reverse side (left), at medium speed",
+        balls: &[[1.6, 0.4]],
         frozen: None,
         cue: [0.3, 0.2, 3.0, 35.3, 2.8],
         marks: &[

@@ -67,7 +67,9 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
             coverage.error += error * error / count as f64;
         }
     }
-    found.iter_mut().for_each(|coverage| coverage.error = coverage.error.sqrt());
+    for coverage in &mut found {
+        coverage.error = coverage.error.sqrt();
+    }
     Ok(found)
 }
 

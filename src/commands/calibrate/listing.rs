@@ -88,12 +88,12 @@ pub fn template() -> String {
     for (number, test) in (1..).zip(PROTOCOL) {
         text += "\n";
         for line in words(number, test) {
-            text += &format!("# {line}\n");
+            text.extend(["# ", &line, "\n"]);
         }
         for _ in 0..test.times {
-            text += &format!("# [[trial]]\n# test = \"{}\"\n", test.name);
+            text.extend(["# [[trial]]\n# test = \"", test.name, "\"\n"]);
             for mark in test.marks {
-                text += &format!("# {} =\n", mark.name);
+                text.extend(["# ", mark.name, " =\n"]);
             }
             if test.rails.is_none() {
                 text += "# rails =\n";
@@ -114,7 +114,7 @@ impl TestLine {
             place: test.place,
             strike: test.strike,
             times: test.times,
-            layout: balls[..taking_part].iter().map(|ball| ball.to_array()).collect(),
+            layout: balls[..taking_part].iter().map(glam::DVec2::to_array).collect(),
             cue: CueInputs { a, b, theta: theta.to_radians(), phi: phi.to_radians(), speed },
             marks: test
                 .marks

@@ -27,6 +27,7 @@ const NAME: &str = "own";
 /// With a FILE of entries it says what follows from them. Without one it asks for the tests one by one and keeps every entry
 /// at once; the next call goes on where this one has ended.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// The entries: TOML as --template prints it, or JSON with the same names.
     file: Option<PathBuf>,
@@ -123,9 +124,9 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     let play = args.daily.then(|| [Play::of(table), Play::of(&found.table)]);
     let report = Report::new(&found, entries, &odd, play);
     if args.json {
-        report.json()?
+        report.json()?;
     } else {
-        report.text()?
+        report.text()?;
     }
     if !odd.is_empty() {
         let written = args.out.as_ref().map_or("", |_| ", and no table is written");
@@ -150,9 +151,9 @@ fn write(path: &Path, found: &Calibration, is_json: bool) -> Result<(), Failure>
         .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
     let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());
     if is_json {
-        tell(said)
+        tell(said);
     } else {
-        line(said)?
+        line(said)?;
     }
     Ok(())
 }
