@@ -58,6 +58,25 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// The normal distribution around a minimum.
+    fn at(belief: &Belief, hand: &Hand, trials: &[Trial], found: &Minimum) -> Self {
+        let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
+        let count = belief.count();
+        let mut residuals = Vec::new();
+        problem.residuals(&found.parameters, &mut residuals);
+        let normal = normal(&problem.derivatives(&found.parameters, &residuals));
+        let column = |row: usize| {
+            let unit = (0..normal.len()).map(|index| f64::from(u8::from(index == row))).collect();
+            let mut column = solve(normal.clone(), unit).unwrap_or(vec![f64::NAN; normal.len()]);
+            column.truncate(count);
+            column
+        };
+        let covariance = (0..count).map(column).collect();
+        let (unknowns, strokes) = found.parameters.split_at(count);
+        let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
+        Self { unknowns: unknowns.to_vec(), covariance, strokes, normal }
+    }
+
     /// What is expected of a mark, with its deviation: the mark itself has a say in it only as far as it is believed.
     pub fn expected(
         &self,
@@ -93,28 +112,13 @@ impl Estimate {
 
 /// Fits constants and strokes to the trials.
 pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
-    let found = descend(belief, hand, trials, &vec![0.0; belief.count()]);
-    let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
-    let count = belief.count();
-    let mut residuals = Vec::new();
-    problem.residuals(&found.parameters, &mut residuals);
-    let normal = normal(&problem.derivatives(&found.parameters, &residuals));
-    let column = |row: usize| {
-        let unit = (0..normal.len()).map(|index| f64::from(u8::from(index == row))).collect();
-        let mut column = solve(normal.clone(), unit).unwrap_or(vec![f64::NAN; normal.len()]);
-        column.truncate(count);
-        column
-    };
-    let covariance = (0..count).map(column).collect();
-    let (unknowns, strokes) = found.parameters.split_at(count);
-    let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
-    Estimate { unknowns: unknowns.to_vec(), covariance, strokes, normal }
+    Estimate::at(belief, hand, trials, &descend(belief, hand, trials))
 }
 
-/// The minimum that is found from these unknowns.
-pub fn descend(belief: &Belief, hand: &Hand, trials: &[Trial], unknowns: &[f64]) -> Minimum {
+/// The minimum that is found from what was held of the table before.
+fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Minimum {
     let mut problem = Joint { belief, hand, trials, unsure: FIRST };
-    let mut start = unknowns.to_vec();
+    let mut start = vec![0.0; belief.count()];
     let table = belief.table(&start);
     start.extend(trials.iter().flat_map(|trial| {
         let squares = |speed: f64| -> f64 {

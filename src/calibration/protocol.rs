@@ -163,8 +163,10 @@ const fn mark(name: &'static str, words: &'static str, quantity: Quantity, sure:
     Mark { name, words, quantity, sure }
 }
 
-/// The protocol, in the order in which it is played. Chosen from fourteen candidates by what the next stroke is expected
-/// to tell: a centre ball at 45°, maximum side across the table and a stop shot told less than any of these.
+/// The protocol, in the order in which it is played, chosen from candidates by what the next stroke is expected to tell: a
+/// centre ball at 45°, maximum side across the table and a stop shot told less than any of these. Corner-5's line without side
+/// or with reverse side tells more of the rails' friction, but so crookedly that intervals of [`super::coverage`] held the
+/// truth in 83 to 87 of 100 tables only: it is left out until the intervals are more than a normal distribution.
 pub const PROTOCOL: &[Test] = &[
     Test {
         name: "slow-roll",
@@ -248,23 +250,7 @@ pub const PROTOCOL: &[Test] = &[
             mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4), 0.1),
         ],
         rails: Some(0),
-        times: 2,
-    },
-    Test {
-        name: "reverse-side",
-        title: "a parallel line with reverse side: how the rails take hold of side",
-        place: "the cue ball near the right long rail: 1.6 along, 0.4 across",
-        strike: "through diamond 7 of the left long rail, with reverse side (left), at medium speed",
-        balls: &[[1.6, 0.4]],
-        frozen: None,
-        cue: [0.3, 0.2, 3.0, 35.3, 2.8],
-        marks: &[
-            mark("first", "where it meets the left long rail", RailAlong(0, 1), 0.1),
-            mark("third", "where it meets the right long rail", RailAlong(0, 3), 0.1),
-            mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4), 0.1),
-        ],
-        rails: Some(0),
-        times: 2,
+        times: 4,
     },
     Test {
         name: "side-along",
