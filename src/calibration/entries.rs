@@ -213,6 +213,9 @@ impl Entry {
         let rails = self.rails.or(test.rails).ok_or_else(|| {
             format!("{name} = {written} says nothing without the number of short rails that the ball met; add rails = 5, or as many as it was")
         })?;
+        if rails > 0 && test.balls.len() > 1 {
+            return Err(format!("rails = {rails}: no ball may meet a rail in this test; play it again, softer"));
+        }
         if rails > MOST_RAILS {
             return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MOST_RAILS}"));
         }
