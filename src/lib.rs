@@ -1,12 +1,13 @@
 //! `carom` is a terminal coach for carom billiards: it shows the table, recommends how to strike and plays the shot.
 //!
 //! The rooms, from the ground up; each may use those above it, never those below: [`table`] what is played on,
-//! [`printing`] what goes out, [`storage`] files, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents,
-//! [`coach`] recommendations, [`drills`] practice, [`study`] the program measuring itself, [`terminal`] screens, [`commands`] the command line.
+//! [`printing`] what goes out, [`storage`] files, [`statistics`] fits, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents,
+//! [`coach`] recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`] the program measuring itself, [`terminal`] screens, [`commands`] the command line.
 
 // What may not be used stands in clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]
 
+pub mod calibration;
 pub mod coach;
 pub mod commands;
 pub mod drills;
@@ -15,6 +16,7 @@ pub mod learning;
 pub mod physics;
 pub mod printing;
 pub mod simulation;
+pub mod statistics;
 pub mod storage;
 pub mod study;
 pub mod table;

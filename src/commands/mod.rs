@@ -3,6 +3,7 @@
 mod accuracy;
 mod bench;
 mod bounded;
+mod calibrate;
 mod config;
 mod documents;
 mod drill;
@@ -57,6 +58,7 @@ enum Command {
     Evaluate(evaluate::Args),
     Accuracy(accuracy::Args),
     Bench(bench::Args),
+    Calibrate(calibrate::Args),
     Reproduce(reproduce::Args),
     Table(table::Args),
     Config(config::Args),
@@ -121,6 +123,7 @@ impl Cli {
             Some(Command::Evaluate(args)) => evaluate::run(&args),
             Some(Command::Accuracy(args)) => accuracy::run(&args),
             Some(Command::Bench(args)) => bench::run(&args),
+            Some(Command::Calibrate(args)) => calibrate::run(&args),
             Some(Command::Reproduce(args)) => reproduce::run(&args),
             Some(Command::Table(args)) => table::run(&args),
             Some(Command::Config(args)) => config::run(&args),

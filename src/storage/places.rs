@@ -17,6 +17,10 @@ pub struct Places {
     pub positions: PathBuf,
     /// The file of the user's own skill.
     pub player: PathBuf,
+    /// What was entered of the calibration of a table.
+    pub calibration: PathBuf,
+    /// What was entered of a check of the day.
+    pub daily_check: PathBuf,
     /// What the last session of the screen left.
     pub last: PathBuf,
     /// What happened, line by line.
@@ -48,6 +52,8 @@ impl Places {
             sessions: data.join("sessions"),
             positions: data.join("positions"),
             player: data.join("player.json"),
+            calibration: data.join("calibration.toml"),
+            daily_check: data.join("calibration-daily.toml"),
             last: state.join("last.json"),
             log: state.join("carom.log"),
             notices: state.join("notices"),

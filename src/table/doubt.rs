@@ -208,8 +208,11 @@ impl TableDoubt {
         self.factor(&names).map(|_| ())
     }
 
-    /// The lower triangle L of the covariance `L Lᵀ` of these constants (Cholesky).
-    fn factor(&self, names: &[&str]) -> Result<Vec<Vec<f64>>, DoubtError> {
+    /// The lower triangle L of the covariance `L Lᵀ` of these constants by rows (Cholesky).
+    ///
+    /// # Errors
+    /// Where the correlations contradict each other.
+    pub fn factor(&self, names: &[&str]) -> Result<Vec<Vec<f64>>, DoubtError> {
         let correlation = |row: &str, column: &str| {
             let is_named = |(one, other, _): &&(String, String, f64)| {
                 (one == row && other == column) || (one == column && other == row)

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bench;
+mod calibrate;
 mod command_faults;
 mod commands;
 mod cue_room;

@@ -8,11 +8,10 @@ use glam::DVec2;
 
 use super::{
     film::{FilmedShot, Sample},
-    least_squares::fit,
     lone::{Follower, Motion, alone},
     rail_hits::{RailHit, chains, stretches},
 };
-use crate::table::Table;
+use crate::{statistics::fit, table::Table};
 
 /// A filmed ball from one rail to some others, with no other ball near.
 #[derive(Clone, Debug)]

@@ -6,10 +6,12 @@ use serde::Serialize;
 use super::{
     chains::{self, Chain},
     film::FilmedShot,
-    least_squares::{fit, solve},
     lone::Motion,
 };
-use crate::table::{Fade, RailModel, Table};
+use crate::{
+    statistics::{fit, solve},
+    table::{Fade, RailModel, Table},
+};
 
 /// How many constants are fitted.
 pub const COUNT: usize = 11;
@@ -96,7 +98,7 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
     };
     let first = with(table, model, &values);
     let mut motions: Vec<Motion> = stretches.iter().map(|stretch| begin(&first, stretch, None)).collect();
-    let mut normal = [[0.0; COUNT]; COUNT];
+    let mut normal = Vec::new();
     for _ in 0..ROUNDS {
         let found = fit(values, KNOWN.map(|(.., step)| step), 6, &mut |values, out| {
             out.clear();
@@ -114,10 +116,10 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
             *motion = begin(&table, stretch, Some(*motion));
         }
     }
-    let covariance: Vec<[f64; COUNT]> = (0..COUNT)
+    let covariance: Vec<Vec<f64>> = (0..COUNT)
         .map(|column| {
-            let unit = std::array::from_fn(|row| f64::from(u8::from(row == column)));
-            solve(normal, unit).unwrap_or([f64::NAN; COUNT])
+            let unit = (0..COUNT).map(|row| f64::from(u8::from(row == column))).collect();
+            solve(normal.clone(), unit).unwrap_or(vec![f64::NAN; COUNT])
         })
         .collect();
     let deviation = |index: usize| covariance[index][index].sqrt();

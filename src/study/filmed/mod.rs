@@ -9,7 +9,6 @@ mod constants;
 mod contacts;
 mod film;
 mod judged;
-mod least_squares;
 mod lone;
 mod rail_hits;
 mod replay;

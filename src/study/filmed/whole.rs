@@ -6,10 +6,12 @@ use glam::DVec2;
 use super::{
     chains::soften,
     film::{FilmedShot, Sample},
-    least_squares::fit,
     lone::{Follower, Motion},
 };
-use crate::table::{Layout, Table};
+use crate::{
+    statistics::fit,
+    table::{Layout, Table},
+};
 
 /// How much of the cue ball's course is fitted, s.
 pub const FITTED: f64 = 2.0;

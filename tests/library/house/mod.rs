@@ -9,15 +9,17 @@ use circles::circles;
 use imports::{Module, imports};
 
 /// The top-level modules from the ground up: each may use those before it, and none behind it.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 14] = [
     "printing",
     "storage",
+    "statistics",
     "table",
     "physics",
     "simulation",
     "game",
     "learning",
     "coach",
+    "calibration",
     "drills",
     "study",
     "terminal",

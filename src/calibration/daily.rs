@@ -1,0 +1,76 @@
+//! From day to day: what changes with the weather, and whether the table plays shorter or longer than yesterday.
+
+use super::{
+    forward::{Hand, STROKE, marks},
+    protocol::Test,
+};
+use crate::table::{Table, TableDoubt};
+
+/// By how much constants change from one day to the next with the humidity of cloth and rails: standard deviations. They are
+/// assumptions.
+const DAY: [(&str, f64); 5] =
+    [("mu_r", 0.0005), ("mu_s", 0.01), ("e_rail", 0.01), ("mu_rail", 0.03), ("rail.kappa", 0.05)];
+
+/// The tests of a daily check: the first mark that is told of each.
+pub const DAILY: [&str; 2] = ["lag", "corner-five"];
+
+/// The doubt about a table on the day after: what was known of it, and what may have changed since.
+pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
+    let mut after = doubt.clone();
+    for (name, change) in DAY {
+        if TableDoubt::value(table, name).is_some() {
+            let deviation = after.deviations.entry(name.to_owned()).or_default();
+            *deviation = deviation.hypot(change);
+        }
+    }
+    let share = |name: &String| doubt.deviations.get(name).map_or(0.0, |before| before / after.deviations[name]);
+    after.correlations.iter_mut().for_each(|(one, other, value)| *value *= share(one) * share(other));
+    after
+}
+
+/// How a table plays: what the two tests of a day come to with the stroke that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Play {
+    /// The way of a lag along the table, diamonds.
+    pub lag: f64,
+    /// Where Corner-5 from 50 to 20 arrives on the third rail, diamonds from the player's end.
+    pub third_rail: f64,
+}
+
+impl Play {
+    /// That of `table`.
+    pub fn of(table: &Table) -> Self {
+        let mark = |test: &str, mark: &str| {
+            let test = Test::named(test)?;
+            let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
+            let index = test.marks.iter().position(|one| one.name == mark)?;
+            marks(table, test, &cue, &layout)[index]
+        };
+        let [lag, corner] = DAILY;
+        // On a table on which the ball never comes there it has no way.
+        let or_none = |mark: Option<f64>| mark.unwrap_or_default();
+        Self { lag: or_none(mark(lag, "stop")), third_rail: or_none(mark(corner, "third")) }
+    }
+
+    /// The same in words, against an earlier day.
+    pub fn against(&self, before: &Self) -> String {
+        let further = 100.0 * (self.lag / before.lag - 1.0);
+        let longer = before.third_rail - self.third_rail;
+        let compare = |value: f64, least: f64, [less, more]: [&'static str; 2]| {
+            if value.abs() < least {
+                "as before"
+            } else if value > 0.0 {
+                more
+            } else {
+                less
+            }
+        };
+        format!(
+            "a lag rolls {} ({further:+.0} %), and three rails play {} (Corner-5 arrives at {:.1} on the third rail, before at {:.1})",
+            compare(further, 1.0, ["shorter", "farther"]),
+            compare(longer, 0.05, ["shorter", "longer"]),
+            self.third_rail,
+            before.third_rail,
+        )
+    }
+}

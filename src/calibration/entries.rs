@@ -1,0 +1,224 @@
+//! What a player has written down: trials by name, as they stand in a file, and what they mean.
+
+use std::{collections::BTreeMap, fmt};
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    estimate::{Reading, Trial},
+    protocol::{Mark, PROTOCOL, Quantity, Test, Unit},
+};
+use crate::table::Table;
+
+/// How sure a place is that was measured with a tape, diamonds: 5 mm.
+const TAPE: f64 = 0.015;
+
+/// Shortest time that is believed, s: nobody starts and stops a watch faster.
+const SHORTEST: f64 = 0.2;
+
+/// Most short rails that a ball meets in a test: nobody strikes it so hard.
+const MOST_RAILS: usize = 12;
+
+/// A file of entries.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Entries {
+    /// The name that the table shall have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// The strokes, in the order in which they were played.
+    #[serde(default, rename = "trial", skip_serializing_if = "Vec::is_empty")]
+    pub trials: Vec<Entry>,
+}
+
+/// One stroke.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// Name of the test.
+    pub test: String,
+    /// How many short rails the ball met, where it is not what the test expects.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rails: Option<usize>,
+    /// How sure marks are, where it is not what is usual.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sure: BTreeMap<String, Written>,
+    /// The marks by their names.
+    #[serde(flatten)]
+    pub marks: BTreeMap<String, Written>,
+}
+
+/// A number as it is written: in the mark's unit, or with a unit of its own, like `"412 mm"`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Written {
+    /// In the mark's unit.
+    Number(f64),
+    /// With a unit.
+    Text(String),
+}
+
+impl fmt::Display for Written {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(formatter, "{number}"),
+            Self::Text(text) => write!(formatter, "\"{text}\""),
+        }
+    }
+}
+
+impl Written {
+    /// The number in the mark's unit, and whether it was measured with a tape.
+    fn read(&self, unit: Unit, table: &Table) -> Option<(f64, bool)> {
+        let text = match self {
+            Self::Number(number) => return Some((*number, false)),
+            Self::Text(text) => text.trim(),
+        };
+        let digits = text.trim_end_matches(|letter: char| letter.is_alphabetic());
+        let number: f64 = digits.trim().parse().ok()?;
+        match (unit, &text[digits.len()..]) {
+            (_, "") | (Unit::Diamonds, "d" | "diamonds") | (Unit::Seconds, "s") => Some((number, false)),
+            (Unit::Diamonds, "mm") => Some((1e-3 * number / table.diamond(), true)),
+            (Unit::Diamonds, "cm") => Some((1e-2 * number / table.diamond(), true)),
+            _ => None,
+        }
+    }
+}
+
+/// What is odd about an entry; what is odd is left out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("trial {number} ({test}): {what}")]
+pub struct Oddity {
+    /// Which trial, from 1 on.
+    pub number: usize,
+    /// Its test.
+    pub test: String,
+    /// What is odd, and what would be accepted.
+    pub what: String,
+}
+
+/// Why a file of entries cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum EntriesError {
+    /// It is no TOML of this form.
+    #[error("{0}")]
+    Toml(String),
+    /// It is no JSON of this form.
+    #[error("{0}")]
+    Json(serde_json::Error),
+}
+
+impl Entries {
+    /// Reads a file's text: TOML, or JSON where it begins with a brace.
+    ///
+    /// # Errors
+    /// Where it is neither.
+    pub fn parse(text: &str) -> Result<Self, EntriesError> {
+        if text.trim_start().starts_with('{') {
+            return serde_json::from_str(text).map_err(EntriesError::Json);
+        }
+        toml::from_str(text).map_err(|error| {
+            let line = error.span().map(|span| text.bytes().take(span.start).filter(|&byte| byte == b'\n').count() + 1);
+            let place = line.map_or(String::new(), |line| format!("line {line}: "));
+            EntriesError::Toml(place + error.message())
+        })
+    }
+
+    /// The trials that can be used, each with its number in the file from 0 on, and what is odd about the others.
+    pub fn trials(&self, table: &Table) -> (Vec<(usize, Trial)>, Vec<Oddity>) {
+        let (mut trials, mut odd) = (Vec::new(), Vec::new());
+        for (index, entry) in self.trials.iter().enumerate() {
+            let (readings, what) = entry.readings(table);
+            odd.extend(what.into_iter().map(|what| Oddity { number: index + 1, test: entry.test.clone(), what }));
+            if let Some(test) = Test::named(&entry.test)
+                && !readings.is_empty()
+            {
+                trials.push((index, Trial { test, readings }));
+            }
+        }
+        (trials, odd)
+    }
+
+    /// How many strokes of each test are still missing, of those that miss any.
+    pub fn missing(&self) -> Vec<(&'static Test, usize)> {
+        let played = |test: &Test| self.trials.iter().filter(|entry| entry.test == test.name).count();
+        PROTOCOL
+            .iter()
+            .map(|test| (test, test.times.saturating_sub(played(test))))
+            .filter(|(_, missing)| *missing > 0)
+            .collect()
+    }
+}
+
+impl Entry {
+    /// What the marks mean, and what is odd.
+    pub fn readings(&self, table: &Table) -> (Vec<Reading>, Vec<String>) {
+        let Some(test) = Test::named(&self.test) else {
+            let names: Vec<&str> = PROTOCOL.iter().map(|test| test.name).collect();
+            return (Vec::new(), vec![format!("there is no such test; there are {}", names.join(", "))]);
+        };
+        let (mut readings, mut odd) = (Vec::new(), Vec::new());
+        let names: Vec<&str> = test.marks.iter().map(|mark| mark.name).collect();
+        for name in self.marks.keys().chain(self.sure.keys()).filter(|name| !names.contains(&name.as_str())) {
+            odd.push(format!("it has no mark \"{name}\"; its marks are {}", names.join(", ")));
+        }
+        for (index, mark) in test.marks.iter().enumerate() {
+            let Some(written) = self.marks.get(mark.name) else { continue };
+            match self.reading(table, test, mark, written) {
+                Ok((value, sure)) => readings.push(Reading { mark: index, value, sure }),
+                Err(what) => odd.push(what),
+            }
+        }
+        if readings.is_empty() && odd.is_empty() {
+            odd.push(format!("nothing is marked yet; its marks are {}", names.join(", ")));
+        }
+        (readings, odd)
+    }
+
+    /// A mark's value, where a ball stops along the table as its way, and how sure it is.
+    fn reading(&self, table: &Table, test: &Test, mark: &Mark, written: &Written) -> Result<(f64, f64), String> {
+        let Mark { name, .. } = mark;
+        let unit = mark.unit();
+        let no_number = |written: &Written| {
+            let accepted = match unit {
+                Unit::Diamonds => "a number of diamonds, or a text like \"412 mm\"",
+                Unit::Seconds => "a number of seconds",
+            };
+            format!("{name} = {written} is no {}; accepted is {accepted}", unit.sign())
+        };
+        let (value, is_taped) = written.read(unit, table).ok_or_else(|| no_number(written))?;
+        let least = if unit == Unit::Seconds { SHORTEST } else { 0.0 };
+        let most = mark.most();
+        if !(least..=most).contains(&value) {
+            let whose = match unit {
+                Unit::Diamonds => "no ball can be there",
+                Unit::Seconds if value > most => "no ball rolls that long: was the stopwatch left running?",
+                Unit::Seconds => "nobody stops a watch that fast",
+            };
+            return Err(format!("{name} = {written}: {whose}; accepted is {least} to {most} {}", unit.sign()));
+        }
+        let sure = match self.sure.get(*name) {
+            None if is_taped => TAPE,
+            None => mark.sure,
+            Some(written) => {
+                let (sure, _) = written.read(unit, table).ok_or_else(|| no_number(written))?;
+                if !(sure > 0.0 && sure <= most) {
+                    return Err(format!("sure.{name} = {written}; accepted is above 0 and at most {most}"));
+                }
+                sure
+            }
+        };
+        if !matches!(mark.quantity, Quantity::StopAlong(_)) {
+            return Ok((value, sure));
+        }
+        let rails = self.rails.or(test.rails).ok_or_else(|| {
+            format!("{name} = {written} says nothing without the number of short rails that the ball met; add rails = 5, or as many as it was")
+        })?;
+        if rails > 0 && test.balls.len() > 1 {
+            return Err(format!("rails = {rails}: no ball may meet a rail in this test; play it again, softer"));
+        }
+        if rails > MOST_RAILS {
+            return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MOST_RAILS}"));
+        }
+        Ok((test.way(table, rails, value), sure))
+    }
+}

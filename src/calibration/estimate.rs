@@ -1,0 +1,216 @@
+//! The constants that the marks of some trials speak for: the most likely ones with the strokes that were really struck, and
+//! the normal distribution around them (Laplace's approximation).
+
+use super::{
+    belief::Belief,
+    forward::{Hand, STROKE, marks},
+    protocol::Test,
+    robust::{NEVER, soften},
+};
+use crate::{
+    statistics::{Minimum, Problem, minimize, solve},
+    table::Table,
+};
+
+/// A number that was marked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Which of the test's marks.
+    pub mark: usize,
+    /// Its value, in its unit.
+    pub value: f64,
+    /// Its standard error.
+    pub sure: f64,
+}
+
+/// A stroke of a test and what was marked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// The test.
+    pub test: &'static Test,
+    /// What was marked; marks may be left out.
+    pub readings: Vec<Reading>,
+}
+
+/// Where derivatives by differences are taken, in deviations of the unknowns.
+const STEP: f64 = 0.02;
+
+/// Rounds of the fit; it takes about ten.
+const ROUNDS: usize = 60;
+
+/// How many times as unsure marks are taken to be at first: from far off, a few misread ones could lead astray.
+const FIRST: f64 = 3.0;
+
+/// The speeds at which strokes are first looked for, in deviations from the one that is asked for.
+const SPEEDS: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Estimate {
+    /// The unknowns of [`Belief`].
+    pub unknowns: Vec<f64>,
+    /// Their covariance.
+    pub covariance: Vec<Vec<f64>>,
+    /// The strokes of the trials.
+    pub strokes: Vec<[f64; STROKE]>,
+    /// The normal matrix of unknowns and strokes.
+    normal: Vec<Vec<f64>>,
+}
+
+impl Estimate {
+    /// The normal distribution around a minimum.
+    fn at(belief: &Belief, hand: &Hand, trials: &[Trial], found: &Minimum) -> Self {
+        let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
+        let count = belief.count();
+        let mut residuals = Vec::new();
+        problem.residuals(&found.parameters, &mut residuals);
+        let normal = normal(&problem.derivatives(&found.parameters, &residuals));
+        let column = |row: usize| {
+            let unit = (0..normal.len()).map(|index| f64::from(u8::from(index == row))).collect();
+            let mut column = solve(normal.clone(), unit).unwrap_or(vec![f64::NAN; normal.len()]);
+            column.truncate(count);
+            column
+        };
+        let covariance = (0..count).map(column).collect();
+        let (unknowns, strokes) = found.parameters.split_at(count);
+        let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
+        Self { unknowns: unknowns.to_vec(), covariance, strokes, normal }
+    }
+
+    /// What is expected of a mark, with its deviation: the mark itself has a say in it only as far as it is believed.
+    pub fn expected(
+        &self,
+        belief: &Belief,
+        hand: &Hand,
+        trials: &[Trial],
+        trial: usize,
+        mark: usize,
+    ) -> Option<(f64, f64)> {
+        let test = trials[trial].test;
+        let seen = |unknowns: &[f64], stroke: &[f64; STROKE]| {
+            let table = belief.table(unknowns);
+            let (cue, layout) = hand.stroke(&table, test, stroke);
+            marks(&table, test, &cue, &layout)[mark]
+        };
+        let stroke = self.strokes[trial];
+        let at = seen(&self.unknowns, &stroke)?;
+        let mut slope = vec![0.0; self.normal.len()];
+        for (index, slope) in slope.iter_mut().take(belief.count()).enumerate() {
+            let mut moved = self.unknowns.clone();
+            moved[index] += STEP;
+            *slope = (seen(&moved, &stroke)? - at) / STEP;
+        }
+        for index in 0..STROKE {
+            let mut moved = stroke;
+            moved[index] += STEP;
+            slope[belief.count() + trial * STROKE + index] = (seen(&self.unknowns, &moved)? - at) / STEP;
+        }
+        let spread = solve(self.normal.clone(), slope.clone())?;
+        Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
+    }
+}
+
+/// Fits constants and strokes to the trials.
+pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
+    Estimate::at(belief, hand, trials, &descend(belief, hand, trials))
+}
+
+/// The minimum that is found from what was held of the table before.
+fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Minimum {
+    let mut problem = Joint { belief, hand, trials, unsure: FIRST };
+    let mut start = vec![0.0; belief.count()];
+    let table = belief.table(&start);
+    start.extend(trials.iter().flat_map(|trial| {
+        let squares = |speed: f64| -> f64 {
+            let stroke = [speed, 0.0, 0.0, 0.0, 0.0, 0.0];
+            problem.misses(&table, trial, &stroke).map(|miss| miss * miss).sum::<f64>() + speed * speed
+        };
+        let best = SPEEDS.into_iter().min_by(|a, b| squares(*a).total_cmp(&squares(*b))).unwrap_or_default();
+        [best, 0.0, 0.0, 0.0, 0.0, 0.0]
+    }));
+    let first = minimize(&start, ROUNDS, &mut problem);
+    problem.unsure = 1.0;
+    minimize(&first.parameters, ROUNDS, &mut problem)
+}
+
+fn normal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let inner = |one: &Vec<f64>, other: &Vec<f64>| one.iter().zip(other).map(|(x, y)| x * y).sum();
+    columns.iter().map(|one| columns.iter().map(|other| inner(one, other)).collect()).collect()
+}
+
+/// Constants and strokes at once: first the constants' unknowns, then those of each trial's stroke.
+struct Joint<'a> {
+    belief: &'a Belief,
+    hand: &'a Hand,
+    trials: &'a [Trial],
+    unsure: f64,
+}
+
+impl Joint<'_> {
+    /// How far the marks of a trial are off with this stroke, softened.
+    fn misses(&self, table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> impl Iterator<Item = f64> {
+        off(table, self.hand, trial, stroke).into_iter().map(|off| soften(off / self.unsure))
+    }
+
+    fn stroke(&self, parameters: &[f64], trial: usize) -> [f64; STROKE] {
+        let first = self.belief.count() + trial * STROKE;
+        std::array::from_fn(|index| parameters[first + index])
+    }
+
+    /// Where the residuals of each trial's marks begin, and of what follows the last.
+    fn places(&self) -> Vec<usize> {
+        let mut place = self.belief.count() + self.trials.len() * STROKE;
+        let mut places = vec![place];
+        for trial in self.trials {
+            place += trial.readings.len();
+            places.push(place);
+        }
+        places
+    }
+}
+
+impl Problem for Joint<'_> {
+    /// First what the belief and the hand hold against each parameter, then the marks.
+    fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        out.extend(parameters);
+        let table = self.belief.table(&parameters[..self.belief.count()]);
+        for (index, trial) in self.trials.iter().enumerate() {
+            out.extend(self.misses(&table, trial, &self.stroke(parameters, index)));
+        }
+    }
+
+    fn derivatives(&mut self, parameters: &[f64], residuals: &[f64]) -> Vec<Vec<f64>> {
+        let count = self.belief.count();
+        let places = self.places();
+        let table = self.belief.table(&parameters[..count]);
+        let column = |index: usize| {
+            let mut column = vec![0.0; residuals.len()];
+            column[index] = 1.0;
+            let mut moved = parameters.to_vec();
+            moved[index] += STEP;
+            let changed = (index < count).then(|| self.belief.table(&moved[..count]));
+            for (number, trial) in self.trials.iter().enumerate() {
+                let is_its_own = index >= count && (index - count) / STROKE == number;
+                if changed.is_none() && !is_its_own {
+                    continue;
+                }
+                let stroke = self.stroke(&moved, number);
+                let misses = self.misses(changed.as_ref().unwrap_or(&table), trial, &stroke);
+                for (place, miss) in (places[number]..).zip(misses) {
+                    column[place] = (miss - residuals[place]) / STEP;
+                }
+            }
+            column
+        };
+        (0..parameters.len()).map(column).collect()
+    }
+}
+
+/// How far the marks of a trial are off with this stroke, in their standard errors.
+pub fn off(table: &Table, hand: &Hand, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<f64> {
+    let (cue, layout) = hand.stroke(table, trial.test, stroke);
+    let expected = marks(table, trial.test, &cue, &layout);
+    let off = |reading: &Reading| expected[reading.mark].map_or(NEVER, |mark| (mark - reading.value) / reading.sure);
+    trial.readings.iter().map(off).collect()
+}

@@ -1,0 +1,116 @@
+//! The calibration measured on tables whose constants are known: how often its intervals hold the truth.
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Serialize;
+
+use super::{
+    belief::Belief,
+    estimate::{Estimate, Reading, Trial, estimate},
+    forward::{Hand, STROKE, marks},
+    protocol::{PROTOCOL, Quantity, Test},
+};
+use crate::{
+    learning::normal_pair,
+    table::{DoubtError, Table, TableDoubt, TableSampler},
+};
+
+/// By how much a club player's strokes differ from what is asked for.
+const CLUB: Hand = Hand {
+    speed: 0.1,
+    direction: 0.25_f64.to_radians(),
+    tip: 0.0325,
+    elevation: 0.5_f64.to_radians(),
+    line: 0.3_f64.to_radians(),
+};
+
+/// Half the width of a 95 % interval, in standard deviations.
+const HALF_WIDTH: f64 = 1.96;
+
+/// How a constant came out.
+#[derive(Clone, Debug, Serialize)]
+pub struct Coverage {
+    /// Its name.
+    pub name: String,
+    /// Tables on which its 95 % interval held the truth.
+    pub held: usize,
+    /// Its deviation before.
+    pub before: f64,
+    /// Its deviation afterwards, on average.
+    pub after: f64,
+    /// Root mean square of what it was off by.
+    pub error: f64,
+}
+
+/// Draws `count` tables from the doubt, has a club player play the whole protocol on each, and calibrates them.
+///
+/// # Errors
+/// Where the doubt cannot be.
+pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> Result<Vec<Coverage>, DoubtError> {
+    let belief = Belief::new(table, doubt)?;
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let sampler = TableSampler::new(table, doubt, 1.0);
+    let mut found: Vec<Coverage> = belief
+        .told()
+        .map(|(name, _, before)| Coverage { name: name.to_owned(), held: 0, before, after: 0.0, error: 0.0 })
+        .collect();
+    for _ in 0..count {
+        let truth = sampler.as_ref().map_or_else(|| table.clone(), |sampler| drawn(sampler, &mut rng));
+        let trials = played(&truth, &mut rng);
+        let Estimate { unknowns, covariance, .. } = estimate(&belief, &Hand::ASSUMED, &trials);
+        let (values, covariance) = (belief.values(&unknowns), belief.covariance(&covariance));
+        for (index, coverage) in found.iter_mut().enumerate() {
+            let error = values[index] - TableDoubt::value(&truth, &coverage.name).unwrap_or_default();
+            let deviation = covariance[index][index].sqrt();
+            coverage.held += usize::from(error.abs() <= HALF_WIDTH * deviation);
+            coverage.after += deviation / count as f64;
+            coverage.error += error * error / count as f64;
+        }
+    }
+    for coverage in &mut found {
+        coverage.error = coverage.error.sqrt();
+    }
+    Ok(found)
+}
+
+/// A table that can be played on.
+fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
+    loop {
+        let table = sampler.draw(|| normal_pair(rng)[0]);
+        if toml::to_string(&table).is_ok_and(|text| Table::from_toml(&text).is_ok()) {
+            return table;
+        }
+    }
+}
+
+/// The whole protocol as a club player plays and marks it.
+pub fn played(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Vec<Trial> {
+    let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.times));
+    tests.map(|test| trial(table, test, rng)).collect()
+}
+
+/// One stroke. Where a mark cannot be made, since the ball has stopped before, it is left out.
+fn trial(table: &Table, test: &'static Test, rng: &mut Xoshiro256PlusPlus) -> Trial {
+    let stroke: [f64; STROKE] = std::array::from_fn(|_| normal_pair(rng)[0]);
+    let (cue, layout) = CLUB.stroke(table, test, &stroke);
+    let seen = marks(table, test, &cue, &layout);
+    let readings = seen.into_iter().zip(test.marks).enumerate().filter_map(|(index, (seen, mark))| {
+        let off = mark.sure * normal_pair(rng)[0];
+        // To a tenth of a diamond, as it is written down.
+        let written = |place: f64| (10.0 * (place + off)).round() / 10.0;
+        let value = match mark.quantity {
+            Quantity::Time(..) => seen? + off,
+            Quantity::StopAlong(_) => {
+                let (rails, place) = test.place(table, seen?);
+                // A ball that has met a rail too many is played again; here the mark is left out.
+                if test.rails == Some(0) && rails > 0 && test.balls.len() > 1 {
+                    return None;
+                }
+                test.way(table, rails, written(place))
+            }
+            _ => written(seen?),
+        };
+        Some(Reading { mark: index, value, sure: mark.sure })
+    });
+    Trial { test, readings: readings.collect() }
+}

@@ -1,0 +1,239 @@
+//! Known tables found again, and what is said about odd marks.
+
+use rand::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    forward::{Hand, STROKE, marks},
+    protocol::Quantity,
+    simulated::played,
+    *,
+};
+use crate::table::{Table, TableDoubt};
+
+/// `match` as a table of which nothing more is known than of any.
+fn base() -> (Table, TableDoubt) {
+    let table = Table { name: "own".into(), ..Table::default() };
+    let doubt = TableDoubt::of(&table);
+    (table, doubt)
+}
+
+/// A table that differs from `match` by about a standard deviation in what a lag and slow rolls tell.
+fn other(table: &Table) -> Table {
+    let change = |table: Table, (name, value)| TableDoubt::with_value(&table, name, value);
+    [("mu_r", 0.0064), ("e_rail", 0.825), ("tilt.y", 1.2e-3), ("mu_rail", 0.27)].into_iter().fold(table.clone(), change)
+}
+
+/// Every test as often as it is asked for, struck as it should be and marked exactly.
+fn exact(table: &Table) -> Vec<(usize, Trial)> {
+    let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.times));
+    let trial = |test: &'static Test| {
+        let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
+        let seen = marks(table, test, &cue, &layout);
+        let readings = seen.iter().zip(test.marks).enumerate().map(|(mark, (seen, kind))| Reading {
+            mark,
+            value: seen.unwrap_or_else(|| panic!("{} {} is never met", test.name, kind.name)),
+            sure: kind.sure,
+        });
+        Trial { test, readings: readings.collect() }
+    };
+    tests.map(trial).enumerate().collect()
+}
+
+#[test]
+fn a_known_table_is_found_again_from_exact_marks() {
+    let (table, doubt) = base();
+    let truth = other(&table);
+    let found = calibrate("club", &table, &doubt, &exact(&truth)).unwrap();
+    assert!(found.verdicts.iter().all(|verdict| verdict.off.abs() < 1.0), "{:?}", found.verdicts);
+    assert!(found.misread().is_empty() && !found.is_contradictory());
+    for change in &found.constants {
+        let wanted = TableDoubt::value(&truth, &change.name).unwrap();
+        let off = (change.after - wanted).abs() / change.after_deviation;
+        assert!(off < 1.5, "{}: {} for {wanted}, {off} deviations", change.name, change.after);
+        assert!(change.after_deviation <= 1.01 * change.before_deviation, "{change:?}");
+    }
+    let change = |name: &str| found.constants.iter().find(|change| change.name == name).unwrap();
+    let roll = change("mu_r");
+    assert!(roll.after_deviation < 0.2 * roll.before_deviation && (roll.after - 0.0064).abs() < 1e-4, "{roll:?}");
+    // No test tells how a ball slides: what was held of it stays.
+    let slide = change("mu_s");
+    assert!(slide.after_deviation > 0.9 * slide.before_deviation, "{slide:?}");
+    // The table is a file like any other.
+    assert_eq!(found.table.name, "club");
+    assert_eq!(Table::from_toml(&toml::to_string(&found.table).unwrap()).unwrap(), found.table);
+    assert!(!found.table.doubt.as_ref().unwrap().correlations.is_empty());
+}
+
+#[test]
+fn the_intervals_hold_the_truth_of_tables_that_a_club_player_marks() {
+    let (table, doubt) = base();
+    let coverage = coverage(&table, &doubt, 3, 7).unwrap();
+    let held: usize = coverage.iter().map(|one| one.held).sum();
+    // Of 42 intervals two or so may miss.
+    assert!(held >= 36, "{coverage:?}");
+    assert!(coverage.iter().all(|one| one.after < 1.01 * one.before), "{coverage:?}");
+}
+
+#[test]
+fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
+    let (table, doubt) = base();
+    let truth = other(&table);
+    let mut trials = exact(&truth);
+    // The second slow roll: the watch was stopped three seconds late.
+    trials[1].1.readings[0].value += 3.0;
+    let found = calibrate("club", &table, &doubt, &trials).unwrap();
+    assert_eq!(found.misread(), [2]);
+    let verdict = found.verdicts.iter().find(|verdict| verdict.misread).unwrap();
+    let (expected, deviation) = verdict.expected.unwrap();
+    assert_eq!((verdict.test, verdict.mark), ("slow-roll", "time"));
+    assert!((verdict.marked - 3.0 - expected).abs() < 0.3 && deviation < 0.3, "{verdict:?}");
+    for change in &found.constants {
+        let wanted = TableDoubt::value(&truth, &change.name).unwrap();
+        assert!((change.after - wanted).abs() < 2.0 * change.after_deviation, "{change:?} for {wanted}");
+    }
+}
+
+#[test]
+fn a_mark_that_only_another_stroke_explains_is_told() {
+    let (table, doubt) = base();
+    let mut trials = exact(&table);
+    let corner = trials.iter().rposition(|(_, trial)| trial.test.name == "corner-five").unwrap();
+    // The first rail says how the ball went: what is left is the tip.
+    trials[corner].1.readings[1].value -= 1.5;
+    let found = calibrate("club", &table, &doubt, &trials).unwrap();
+    let is_told = found.strange.iter().any(|strange| strange.trial == corner + 1) || found.misread() == [corner + 1];
+    assert!(is_told, "{:?} {:?}", found.strange, found.verdicts);
+    assert!(calibrate("club", &table, &doubt, &exact(&table)).unwrap().strange.is_empty());
+}
+
+#[test]
+fn marks_that_contradict_each_other_are_said_to() {
+    let (table, doubt) = base();
+    let trial = |time: f64| Entry {
+        test: "slow-roll".into(),
+        marks: [("time".to_owned(), Written::Number(time)), ("stop".to_owned(), Written::Number(5.0))].into(),
+        ..Entry::default()
+    };
+    let entries = Entries { name: None, trials: [5.0, 9.0, 16.0].map(trial).into() };
+    let (trials, odd) = entries.trials(&table);
+    assert_eq!(odd, []);
+    let found = calibrate("club", &table, &doubt, &trials).unwrap();
+    assert!(found.is_contradictory(), "{:?}", found.verdicts);
+}
+
+#[test]
+fn a_half_file_is_used_as_far_as_it_goes_and_says_what_is_missing() {
+    let (table, doubt) = base();
+    let text = "name = \"club\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 9.0\nstop = \"1900 mm\"\nsure = { time = 0.3 }\n\
+                [[trial]]\ntest = \"lag\"\n[[trial]]\ntest = \"hard-lag\"\nstop = 3.2\n[[trial]]\ntest = \"masse\"\nx = 1\n";
+    let entries = Entries::parse(text).unwrap();
+    let (trials, odd) = entries.trials(&table);
+    assert_eq!((trials.len(), trials[0].0), (1, 0));
+    let stop = trials[0].1.readings[1];
+    assert!((stop.value - 1.9 / table.diamond()).abs() < 1e-12 && stop.sure < 0.02, "by tape: {stop:?}");
+    let said: Vec<String> = odd.iter().map(ToString::to_string).collect();
+    assert!(said[0].starts_with("trial 2 (lag): nothing is marked yet"), "{said:?}");
+    assert!(said[1].contains("hard-lag") && said[1].contains("rails = 5"), "{said:?}");
+    assert!(said[2].contains("masse") && said[2].contains("corner-five"), "{said:?}");
+    let found = calibrate("club", &table, &doubt, &trials).unwrap();
+    let known = |name: &str| {
+        let change = found.constants.iter().find(|change| change.name == name).unwrap();
+        change.after_deviation / change.before_deviation
+    };
+    assert!(known("mu_r") < 0.5 && (known("mu_b") - 1.0).abs() < 1e-6, "{:?}", found.constants);
+    assert!(entries.missing().iter().any(|(test, strokes)| test.name == "slow-roll" && *strokes == 1));
+    assert!(matches!(calibrate("club", &table, &doubt, &[]), Err(CalibrationError::Nothing)));
+    let many = calibrate("club", &table, &doubt, &vec![trials[0].clone(); 61]);
+    assert!(many.unwrap_err().to_string().contains("61 trials; accepted are at most 60"));
+    let certain = calibrate("club", &table, &TableDoubt::default(), &trials);
+    assert!(matches!(certain, Err(CalibrationError::Certain(_))));
+}
+
+#[test]
+fn odd_marks_are_named_with_what_would_be_accepted() {
+    let table = Table::default();
+    let said = |marks: &str| {
+        let entries = Entries::parse(&format!("[[trial]]\ntest = \"lag\"\n{marks}\n")).unwrap();
+        let (_, odd) = entries.trials(&table);
+        odd.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    for (marks, says) in [
+        ("stop = 9.2", "trial 1 (lag): stop = 9.2: no ball can be there; accepted is 0 to 8 diamonds"),
+        ("rest = 240", "no ball rolls that long: was the stopwatch left running?"),
+        ("lap = 0.05", "nobody stops a watch that fast"),
+        ("lap = -3", "lap = -3"),
+        ("lap = nan", "lap = NaN"),
+        ("lap = \"3 mm\"", "is no s; accepted is a number of seconds"),
+        ("stop = \"far\"", "\"412 mm\""),
+        ("stopp = 3", "no mark \"stopp\"; its marks are lap, rest, stop"),
+        ("stop = 3\nrails = 40", "rails = 40: nobody strikes that hard"),
+        ("stop = 3\nsure = { stop = 0 }", "sure.stop = 0; accepted is above 0"),
+    ] {
+        assert!(said(marks).contains(says), "{marks}: {}", said(marks));
+    }
+    assert_eq!(said("lap = 4.4\nstop = 3"), "");
+    let hit = Entries::parse("[[trial]]\ntest = \"full-hit\"\nobject = 6.5\nrails = 1\n").unwrap();
+    assert!(hit.trials(&table).1[0].to_string().contains("(full-hit): rails = 1: no ball may meet a rail"));
+    let wrong = Entries::parse("[[trial]]\ntest = 3").unwrap_err().to_string();
+    assert!(wrong.contains("line") && wrong.contains("string"), "{wrong}");
+}
+
+#[test]
+fn entries_are_the_same_after_a_round_trip_and_may_be_json() {
+    let text =
+        "[[trial]]\ntest = \"hard-lag\"\nrails = 5\nlengths = 2.6\nstop = \"1100 mm\"\nsure = { lengths = 0.2 }\n";
+    let entries = Entries::parse(text).unwrap();
+    assert_eq!(Entries::parse(&toml::to_string(&entries).unwrap()).unwrap(), entries);
+    assert_eq!(Entries::parse(&serde_json::to_string(&entries).unwrap()).unwrap(), entries);
+}
+
+#[test]
+fn a_way_is_counted_on_from_rail_to_rail_and_back() {
+    let table = Table::default();
+    for test in ["lag", "slow-back"].map(|name| Test::named(name).unwrap()) {
+        for way in [0.5, 3.0, 7.8, 8.3, 15.0, 17.2, 30.0] {
+            let (rails, place) = test.place(&table, way);
+            assert!((test.way(&table, rails, place) - way).abs() < 1e-12 && (0.0..=8.0).contains(&place), "{way}");
+        }
+    }
+    let lag = Test::named("lag").unwrap();
+    assert_eq!(lag.place(&table, 3.0), (0, 3.0));
+    assert_eq!(Test::named("slow-back").unwrap().place(&table, 3.0), (0, 5.0));
+    let drawn = played(&table, &mut Xoshiro256PlusPlus::seed_from_u64(3));
+    let stops =
+        drawn.iter().flat_map(|trial| trial.readings.iter().map(|reading| trial.test.marks[reading.mark].quantity));
+    assert!(stops.filter(|quantity| matches!(quantity, Quantity::StopAlong(_))).count() >= 9);
+}
+
+#[test]
+fn every_test_can_be_played_and_each_of_its_marks_is_met() {
+    let table = Table::default();
+    assert_eq!(exact(&table).len(), PROTOCOL.iter().map(|test| test.times).sum::<usize>());
+    for test in PROTOCOL {
+        let (cue, layout) = Hand::ASSUMED.stroke(&table, test, &[0.0; STROKE]);
+        cue.validate().unwrap();
+        assert!(!cue.is_miscue(&table), "{}", test.name);
+        for (index, ball) in layout.balls.iter().enumerate().filter(|(_, ball)| ball.x.abs() < 10.0) {
+            assert!(ball.abs().cmple(table.reach()).all(), "{} ball {index}", test.name);
+        }
+    }
+}
+
+#[test]
+fn a_slower_day_is_told_and_only_what_the_weather_changes_moves_much() {
+    let (table, doubt) = base();
+    let known = calibrate("club", &table, &doubt, &exact(&table)).unwrap().table;
+    let before = known.doubt.clone().unwrap();
+    let after = overnight(&known, &before);
+    after.validate().unwrap();
+    assert!(after.deviations["mu_r"] > before.deviations["mu_r"]);
+    assert_eq!(after.deviations["m_end"], before.deviations["m_end"]);
+    let damp = TableDoubt::with_value(&known, "mu_r", 1.25 * TableDoubt::value(&known, "mu_r").unwrap());
+    let today: Vec<_> = exact(&damp).into_iter().filter(|(_, trial)| DAILY.contains(&trial.test.name)).collect();
+    let found = calibrate("club", &known, &after, &today).unwrap();
+    let said = Play::of(&found.table).against(&Play::of(&known));
+    assert!(said.contains("a lag rolls shorter"), "{said}");
+    let roll = found.constants.iter().find(|change| change.name == "mu_r").unwrap();
+    assert!(roll.after > 1.1 * roll.before, "{roll:?}");
+}

@@ -1,0 +1,150 @@
+//! The tests as a list, and as a file of entries to fill in.
+
+use serde::Serialize;
+
+use crate::{
+    calibration::{Mark, PROTOCOL, Test, Unit},
+    commands::{
+        Failure,
+        output::{json_line, line},
+    },
+    physics::CueInputs,
+    table::{Layout, Table},
+};
+
+/// A test for a program.
+#[derive(Serialize)]
+struct TestLine {
+    test: &'static str,
+    title: &'static str,
+    place: &'static str,
+    strike: &'static str,
+    times: usize,
+    /// Of the balls that take part, m.
+    layout: Vec<[f64; 2]>,
+    cue: CueInputs,
+    marks: Vec<MarkLine>,
+}
+
+#[derive(Serialize)]
+struct MarkLine {
+    mark: &'static str,
+    words: &'static str,
+    unit: Unit,
+    sure: f64,
+}
+
+/// Prints the protocol.
+pub fn tests(table: &Table, is_json: bool) -> Result<(), Failure> {
+    for (number, test) in (1..).zip(PROTOCOL) {
+        if is_json {
+            json_line(&TestLine::of(test, table))?;
+            continue;
+        }
+        for text in words(number, test) {
+            line(text)?;
+        }
+        line("")?;
+    }
+    if !is_json {
+        let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();
+        line(format_args!("{COUNTING} {strokes} strokes in all; any test may be left out or played more often."))?;
+    }
+    Ok(())
+}
+
+/// How places are counted.
+const COUNTING: &str = "Places are in diamonds: along the table from your own short rail (0) to the far one (8), across it from \
+                        the long rail on your right (0) to that on your left (4); the rubber's edge counts, not the wood.";
+
+/// A test for a player.
+pub fn words(number: usize, test: &Test) -> Vec<String> {
+    let times = if test.times == 1 { "once".to_owned() } else { format!("{} times", test.times) };
+    let mut lines = vec![
+        format!("{number}. {} ({times}): {}", test.name, test.title),
+        format!("   put     {}", test.place),
+        format!("   strike  {}", test.strike),
+    ];
+    lines.extend(test.marks.iter().map(|Mark { name, words, .. }| format!("   mark    {name}: {words}")));
+    if test.rails.is_none_or(|rails| rails > 0) {
+        lines.push(format!("   mark    rails: how many short rails it has met{}", usual(test)));
+    }
+    lines
+}
+
+fn usual(test: &Test) -> String {
+    test.rails.map_or(String::new(), |rails| format!(", if not {rails}"))
+}
+
+/// A file of entries to fill in.
+pub fn template() -> String {
+    let mut text = format!(
+        "# What was measured at a table, for carom calibrate.\n\
+         # {COUNTING}\n\
+         # A number may have a unit: \"412 mm\" (with a tape, from the same rails) is surer than 1.2 by eye. How sure a mark is\n\
+         # may be said: sure = {{ stop = 0.2 }}. What is not known is left out; a test may be left out, or stand here more often.\n\n\
+         name = \"own\"\n"
+    );
+    for (number, test) in (1..).zip(PROTOCOL) {
+        text += "\n";
+        for line in words(number, test) {
+            text.extend(["# ", &line, "\n"]);
+        }
+        for _ in 0..test.times {
+            text.extend(["# [[trial]]\n# test = \"", test.name, "\"\n"]);
+            for mark in test.marks {
+                text.extend(["# ", mark.name, " =\n"]);
+            }
+            if test.rails.is_none() {
+                text += "# rails =\n";
+            }
+        }
+    }
+    text
+}
+
+impl TestLine {
+    fn of(test: &Test, table: &Table) -> Self {
+        let Layout { balls } = test.layout(table, 0.0);
+        let taking_part = if test.frozen.is_some() { 3 } else { test.balls.len() };
+        let [a, b, theta, phi, speed] = test.cue;
+        Self {
+            test: test.name,
+            title: test.title,
+            place: test.place,
+            strike: test.strike,
+            times: test.times,
+            layout: balls[..taking_part].iter().map(glam::DVec2::to_array).collect(),
+            cue: CueInputs { a, b, theta: theta.to_radians(), phi: phi.to_radians(), speed },
+            marks: test
+                .marks
+                .iter()
+                .map(|mark| MarkLine { mark: mark.name, words: mark.words, unit: mark.unit(), sure: mark.sure })
+                .collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::Entries;
+
+    #[test]
+    fn the_file_to_fill_in_is_read_as_it_is_and_with_its_comments_taken_away() {
+        let entries = Entries::parse(&template()).unwrap();
+        assert_eq!((entries.name.as_deref(), entries.trials.len()), (Some("own"), 0));
+        let filled: String = template()
+            .lines()
+            .map(|line| match line.strip_prefix("# ").unwrap_or(line) {
+                entry if entry.ends_with(" =") => format!("{entry} 2\n"),
+                entry if entry.starts_with("[[trial]]") || entry.starts_with("test = ") => format!("{entry}\n"),
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        let entries = Entries::parse(&filled).unwrap();
+        let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();
+        assert_eq!((entries.trials.len(), entries.missing().len()), (strokes, 0));
+        assert_eq!(entries.trials(&Table::default()).1, []);
+    }
+}

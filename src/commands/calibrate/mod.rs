@@ -1,0 +1,164 @@
+//! `carom calibrate`: a table of one's own from a few short tests at it.
+
+mod listing;
+mod report;
+mod session;
+mod simulated;
+
+use std::path::{Path, PathBuf};
+
+use super::{
+    Failure,
+    input::table_named,
+    output::{line, tell},
+};
+use crate::{
+    calibration::{Calibration, Entries, Play, calibrate, overnight},
+    storage::{self, target_of, write_atomic},
+    table::{Table, TableDoubt},
+};
+use report::Report;
+
+/// What a calibrated table is called where nothing else is said.
+const NAME: &str = "own";
+
+/// Find the constants of a real table, and how sure they are, from a few short tests that a player plays and marks there.
+///
+/// With a FILE of entries it says what follows from them. Without one it asks for the tests one by one and keeps every entry
+/// at once; the next call goes on where this one has ended.
+#[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
+pub struct Args {
+    /// The entries: TOML as --template prints it, or JSON with the same names.
+    file: Option<PathBuf>,
+    /// The table to begin with: "match", "textbook", "thesis" or the path of a TOML file, such as one that was calibrated
+    /// before.
+    #[arg(long, default_value = "match")]
+    table: String,
+    /// Write the table to this TOML file.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Name of the table; "own" where the entries give none.
+    #[arg(long)]
+    name: Option<String>,
+    /// A check of the day: the table is one that was calibrated before, and two strokes, a lag and a Corner-5, say whether it
+    /// plays shorter or longer than then.
+    #[arg(long, conflicts_with_all = ["tests", "template", "simulate"])]
+    daily: bool,
+    /// List the tests: where the balls lie, how to strike, what to mark.
+    #[arg(long, conflicts_with_all = ["file", "template", "simulate", "out"])]
+    tests: bool,
+    /// Print a file of entries to fill in.
+    #[arg(long, conflicts_with_all = ["file", "simulate", "out", "json"])]
+    template: bool,
+    /// Measure the calibration: draw so many tables, have a club player play all tests on each, and tell how often the 95 %
+    /// intervals hold the truth.
+    #[arg(long, value_name = "TABLES", conflicts_with_all = ["file", "out"],
+        value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    simulate: Option<u32>,
+    /// With --simulate, the seed of tables and player.
+    #[arg(long, requires = "simulate", default_value_t = 1)]
+    seed: u64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if args.template {
+        return line_by_line(&listing::template());
+    }
+    let table = table_named(&args.table)?;
+    if args.tests {
+        return listing::tests(&table, args.json);
+    }
+    if let Some(tables) = args.simulate {
+        return simulated::run(&table, &prior(&table), tables, args.seed, args.json);
+    }
+    let doubt = doubt(args, &table)?;
+    match &args.file {
+        Some(file) => tell_of(args, &table, &doubt, &entries_in(file)?),
+        None => session::run(args, &table, &doubt),
+    }
+}
+
+/// The entries of a file.
+fn entries_in(file: &Path) -> Result<Entries, Failure> {
+    let text = storage::read_text(file, storage::SMALL)
+        .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
+    Entries::parse(&text).map_err(|error| {
+        Failure::wrong_input(format_args!(
+            "{}: {error}; carom calibrate --template prints a file of entries to begin with",
+            file.display()
+        ))
+    })
+}
+
+/// What is not known of a table before it is calibrated. The constants of `match` are sure of the filmed table alone: of
+/// another one as little is known as tables differ.
+fn prior(table: &Table) -> TableDoubt {
+    TableDoubt::of(&Table { name: NAME.to_owned(), ..table.clone() })
+}
+
+/// What is not known of the table now: for a check of the day, what may have changed overnight too.
+fn doubt(args: &Args, table: &Table) -> Result<TableDoubt, Failure> {
+    match &table.doubt {
+        _ if !args.daily => Ok(prior(table)),
+        Some(doubt) => Ok(overnight(table, doubt)),
+        None => Err(Failure::wrong_input(format_args!(
+            "a check of the day needs a table that was calibrated before, and \"{}\" was not; give its file with --table",
+            table.name
+        ))),
+    }
+}
+
+/// Calibrates with these entries, tells what was found and writes the table.
+fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) -> Result<(), Failure> {
+    let (trials, odd) = entries.trials(table);
+    for oddity in &odd {
+        tell(format_args!("{oddity}; it is left out"));
+    }
+    let own = table.doubt.is_some().then_some(&table.name);
+    let name = args.name.as_ref().or(entries.name.as_ref()).or(own).map_or(NAME, String::as_str);
+    let found = calibrate(name, table, doubt, &trials).map_err(Failure::wrong_input)?;
+    let play = args.daily.then(|| [Play::of(table), Play::of(&found.table)]);
+    let report = Report::new(&found, entries, &odd, play);
+    if args.json {
+        report.json()?;
+    } else {
+        report.text()?;
+    }
+    if !odd.is_empty() {
+        let written = args.out.as_ref().map_or("", |_| ", and no table is written");
+        let many = if odd.len() == 1 { "one entry is odd" } else { "some entries are odd" };
+        return Err(Failure::wrong_input(format_args!("{many}{written}: mend what is named above, or take it out")));
+    }
+    args.out.as_ref().map_or(Ok(()), |out| write(out, &found, args.json))
+}
+
+/// Writes the table, over another table at most.
+fn write(path: &Path, found: &Calibration, is_json: bool) -> Result<(), Failure> {
+    let is_table = |text: String| Table::from_toml(&text).is_ok();
+    if path.exists() && !storage::read_text(path, storage::SMALL).is_ok_and(is_table) {
+        return Err(Failure::failed(format_args!(
+            "{} is there already and is no table, so it stays as it is; give another name with --out",
+            path.display()
+        )));
+    }
+    let text = toml::to_string(&found.table).map_err(Failure::failed)?;
+    let text = format!("# Written by carom calibrate; carom recommend --table {} plays on it.\n{text}", path.display());
+    write_atomic(&target_of(path), text.as_bytes())
+        .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
+    let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());
+    if is_json {
+        tell(said);
+    } else {
+        line(said)?;
+    }
+    Ok(())
+}
+
+/// Prints a text of several lines.
+fn line_by_line(text: &str) -> Result<(), Failure> {
+    text.lines().try_for_each(line)
+}

@@ -1,0 +1,136 @@
+//! What a calibration has found, for people and for programs.
+
+use serde::Serialize;
+
+use crate::{
+    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Test, Verdict},
+    commands::{
+        Failure,
+        output::{columns, json_line, line},
+    },
+    table::Table,
+};
+
+/// How many of the tests that may be played next are told.
+const NEXT: usize = 3;
+
+/// What is told.
+#[derive(Serialize)]
+pub struct Report<'a> {
+    table: &'a Table,
+    constants: &'a [Change],
+    marks: &'a [Verdict],
+    strange: &'a [Strange],
+    next: &'a [Next],
+    missing: Vec<Missing>,
+    odd: Vec<String>,
+    contradictory: bool,
+    /// With `--daily`: how the table played before and plays now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    play: Option<[Play; 2]>,
+    #[serde(skip)]
+    found: &'a Calibration,
+}
+
+/// Strokes of a test that were not entered.
+#[derive(Serialize)]
+struct Missing {
+    test: &'static str,
+    strokes: usize,
+}
+
+impl<'a> Report<'a> {
+    /// What is told of a calibration.
+    pub fn new(found: &'a Calibration, entries: &Entries, odd: &[Oddity], play: Option<[Play; 2]>) -> Self {
+        let missing = entries.missing().into_iter().map(|(test, strokes)| Missing { test: test.name, strokes });
+        Self {
+            table: &found.table,
+            constants: &found.constants,
+            marks: &found.verdicts,
+            strange: &found.strange,
+            next: &found.next,
+            missing: if play.is_some() { Vec::new() } else { missing.collect() },
+            odd: odd.iter().map(Oddity::to_string).collect(),
+            contradictory: found.is_contradictory(),
+            play,
+            found,
+        }
+    }
+
+    /// One object.
+    pub fn json(&self) -> Result<(), Failure> {
+        Ok(json_line(self)?)
+    }
+
+    /// Lines.
+    pub fn text(&self) -> Result<(), Failure> {
+        let heads = ["constant", "before", "after", "known"].map(str::to_owned);
+        let row = |one: &Change| {
+            [
+                one.name.clone(),
+                format!("{:.5} ± {:.5}", one.before, one.before_deviation),
+                format!("{:.5} ± {:.5}", one.after, one.after_deviation),
+                known(one).to_owned(),
+            ]
+        };
+        let rows: Vec<_> = std::iter::once(heads).chain(self.constants.iter().map(row)).collect();
+        columns(&rows, &[1, 2]).iter().try_for_each(line)?;
+        line("")?;
+        let misread = self.found.misread();
+        for verdict in self.marks.iter().filter(|verdict| verdict.misread) {
+            line(doubtful(verdict))?;
+        }
+        for Strange { trial, test, what, off } in self.strange {
+            line(format_args!(
+                "trial {trial} ({test}) was struck far from what is asked for ({what}: {off:+.1} deviations), or a mark is misread"
+            ))?;
+        }
+        if self.contradictory {
+            line(
+                "so many tests look misread that they contradict each other: look at the largest first, or play them again",
+            )?;
+        } else if misread.is_empty() {
+            line("all marks agree with each other")?;
+        } else {
+            line("the other marks agree with each other; those above hardly count")?;
+        }
+        if let Some([before, now]) = &self.play {
+            return line(format_args!("today {}", now.against(before)));
+        }
+        if !self.missing.is_empty() {
+            let strokes = |one: &Missing| format!("{} ({})", one.test, one.strokes);
+            let all: Vec<String> = self.missing.iter().map(strokes).collect();
+            line(format_args!("not entered yet: {}", all.join(", ")))?;
+        }
+        let told: Vec<String> =
+            self.next.iter().take(NEXT).map(|next| format!("{} ({:.2} bits)", next.test, next.bits)).collect();
+        line(format_args!("what one more stroke would tell most: {}", told.join(", ")))
+    }
+}
+
+/// In a word, how much the marks have told.
+fn known(one: &Change) -> &'static str {
+    match one.after_deviation / one.before_deviation {
+        left if left < 0.5 => "well",
+        left if left < 0.9 => "better",
+        _ => "as before",
+    }
+}
+
+/// What speaks against a mark.
+fn doubtful(verdict: &Verdict) -> String {
+    let Verdict { trial, test, mark, marked, expected, rails, .. } = verdict;
+    let unit = Test::named(test)
+        .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
+        .map_or("", |mark| mark.unit().sign());
+    let after = |rails: usize| format!(" after {rails} rails");
+    let [met, wanted] = match rails {
+        Some((met, wanted)) if met != wanted => [after(*met), after(*wanted)],
+        _ => [String::new(), String::new()],
+    };
+    let but = expected.map_or_else(
+        || "no stroke of this test comes there".to_owned(),
+        |(value, deviation)| format!("expected {value:.1} ± {deviation:.1}{wanted}"),
+    );
+    format!("trial {trial} ({test}) looks misread: you marked {mark} {marked:.1}{met} {unit}, {but}")
+}

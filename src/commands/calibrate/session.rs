@@ -1,0 +1,166 @@
+//! A guided session in lines: test by test, every entry kept at once.
+
+use std::{
+    io::{self, BufRead},
+    path::PathBuf,
+};
+
+use super::{Args, entries_in, listing::words, tell_of};
+use crate::{
+    calibration::{DAILY, Entries, Entry, PROTOCOL, Test, Written},
+    commands::{
+        Failure,
+        output::{prompt, tell},
+    },
+    storage::{Places, target_of, write_atomic},
+    table::{Table, TableDoubt},
+};
+
+/// What may be typed instead of marks.
+const HELP: &str = "type the marks in their order, or by name (stop 3.4 rails 5), - for one that is not known; or skip, again \
+                    (the last test once more), undo (the last entry), done";
+
+/// Asks for tests until all are played, the input has ended or the player is done; then tells what was found.
+pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure> {
+    let places = Places::of_this_user();
+    let path = if args.daily { places.daily_check } else { places.calibration };
+    let mut session = Session::open(path, args.daily)?;
+    tell(HELP);
+    tell(format_args!("entries are kept in {}", session.path.display()));
+    let mut input = io::stdin().lock().split(b'\n');
+    let mut shown = None;
+    while let Some(test) = session.next() {
+        if shown != Some((test.name, session.entries.trials.len())) {
+            let number = 1 + PROTOCOL.iter().position(|one| one.name == test.name).unwrap_or_default();
+            words(number, test).iter().for_each(tell);
+            shown = Some((test.name, session.entries.trials.len()));
+        }
+        let names: Vec<&str> = test.marks.iter().map(|mark| mark.name).collect();
+        prompt(&format!("{}: ", names.join(" ")));
+        let Some(read) = input.next() else { break };
+        let read = read.map_err(|error| Failure::failed(format_args!("the input cannot be read: {error}")))?;
+        let text = String::from_utf8_lossy(read.trim_ascii()).into_owned();
+        match text.as_str() {
+            "" => {}
+            "done" => break,
+            "skip" => session.skip(test),
+            "again" => session.again(),
+            "undo" => session.undo()?,
+            "help" | "?" => tell(HELP),
+            marks => match entry(table, test, marks) {
+                Ok(entry) => session.add(entry)?,
+                Err(what) => tell(format_args!("{}: {what}; nothing was kept", test.name)),
+            },
+        }
+    }
+    if session.entries.trials.is_empty() {
+        tell("nothing is entered yet");
+        return Ok(());
+    }
+    tell_of(args, table, doubt, &session.entries)
+}
+
+/// What was typed as an entry.
+fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
+    let mut entry = Entry { test: test.name.to_owned(), ..Entry::default() };
+    let mut marks = test.marks.iter();
+    let mut words = text.split_whitespace();
+    while let Some(word) = words.next() {
+        let is_name = word == "rails" || test.marks.iter().any(|mark| mark.name == word);
+        let name =
+            if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))?.name };
+        let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
+        if value == "-" {
+            continue;
+        }
+        if name == "rails" {
+            let rails = value.parse().map_err(|_| format!("rails {value} is no number of rails"))?;
+            entry.rails = Some(rails);
+            continue;
+        }
+        let written = value.parse().map_or_else(|_| Written::Text(value.to_owned()), Written::Number);
+        entry.marks.insert(name.to_owned(), written);
+    }
+    let (_, odd) = entry.readings(table);
+    if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
+}
+
+/// The entries and the file that keeps them.
+struct Session {
+    path: PathBuf,
+    entries: Entries,
+    /// Tests that the player does not want now.
+    skipped: Vec<&'static str>,
+    /// A test that is played once more.
+    repeated: Option<&'static Test>,
+    is_daily: bool,
+}
+
+impl Session {
+    /// Goes on with what the file holds. A check of the day that has both its tests is an earlier day's: another one begins.
+    fn open(path: PathBuf, is_daily: bool) -> Result<Self, Failure> {
+        let entries = if path.exists() { entries_in(&path)? } else { Entries::default() };
+        let mut session = Self { path, entries, skipped: Vec::new(), repeated: None, is_daily };
+        if is_daily && session.next().is_none() {
+            session.entries = Entries::default();
+        }
+        Ok(session)
+    }
+
+    /// What is asked for next.
+    fn next(&self) -> Option<&'static Test> {
+        let is_wanted = |test: &Test| !self.skipped.contains(&test.name);
+        let missing = || {
+            if self.is_daily {
+                let is_open = |name: &&str| self.entries.trials.iter().all(|entry| entry.test != **name);
+                return DAILY
+                    .iter()
+                    .filter(|name| is_open(name))
+                    .filter_map(|name| Test::named(name))
+                    .find(|test| is_wanted(test));
+            }
+            self.entries.missing().into_iter().map(|(test, _)| test).find(|test| is_wanted(test))
+        };
+        self.repeated.or_else(missing)
+    }
+
+    fn add(&mut self, entry: Entry) -> Result<(), Failure> {
+        self.repeated = None;
+        self.entries.trials.push(entry);
+        self.keep()
+    }
+
+    fn undo(&mut self) -> Result<(), Failure> {
+        let Some(entry) = self.entries.trials.pop() else {
+            tell("there is nothing to take back");
+            return Ok(());
+        };
+        self.skipped.retain(|name| *name != entry.test);
+        self.keep()?;
+        tell(format_args!("the last entry ({}) is taken back", entry.test));
+        Ok(())
+    }
+
+    fn skip(&mut self, test: &'static Test) {
+        self.repeated = None;
+        self.skipped.push(test.name);
+    }
+
+    fn again(&mut self) {
+        self.repeated = self.entries.trials.last().and_then(|entry| Test::named(&entry.test));
+        if self.repeated.is_none() {
+            tell("there is no test yet to play again");
+        }
+    }
+
+    /// Writes the entries, whole or not at all.
+    fn keep(&self) -> Result<(), Failure> {
+        let text = toml::to_string(&self.entries).map_err(Failure::failed)?;
+        write_atomic(&target_of(&self.path), text.as_bytes()).map_err(|error| {
+            Failure::failed(format_args!(
+                "{} cannot be written, so this entry is not kept: {error}",
+                self.path.display()
+            ))
+        })
+    }
+}

@@ -1,0 +1,171 @@
+//! Levenberg and Marquardt's method, with derivatives by differences or by whoever knows better.
+
+/// What is minimized: half the sum of squares of residuals.
+pub trait Problem {
+    /// Fills in the residuals at `parameters`.
+    fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>);
+
+    /// Their derivatives, a column for each parameter; `residuals` are those at `parameters`.
+    fn derivatives(&mut self, parameters: &[f64], residuals: &[f64]) -> Vec<Vec<f64>>;
+}
+
+/// Where a minimum was found.
+#[derive(Clone, Debug)]
+pub struct Minimum {
+    /// The parameters.
+    pub parameters: Vec<f64>,
+    /// Half the sum of squares is what the method minimizes; this is the whole.
+    pub squares: f64,
+    /// The normal matrix `JᵀJ` by rows, whose inverse times the residuals' variance is the parameters' covariance.
+    pub normal: Vec<Vec<f64>>,
+}
+
+/// Minimizes from `start` in at most so many rounds.
+pub fn minimize(start: &[f64], rounds: usize, problem: &mut impl Problem) -> Minimum {
+    let (mut at, mut other) = (Vec::new(), Vec::new());
+    let mut parameters = start.to_vec();
+    problem.residuals(&parameters, &mut at);
+    let mut squares = sum(&at);
+    let mut damping = 1e-3;
+    let count = start.len();
+    let mut normal = vec![vec![0.0; count]; count];
+    for _ in 0..rounds {
+        let columns = problem.derivatives(&parameters, &at);
+        let mut slope = vec![0.0; count];
+        for i in 0..count {
+            slope[i] = -dot(&columns[i], &at);
+            for j in 0..count {
+                normal[i][j] = dot(&columns[i], &columns[j]);
+            }
+        }
+        let mut better = None;
+        while damping < 1e9 {
+            let mut damped = normal.clone();
+            for (i, row) in damped.iter_mut().enumerate() {
+                row[i] += damping * row[i] + 1e-30;
+            }
+            let Some(change) = solve(damped, slope.clone()) else { break };
+            let mut tried = parameters.clone();
+            tried.iter_mut().zip(change).for_each(|(value, change)| *value += change);
+            problem.residuals(&tried, &mut other);
+            let found = sum(&other);
+            if found < squares {
+                better = Some((tried, found));
+                damping *= 0.2;
+                break;
+            }
+            damping *= 5.0;
+        }
+        let Some((tried, found)) = better else { break };
+        let gained = squares - found;
+        (parameters, squares) = (tried, found);
+        std::mem::swap(&mut at, &mut other);
+        if gained < 1e-9 * squares {
+            break;
+        }
+        damping = damping.max(1e-9);
+    }
+    Minimum { parameters, squares, normal }
+}
+
+/// A [`Minimum`] of a problem whose size is known beforehand.
+#[derive(Clone, Debug)]
+pub struct Fit<const N: usize> {
+    /// The parameters.
+    pub parameters: [f64; N],
+    /// The sum of squares.
+    pub squares: f64,
+    /// The normal matrix by rows.
+    pub normal: Vec<Vec<f64>>,
+}
+
+/// Minimizes the sum of squares of what `residuals` fills in, from `start`; `steps` are the differences for derivatives.
+pub fn fit<const N: usize>(
+    start: [f64; N],
+    steps: [f64; N],
+    rounds: usize,
+    residuals: &mut impl FnMut(&[f64; N], &mut Vec<f64>),
+) -> Fit<N> {
+    let mut problem = Differences { residuals, steps, other: Vec::new() };
+    let Minimum { parameters, squares, normal } = minimize(&start, rounds, &mut problem);
+    Fit { parameters: std::array::from_fn(|index| parameters[index]), squares, normal }
+}
+
+/// A problem whose derivatives are differences.
+struct Differences<'a, F, const N: usize> {
+    residuals: &'a mut F,
+    steps: [f64; N],
+    other: Vec<f64>,
+}
+
+impl<F: FnMut(&[f64; N], &mut Vec<f64>), const N: usize> Problem for Differences<'_, F, N> {
+    fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>) {
+        (self.residuals)(&std::array::from_fn(|index| parameters[index]), out);
+    }
+
+    fn derivatives(&mut self, parameters: &[f64], residuals: &[f64]) -> Vec<Vec<f64>> {
+        let column = |index: usize| {
+            let mut moved: [f64; N] = std::array::from_fn(|index| parameters[index]);
+            moved[index] += self.steps[index];
+            (self.residuals)(&moved, &mut self.other);
+            self.other.iter().zip(residuals).map(|(a, b)| (a - b) / self.steps[index]).collect()
+        };
+        (0..N).map(column).collect()
+    }
+}
+
+fn sum(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|x| x * x).sum()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Solves a system of equations by elimination with the largest pivots; none where it is singular.
+pub fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+    let count = right.len();
+    for column in 0..count {
+        let pivot = (column..count).max_by(|&a, &b| matrix[a][column].abs().total_cmp(&matrix[b][column].abs()))?;
+        if matrix[pivot][column] == 0.0 || !matrix[pivot][column].is_finite() {
+            return None;
+        }
+        matrix.swap(column, pivot);
+        right.swap(column, pivot);
+        let (above, below) = matrix.split_at_mut(column + 1);
+        let upper = &above[column];
+        for (row, line) in (column + 1..).zip(below) {
+            let factor = line[column] / upper[column];
+            for (value, above) in line.iter_mut().zip(upper).skip(column) {
+                *value -= factor * above;
+            }
+            right[row] -= factor * right[column];
+        }
+    }
+    for row in (0..count).rev() {
+        let known: f64 = (row + 1..count).map(|column| matrix[row][column] * right[column]).sum();
+        right[row] = (right[row] - known) / matrix[row][row];
+    }
+    Some(right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decay_is_found_from_its_points() {
+        let points: Vec<(f64, f64)> =
+            (0..20).map(|i| 0.1 * f64::from(i)).map(|t| (t, 3.0 * (-1.7 * t).exp())).collect();
+        let found = fit([1.0, 1.0], [1e-6, 1e-6], 50, &mut |[size, rate], out| {
+            out.clear();
+            out.extend(points.iter().map(|(t, y)| size * (-rate * t).exp() - y));
+        });
+        assert!((found.parameters[0] - 3.0).abs() < 1e-8 && (found.parameters[1] - 1.7).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_system_without_a_solution_is_none() {
+        assert_eq!(solve(vec![vec![1.0, 2.0], vec![2.0, 4.0]], vec![1.0, 1.0]), None);
+    }
+}

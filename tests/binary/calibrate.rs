@@ -1,0 +1,121 @@
+//! The calibration through the real binary: files of entries, a session that is kept, and tables that are written.
+
+use std::{fs, path::Path};
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+use crate::program::asked as carom;
+
+/// The program with a home of its own.
+fn at_home(home: &Path, args: &[&str]) -> Command {
+    let mut command = carom(args);
+    command.current_dir(home).env("HOME", home).env("XDG_DATA_HOME", home.join("data"));
+    command
+}
+
+const ENTRIES: &str = "name = \"ours\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 9.6\nstop = 5.4\ndrift = \"725 mm\"\n\
+                       [[trial]]\ntest = \"lag\"\nlap = 4.4\nrest = 8.0\nstop = 3.5\n";
+
+#[test]
+fn a_file_of_entries_becomes_a_table_that_every_command_plays_on() {
+    let home = tempfile::tempdir().unwrap();
+    let run = |args: &[&str]| at_home(home.path(), args);
+    fs::write(home.path().join("entries.toml"), ENTRIES).unwrap();
+    let said = run(&["calibrate", "entries.toml", "--out", "mine.toml"]).assert().success();
+    let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    for part in ["mu_r", "well", "all marks agree", "not entered yet: slow-roll (1), slow-back (2)", "would tell most"]
+    {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    run(&["table", "check", "mine.toml"]).assert().success();
+    run(&["simulate", "--table", "mine.toml", "--shot", "0,0.3,0,1,2"]).assert().success();
+    let text = fs::read_to_string(home.path().join("mine.toml")).unwrap();
+    assert!(text.contains("[doubt.deviations]") && text.contains("name = \"ours\""), "{text}");
+    // Again, from the table that there is: less is open, and the file is replaced by another table.
+    let answer =
+        run(&["calibrate", "entries.toml", "--table", "mine.toml", "--out", "mine.toml", "--json"]).output().unwrap();
+    let answer: Value = serde_json::from_slice(&answer.stdout).unwrap();
+    let roll = answer["constants"].as_array().unwrap().iter().find(|one| one["name"] == "mu_r").unwrap();
+    assert!(roll["before_deviation"].as_f64().unwrap() < 0.0006, "{roll}");
+    assert_ne!(fs::read_to_string(home.path().join("mine.toml")).unwrap(), text);
+    // A day later.
+    let daily = run(&["calibrate", "--daily", "--table", "mine.toml", "entries.toml"]).assert().success();
+    let daily = String::from_utf8_lossy(&daily.get_output().stdout).into_owned();
+    assert!(daily.contains("today a lag rolls") && daily.contains("three rails play"), "{daily}");
+}
+
+#[test]
+fn odd_entries_are_named_and_nothing_is_overwritten() {
+    let home = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], code: i32| {
+        let output = at_home(home.path(), args).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
+    write("odd.toml", &format!("{ENTRIES}[[trial]]\ntest = \"lag\"\nrest = 240\n"));
+    let said = refused(&["calibrate", "odd.toml", "--out", "new.toml"], 2);
+    assert!(said.contains("trial 3 (lag): rest = 240") && said.contains("no table is written"), "{said}");
+    assert!(!home.path().join("new.toml").exists());
+    write("notes.txt", "my notes");
+    write("entries.toml", ENTRIES);
+    for own in ["notes.txt", "entries.toml"] {
+        let before = fs::read(home.path().join(own)).unwrap();
+        let said = refused(&["calibrate", "entries.toml", "--out", own], 1);
+        assert!(said.contains("is no table, so it stays as it is"), "{said}");
+        assert_eq!(fs::read(home.path().join(own)).unwrap(), before);
+    }
+    write("broken.toml", "[[trial]\n");
+    assert!(refused(&["calibrate", "broken.toml"], 2).contains("line 1"));
+    write("empty.toml", "");
+    assert!(refused(&["calibrate", "empty.toml"], 2).contains("--tests"));
+    assert!(refused(&["calibrate", "nowhere.toml"], 1).contains("nowhere.toml cannot be read"));
+    assert!(refused(&["calibrate", "--daily", "entries.toml"], 2).contains("calibrated before"));
+    assert!(refused(&["calibrate", "entries.toml", "--name", "a", "--simulate", "0"], 2).contains("simulate"));
+}
+
+#[test]
+fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join("data/carom/calibration.toml");
+    let play = |lines: &str| {
+        let output = at_home(home.path(), &["calibrate"]).write_stdin(lines.to_owned()).assert().success();
+        let output = output.get_output();
+        String::from_utf8_lossy(&[&output.stderr[..], &output.stdout].concat()).into_owned()
+    };
+    let said = play("");
+    assert!(said.contains("nothing is entered yet") && said.contains("slow-roll") && !file.exists(), "{said}");
+    let said = play("9.6 5.4 2\n9 99 2\n9.4 5.3\nskip\nlap 4.4 rest 8 stop 3.5\nundo\n4.4 8 3.5 rails 2\n");
+    assert!(said.contains("slow-roll: stop = 99: no ball can be there") && said.contains("nothing was kept"), "{said}");
+    assert!(said.contains("the last entry (lag) is taken back") && said.contains("mu_r"), "{said}");
+    let kept = fs::read_to_string(&file).unwrap();
+    assert_eq!(kept.matches("[[trial]]").count(), 3, "{kept}");
+    let said = play("again\n9.9 - 2\ndone\n");
+    assert!(said.contains("slow-back (2"), "it goes on with what is missing: {said}");
+    assert_eq!(fs::read_to_string(&file).unwrap().matches("test = \"lag\"").count(), 2);
+    // What cannot be read is not written over.
+    fs::write(&file, "broken").unwrap();
+    let output = at_home(home.path(), &["calibrate"]).write_stdin("1 2 3\n").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "broken");
+}
+
+#[test]
+fn the_tests_are_listed_for_people_and_programs_and_the_template_is_a_file_of_entries() {
+    let home = tempfile::tempdir().unwrap();
+    let output = |args: &[&str]| String::from_utf8(at_home(home.path(), args).output().unwrap().stdout).unwrap();
+    let text = output(&["calibrate", "--tests"]);
+    assert!(text.contains("1. slow-roll (2 times)") && text.contains("20 strokes in all"), "{text}");
+    let tests: Vec<Value> =
+        output(&["calibrate", "--tests", "--json"]).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(tests.iter().map(|test| test["times"].as_u64().unwrap()).sum::<u64>(), 20);
+    assert_eq!(tests[0]["marks"][0]["unit"], "seconds");
+    fs::write(home.path().join("entries.toml"), output(&["calibrate", "--template"])).unwrap();
+    let said = at_home(home.path(), &["calibrate", "entries.toml"]).output().unwrap();
+    assert!(String::from_utf8_lossy(&said.stderr).contains("no mark that can be used"));
+    let measured = output(&["calibrate", "--simulate", "2", "--seed", "5", "--json"]);
+    let measured: Value = serde_json::from_str(&measured).unwrap();
+    assert_eq!((measured["tables"].as_u64(), measured["strokes"].as_u64()), (Some(2), Some(20)));
+    assert!(measured["constants"].as_array().unwrap().len() >= 14);
+}
