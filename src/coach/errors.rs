@@ -40,7 +40,8 @@ impl Streams {
     pub fn number(&mut self, stream: usize, n: usize) -> f64 {
         while self.streams.len() <= stream {
             let last = self.streams.last().map_or(1, |(root, _)| (root * root).round() as u32);
-            let prime = (last + 1..).find(|&n| (2..n).all(|divisor| n % divisor != 0)).unwrap_or(2);
+            // There is one between every number and its double (Bertrand).
+            let prime = (last + 1..=2 * last).find(|&n| (2..n).all(|divisor| n % divisor != 0)).unwrap_or(2);
             self.streams.push((f64::from(prime).sqrt(), self.rng.random()));
         }
         let (root, shift) = self.streams[stream];

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, RailModel, Table};
+use super::{JUDGED, RailModel, Table, flaws};
 
 const MATCH: &str = include_str!("match_doubt.toml");
 const UNKNOWN: &str = include_str!("unknown_doubt.toml");
@@ -285,6 +285,7 @@ impl TableSampler {
             let off: f64 = line.iter().zip(&numbers).map(|(entry, number)| entry * number).sum();
             constant.change(&mut table, mean + off);
         }
+        table.tilt = table.tilt.clamp_length_max(0.99 * flaws::steepest(&table));
         table
     }
 }

@@ -17,6 +17,11 @@ pub(super) fn rubs(value: f64) -> bool {
 /// What [`rubs`] accepts.
 pub(super) const RUBS: &str = "0 to below 1, where the forces of a contact are unique";
 
+/// The steepest slope that is accepted, m/s².
+pub(super) fn steepest(table: &Table) -> f64 {
+    STEEPEST * table.rolling_friction * table.gravity
+}
+
 /// The first value that cannot be, with its key and what would be accepted.
 pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> {
     let Table { rail, radius, .. } = table;
@@ -33,7 +38,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
             "tilt",
             table.tilt.length(),
             // Courses on a slope are right to its first order: at this limit to two thousandths of the way.
-            table.tilt.length() <= STEEPEST * table.rolling_friction * table.gravity,
+            table.tilt.length() <= steepest(table),
             "at most a fifth of mu_r g in m/s²; a table that slopes by 1 mm a metre has 0.0098",
         ),
     ];
