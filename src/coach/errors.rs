@@ -144,7 +144,7 @@ mod tests {
         for i in 0..20 {
             assert!(mean(&|e| e[i]).abs() < 0.02 && (mean(&|e| e[i] * e[i]) - 1.0).abs() < 0.05, "{i}");
             for j in 0..i {
-                assert!(mean(&|e| e[i] * e[j]).abs() < 0.1, "{i} {j}: {}", mean(&|e| e[i] * e[j]));
+                assert!(mean(&|e| e[i] * e[j]).abs() < 0.12, "{i} {j}: {}", mean(&|e| e[i] * e[j]));
             }
         }
     }

@@ -35,14 +35,14 @@ pub struct Ease {
 }
 
 impl Ease {
-    /// What is in use, from `cargo run --release --example ease -- 1600`. Of 800 layouts a rule that took no part in the fit,
-    /// the easiest fifth were missed by an expert 0.02, 0.18 and 1.0 % of the time (estimated: 0.01, 0.08 and 1.1), the hardest
-    /// 3.2, 3.8 and 9.7 % (estimated: 3.9, 4.0 and 9.5).
+    /// What is in use, from `cargo run --release --example ease -- 600`. Of 300 layouts a rule that took no part in the fit,
+    /// the easiest fifth were missed by a club player 14, 33 and 58 % of the time (estimated: 13, 27 and 59), the hardest 58, 58
+    /// and 76 % (estimated: 62, 57 and 74).
     pub const fn under(rule: Rule) -> Self {
         let (weights, power) = match rule {
-            Rule::StraightRail => ([-0.0723, 0.1161, 0.1274, -0.0296, -0.0282, 0.0819, -0.0222, 0.0274], 2.58),
-            Rule::OneCushion => ([-0.0301, 0.2052, 0.0857, -0.073, -0.0186, 0.0691, 0.0008, 0.0072], 2.63),
-            Rule::ThreeCushion => ([0.1228, 0.3175, -0.0025, -0.0753, 0.0018, 0.0069, 0.0194, 0.0605], 2.78),
+            Rule::StraightRail => ([-0.0987, 0.2365, 0.499, -0.0411, -0.1112, -0.013, -0.0735, -0.0161], 2.37),
+            Rule::OneCushion => ([0.0545, 0.1459, 0.3684, -0.0139, -0.0805, 0.0069, 0.0094, 0.011], 2.31),
+            Rule::ThreeCushion => ([0.5079, 0.1903, 0.107, -0.0549, -0.0261, -0.0112, 0.0518, 0.0037], 2.78),
         };
         Self { weights, power }
     }
@@ -117,7 +117,7 @@ mod tests {
         let layout = Layout::opening(&table);
         let missed = |skill| 1.0 - Ease::under(Rule::ThreeCushion).probability(&table, &layout, skill);
         let all = [Skill::PERFECT, Skill::EXPERT, Skill::CLUB, Skill::BEGINNER].map(missed);
-        assert!(all.is_sorted() && all[0] < 1e-9 && all[3] > 0.3 && all[3] < 1.0, "{all:?}");
+        assert!(all.is_sorted() && all[0] < 1e-4 && all[3] > 0.3 && all[3] < 1.0, "{all:?}");
         let fitted = Ease::under(Rule::ThreeCushion).missed(&table, &layout);
         assert!((missed(Skill::CLUB) - fitted).abs() < 1e-12);
     }

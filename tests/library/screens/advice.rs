@@ -74,8 +74,8 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
     for (keys, words, header) in [
         ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan on"),
         ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan on"),
-        ("S", "the player: club; Enter asks the coach", "R straight S club P plan on"),
-        ("R S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan on"),
+        ("S", "the player: world-class; Enter asks the coach", "R straight S world-class P plan on"),
+        ("R S S S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan on"),
         ("P", "only this point counts; Enter asks the coach", "R straight S expert P plan off"),
     ] {
         let player = Player::new().press("Enter").answer().press(keys);
@@ -84,14 +84,14 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         assert!(player.app.shot().is_none(), "{keys}");
         let query = &player.press("Enter").asked.unwrap().query;
         assert_eq!(query.plan, keys != "P");
-        assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S"));
+        assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S S S"));
     }
     let player = Player::new().press("Enter").answer();
-    let player = player.press("R S");
-    player.shows(&["R 1-cushion S club P plan", "placing balls", "the player: club; Enter asks the coach"]);
+    let player = player.press("R S S");
+    player.shows(&["R 1-cushion S national P plan", "placing balls", "the player: national; Enter asks the coach"]);
     let cancelled = player.study.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
-    let player = player.press("R R S S S");
+    let player = player.press("R R S S S S");
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
     let asked = player.press("R R Enter").asked.unwrap();
     assert_eq!(asked.query.rule, Rule::ThreeCushion);
@@ -207,7 +207,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
 
 #[test]
 fn a_perfect_player_gets_the_first_point() {
-    let player = Player::new().press("S S S Enter");
+    let player = Player::new().press("S S S S S Enter");
     let mut told = Vec::new();
     CoachWorker::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
     let [Answer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
