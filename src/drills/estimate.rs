@@ -1,13 +1,14 @@
 //! A player's skill from results at a real table.
 //!
 //! The player is taken to err like those of the named levels, only so many times as much in all five inputs, and to play
-//! the shot that the exercise teaches or a hint has shown, on a table that is not quite known. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
+//! the shot that the exercise teaches or a hint has shown, on a table to which it has been adjusted: it is the hand that is
+//! estimated. How often the shot of exercise e is made at scale s, `p_e(s)`, is simulated; the
 //! scale under which all makes and misses together are most likely is the estimate, and those that are not much less likely
 //! are its interval (likelihood ratio, Wilks 1938).
 
 use super::{Session, Venue};
 use crate::{
-    coach::{Doubt, Shooter, Skill, make_probability},
+    coach::{Skill, make_probability},
     game::Rule,
     physics::CueInputs,
     table::{Layout, Table},
@@ -29,7 +30,7 @@ const SCALES: usize = (POWERS.1 - POWERS.0) as usize * STEPS + 1;
 /// thousand attempts the interval is 40 of them wide.
 const FINER: usize = 32;
 
-/// Simulated strokes for each scale and shot. They are the same errors and tables for all: the curve `p_e(s)` is smooth, and
+/// Simulated strokes for each scale and shot. They are the same errors for all: the curve `p_e(s)` is smooth, and
 /// off by at most 1.6 % as a rule.
 const STROKES: usize = 1000;
 
@@ -111,7 +112,7 @@ struct Shot {
     made: usize,
 }
 
-/// Estimates a player's skill from the attempts at a real table. It takes some 0.1 s a shot.
+/// Estimates a player's skill from the attempts at a real table. It takes some 0.05 s a shot.
 ///
 /// # Errors
 /// Where the attempts are too few or tell nothing.
@@ -178,8 +179,8 @@ impl Shot {
     /// `p_e(s)` at every scale: never 0 or 1, which a finite number of strokes cannot tell.
     fn curve(&self) -> [f64; SCALES] {
         std::array::from_fn(|index| {
-            let shooter = Shooter { skill: Skill::level(scale(index as f64 / STEPS as f64)), doubt: Doubt::FULL };
-            let made = make_probability(shooter, self.rule, &self.table, &self.layout, &self.cue, STROKES, 0);
+            let skill = Skill::level(scale(index as f64 / STEPS as f64));
+            let made = make_probability(skill, self.rule, &self.table, &self.layout, &self.cue, STROKES, 0);
             (made.successes as f64 + 0.5) / (made.trials as f64 + 1.0)
         })
     }
@@ -245,13 +246,13 @@ mod tests {
 
     /// What a player of `scale` logs: 50 attempts at each exercise.
     fn logged(exercises: &[Exercise], scale: f64, seed: u64) -> Vec<Session> {
-        let shooter = Shooter { skill: Skill::level(scale), doubt: Doubt::FULL };
+        let skill = Skill::level(scale);
         let session = |(number, exercise): (u64, &Exercise)| {
             let one = vec![exercise.clone()];
             let mut session = Session::new(Goal::Free, Venue::Table, one, Skill::CLUB, 0);
             let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
             let seed = 1000 * (seed + 1) + number;
-            let made = make_probability(shooter, exercise.rule, &table, &exercise.layout, &shot, 50, seed).successes;
+            let made = make_probability(skill, exercise.rule, &table, &exercise.layout, &shot, 50, seed).successes;
             session.attempts = (0..50).map(|attempt| Attempt::new(&exercise.name, attempt < made)).collect();
             session
         };

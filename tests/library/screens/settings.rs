@@ -46,8 +46,9 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     assert_eq!(player.picture(80, 24)[(79, 23)].bg, Color::Rgb(0xf6, 0xf5, 0xf0), "the light theme's paper");
     assert_eq!(player.settings_text(), "# mine\ntheme = \"light\" # at night\n");
     // theme, colours, glyphs, table, rule, skill, doubt, plan, think_ms, step_mm, speed, mouse
-    let player = player
-        .press("Down Down Down Right Down Right Right Down Left Down Left Down Right Down Left Down Right Down Right Down l");
+    let player = player.press(
+        "Down Down Down Right Down Right Right Down Left Down Left Down Right Down Left Down Right Down Right Down l",
+    );
     assert_eq!(player.app.table().name, "textbook");
     let query = &player.app.coach().query;
     assert_eq!((query.rule, query.plan), (Rule::ThreeCushion, false));
@@ -55,8 +56,9 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     let (settings, complaints) = Settings::load(&player.path("config.toml"));
     assert_eq!((settings.think_ms, settings.rule, complaints.len()), (500, Rule::ThreeCushion, 0));
     // Back to the defaults, each in its place.
-    let player =
-        player.press("Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Up Up Delete");
+    let player = player.press(
+        "Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Up Up Delete",
+    );
     assert_eq!(Settings::load(&player.path("config.toml")).0, Settings::default());
     assert!(player.settings_text().starts_with("# mine\ntheme = \"dark\" # at night\n"));
     player.press("Delete").says("this is as it is by default");

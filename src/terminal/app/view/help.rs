@@ -62,7 +62,7 @@ const DRILL_NOTES: [&str; 5] = [
     "Strokes are played with the errors of the player who is named above. How often a stroke makes the point is from 1000 \
      simulated strokes of that player.",
     "An attempt for which the hint was shown counts like any other; the score tells how many there were.",
-    "Grades go from 1, the easiest, to 5. Typical is how often a beginner, a club player and an expert make the model shot. \
+    "Grades go from 1, the easiest, to 5. Typical is how often a beginner, a club player and a world-class player make the model shot. \
      An average is points an inning, and each miss ends an inning.",
     "What you note at a real table tells your skill, as long as you play the model shot. Every attempt is on the \
      disk before it is shown.",

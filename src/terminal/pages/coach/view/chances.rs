@@ -47,10 +47,11 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: 
         let room = usize::from(inner.width.saturating_sub(WORDS));
         ui.buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal, ui.theme.cue_ball), room, style);
     }
+    // What would miss the first shot by itself.
     let row = inner.y + advised.choices().len() as u16;
     if let (Some(risk), true) = (advised.choices()[0].proposal.risk, row < inner.bottom()) {
         let [hand, table, placing] = [risk.hand, risk.table, risk.placing].map(percent);
-        let words = format!("1 missed by hand {hand} %, table {table} %, places {placing} %");
+        let words = format!("misses %: hand {hand}, table {table}, places {placing}");
         ui.buffer.set_stringn(inner.x + 1, row, words, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
     }
 }
