@@ -1,7 +1,7 @@
 //! Fits the weights by which the coach tells easy layouts from hard ones (`src/coach/ease`), and says how well they do.
 //!
 //! `cargo run --release --example ease -- 1600` plays innings on `match` until 1,600 layouts a rule are gathered, finds out of
-//! each how often a club player and a world-class one miss it with the shot of a short search, fits half
+//! each how often a weak player and a strong one miss it with the shot of a short search, fits half
 //! of them and measures the fit on the other half. The searches end by simulations, so that the weights are the same on every
 //! machine whose networks round alike.
 
@@ -53,9 +53,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Layouts as a world-class player meets them: those that innings begin with, and those that the shots leave.
+/// Layouts as a strong player meets them: those that innings begin with, and those that the shots leave.
 fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dyn Error>> {
-    let request = Request { rule, plan: true, ..request(Skill::WORLD_CLASS) };
+    let request = Request { rule, plan: true, ..request(Ease::STRONG) };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let mut layouts = Vec::new();
     for first in held_out_layouts(coach.table(), count, SEED) {
@@ -78,8 +78,8 @@ fn sample(coach: &Coach, layout: &Layout, rule: Rule) -> Result<Sample, Box<dyn 
         let advice = coach.recommend(layout, &Request { rule, ..request(skill) })?;
         Ok(1.0 - advice.make_probability.map_or(0.0, |rate| rate.rate))
     };
-    let (missed, missed_by_best) = (missed(Skill::CLUB)?, missed(Skill::WORLD_CLASS)?);
-    Ok(Sample { layout: *layout, missed, missed_by_best })
+    let (missed, missed_by_strong) = (missed(Ease::WEAK)?, missed(Ease::STRONG)?);
+    Ok(Sample { layout: *layout, missed, missed_by_strong })
 }
 
 fn request(skill: Skill) -> Request {
@@ -90,13 +90,13 @@ fn request(skill: Skill) -> Request {
 fn report(table: &Table, ease: Ease, samples: &[Sample]) {
     let mut sorted = samples.to_vec();
     sorted.sort_by(|one, other| ease.missed(table, &one.layout).total_cmp(&ease.missed(table, &other.layout)));
-    println!("  misses %  world-class, estimated  simulated  club, estimated  simulated");
+    println!("  misses %       strong, estimated  simulated  weak, estimated  simulated");
     for fifth in sorted.chunks(samples.len().div_ceil(5).max(1)) {
         let mean = |value: &dyn Fn(&Sample) -> f64| 100.0 * fifth.iter().map(value).sum::<f64>() / fifth.len() as f64;
         println!(
             "  {:>32.2} {:>10.2} {:>16.2} {:>10.2}",
-            mean(&|sample| 1.0 - ease.probability(table, &sample.layout, Skill::WORLD_CLASS)),
-            mean(&|sample| sample.missed_by_best),
+            mean(&|sample| 1.0 - ease.probability(table, &sample.layout, Ease::STRONG)),
+            mean(&|sample| sample.missed_by_strong),
             mean(&|sample| ease.missed(table, &sample.layout)),
             mean(&|sample| sample.missed),
         );

@@ -7,7 +7,7 @@ use crate::table::{Layout, Table};
 /// sixth digit and keeps them finite where layouts differ in fewer ways than there are weights.
 const RIDGE: f64 = 1e-6;
 
-/// Powers among which that of a world-class player is looked for.
+/// Powers among which that of the stronger player is looked for.
 const POWERS: (f64, f64) = (1.0, 10.0);
 
 /// A layout, and how often it is missed with a good shot.
@@ -15,14 +15,14 @@ const POWERS: (f64, f64) = (1.0, 10.0);
 pub struct Sample {
     /// The layout.
     pub layout: Layout,
-    /// Share of a club player's misses.
+    /// Share that [`Ease::WEAK`] misses.
     pub missed: f64,
-    /// Share of a world-class player's misses.
-    pub missed_by_best: f64,
+    /// Share that [`Ease::STRONG`] misses.
+    pub missed_by_strong: f64,
 }
 
 impl Ease {
-    /// The weights that come nearest to the shares of misses, by least squares, and the power that gives a world-class player as many
+    /// The weights that come nearest to the shares of misses, by least squares, and the power that gives the stronger player as many
     /// misses as there were.
     pub fn fit(table: &Table, samples: &[Sample]) -> Self {
         let mut equations = [[0.0; NUMBERS]; NUMBERS];
@@ -41,7 +41,7 @@ impl Ease {
         }
         let mut ease = Self { weights: solve(equations, right), power: 1.0 };
         let estimates: Vec<f64> = samples.iter().map(|sample| ease.missed(table, &sample.layout)).collect();
-        let best: f64 = samples.iter().map(|sample| sample.missed_by_best).sum();
+        let best: f64 = samples.iter().map(|sample| sample.missed_by_strong).sum();
         let (mut low, mut high) = POWERS;
         for _ in 0..40 {
             ease.power = 0.5 * (low + high);
@@ -91,7 +91,7 @@ mod tests {
             .map(|_| {
                 let layout = Layout::random(&table, &mut rng);
                 let missed = ease.missed(&table, &layout);
-                Sample { layout, missed, missed_by_best: missed.powf(ease.power) }
+                Sample { layout, missed, missed_by_strong: missed.powf(ease.power) }
             })
             .collect();
         let fit = Ease::fit(&table, &samples);
