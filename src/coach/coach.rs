@@ -173,7 +173,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     });
     let probability = |candidate: usize| {
         let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
-        let (made, tried) = own.fold((0, 0), |sum, (_, (made, tried))| (sum.0 + made, sum.1 + tried));
+        let (made, tried) = own.fold((0, 0), |sum, (_, part)| (sum.0 + part.made, sum.1 + part.tried));
         (tried > 0).then(|| SuccessRate::new(made, tried))
     };
     let told_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
@@ -211,8 +211,9 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Ri
         let worlds = Worlds::new(task.table, task.layout, doubt);
         let skill = if errs { task.skill } else { Skill::PERFECT };
         let draws = Draws::independent(ATTEMPTS_AT_RISK, &worlds, seed);
-        let made = Task { worlds: &worlds, skill, ..*task }.made(cue, draws.iter(), ATTEMPTS_AT_RISK)?;
-        Some(1.0 - made as f64 / ATTEMPTS_AT_RISK as f64)
+        let task = Task { worlds: &worlds, skill, ..*task };
+        let attempts = task.all_attempts(cue, draws.iter(), ATTEMPTS_AT_RISK)?;
+        Some(1.0 - attempts.made as f64 / ATTEMPTS_AT_RISK as f64)
     });
     let [hand, table, placing] = missed[..] else { return None };
     Some(Risk { hand: hand?, table: table?, placing: placing? })
@@ -294,6 +295,6 @@ pub fn make_probability(
     let (worlds, until) = (Worlds::new(table, layout, doubt), clock.moment(1.0));
     let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
     let draws = Draws::independent(attempts, &worlds, seed);
-    let (made, tried) = task.attempts(cue, draws.iter());
-    SuccessRate::new(made, tried)
+    let attempts = task.attempts(cue, draws.iter());
+    SuccessRate::new(attempts.made, attempts.tried)
 }

@@ -32,11 +32,6 @@ impl Doubt {
 
     /// The table as well as it is known, and balls within a few millimetres of where they are said to be.
     pub const FULL: Self = Self { table: 1.0, placing: 3e-3 };
-
-    /// Whether everything is certain.
-    pub fn is_none(&self) -> bool {
-        *self == Self::NONE
-    }
 }
 
 impl Default for Doubt {

@@ -92,20 +92,23 @@ pub struct Worlds {
 impl Worlds {
     /// Around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        Self::known_as(&TableDoubt::of(table), table, layout, doubt)
+        Self::known_as(&|| TableDoubt::of(table), table, layout, doubt)
     }
 
     /// The same on tables that lean no other way than this one, for choosing between shots: a table that leans costs
     /// twice the time, and as nobody knows which way it leans, which shot is the best hardly depends on it.
     pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let mut known = TableDoubt::of(table);
-        known.deviations.retain(|name, _| !name.starts_with("tilt"));
-        known.correlations.retain(|(one, other, _)| ![one, other].iter().any(|name| name.starts_with("tilt")));
+        let known = || {
+            let mut known = TableDoubt::of(table);
+            known.deviations.retain(|name, _| !name.starts_with("tilt"));
+            known.correlations.retain(|(one, other, _)| ![one, other].iter().any(|name| name.starts_with("tilt")));
+            known
+        };
         Self::known_as(&known, table, layout, doubt)
     }
 
-    fn known_as(known: &TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let sampler = if doubt.table > 0.0 { TableSampler::new(table, known, doubt.table) } else { None };
+    fn known_as(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+        let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(), doubt.table) } else { None };
         Self { table: table.clone(), layout: *layout, sampler, placing: doubt.placing }
     }
 

@@ -47,12 +47,12 @@ impl Race {
             if block >= self.larger.len() {
                 break;
             }
-            let own = task.race(&after.shot.cue, self.own.range(3 * block, 3 * block + 3))?;
-            let larger = task.race(&after.shot.cue, self.larger.range(block, block + 1))?;
-            after.made += own.0;
-            after.wide += larger.0;
+            let own = task.all_attempts(&after.shot.cue, self.own.range(3 * block, 3 * block + 3), 3)?;
+            let larger = task.all_attempts(&after.shot.cue, self.larger.range(block, block + 1), 1)?;
+            after.made += own.made;
+            after.wide += larger.made;
             for (input, sum) in after.drift.iter_mut().enumerate() {
-                *sum += own.1[input] + larger.1[input];
+                *sum += own.drift[input] + larger.drift[input];
             }
             after.tried += 4;
         }

@@ -109,43 +109,44 @@ impl Task<'_> {
         self.play_on(table, layout, &stroke).map(|course| self.point().is_made(&course.tally))
     }
 
-    /// Attempts at `cue`, one after the other until time runs out: how many make the point, and how many there were.
-    pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> (usize, usize) {
-        let (mut made, mut tried) = (0, 0);
+    /// Attempts at `cue`, one after the other until time runs out.
+    pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Attempts {
+        let mut attempts = Attempts::default();
         for draw in draws {
             if self.clock.is_past(self.until) {
                 break;
             }
             let Some(point) = self.makes(cue, draw) else { break };
-            made += usize::from(point);
-            tried += 1;
-        }
-        self.clock.count(tried as u64);
-        (made, tried)
-    }
-
-    /// How many of these attempts at `cue` make the point, and the sum of their errors; `None` where time ran out.
-    pub fn race<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Option<(usize, Errors)> {
-        let (mut made, mut tried, mut sum) = (0, 0, Errors::default());
-        for draw in draws {
-            if self.clock.is_past(self.until) {
-                return None;
-            }
-            tried += 1;
-            if self.makes(cue, draw)? {
-                made += 1;
-                sum.iter_mut().zip(draw.errors).for_each(|(sum, error)| *sum += error);
+            attempts.tried += 1;
+            if point {
+                attempts.made += 1;
+                attempts.drift.iter_mut().zip(draw.errors).for_each(|(sum, error)| *sum += error);
             }
         }
-        self.clock.count(tried);
-        Some((made, sum))
+        self.clock.count(attempts.tried as u64);
+        attempts
     }
 
-    /// How many of `count` attempts at `cue` make the point; `None` where time ran out before the last.
-    pub fn made<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>, count: usize) -> Option<usize> {
-        let (made, tried) = self.attempts(cue, draws);
-        (tried == count).then_some(made)
+    /// The same; `None` where time ran out before the last of `count`.
+    pub fn all_attempts<'d>(
+        &self,
+        cue: &CueInputs,
+        draws: impl Iterator<Item = Draw<'d>>,
+        count: usize,
+    ) -> Option<Attempts> {
+        Some(self.attempts(cue, draws)).filter(|attempts| attempts.tried == count)
     }
+}
+
+/// What came of attempts at a stroke.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Attempts {
+    /// How many there were.
+    pub tried: usize,
+    /// How many made the point.
+    pub made: usize,
+    /// Sum of the errors of those that did, in the player's standard errors.
+    pub drift: Errors,
 }
 
 /// A referee who gives a shot up when time is up.

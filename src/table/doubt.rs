@@ -1,6 +1,6 @@
 //! How well a table is known: standard deviations and correlations of its constants, and tables drawn from them.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ const UNKNOWN: &str = include_str!("unknown_doubt.toml");
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableDoubt {
-    /// Standard deviations by the names of [`TableDoubt::constants`], in the units of the table's file.
+    /// Standard deviations by the names of the constants (`mu_s`, `rail.height`, …), in the units of the table's file.
     #[serde(default)]
     pub deviations: BTreeMap<String, f64>,
     /// Correlations of two of them; those that are not named are 0.
@@ -151,19 +151,14 @@ impl TableDoubt {
     /// What is not known of `table`: what its file says, or else for `match` what the fit to the film has left open, nothing
     /// for the tables of the thesis' equations, and for any other what real tables differ by.
     pub fn of(table: &Table) -> Self {
-        if let Some(own) = &table.doubt {
-            return own.clone();
-        }
-        if JUDGED.iter().any(|name| Table::preset(name).is_ok_and(|preset| preset == *table)) {
-            return Self::default();
-        }
-        // A test reads them both.
-        toml::from_str(if *table == Table::default() { MATCH } else { UNKNOWN }).unwrap_or_default()
-    }
-
-    /// The names of all constants that can be in doubt.
-    pub fn constants() -> impl Iterator<Item = &'static str> {
-        CONSTANTS.iter().map(|constant| constant.name)
+        // Read once: the coach asks at every question. A test reads them all.
+        static KNOWN: LazyLock<Vec<(Table, TableDoubt)>> = LazyLock::new(|| {
+            let judged = JUDGED.iter().filter_map(|name| Some((Table::preset(name).ok()?, TableDoubt::default())));
+            judged.chain([(Table::default(), toml::from_str(MATCH).unwrap_or_default())]).collect()
+        });
+        static OTHER: LazyLock<TableDoubt> = LazyLock::new(|| toml::from_str(UNKNOWN).unwrap_or_default());
+        let known = || KNOWN.iter().find(|(known, _)| known == table).map(|(_, doubt)| doubt);
+        table.doubt.as_ref().or_else(known).unwrap_or(&OTHER).clone()
     }
 
     /// The value of a constant; `None` where the table's models do not have it, or the name is unknown.
