@@ -24,4 +24,4 @@ pub use daily::{DAILY, Play, overnight};
 pub use entries::{Entries, EntriesError, Entry, Oddity, Written};
 pub use estimate::{Reading, Trial};
 pub use protocol::{Mark, Moment, PROTOCOL, Quantity, Test, Unit};
-pub use simulated::{Coverage, coverage};
+pub use simulated::{Coverage, calibrated, coverage};

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::{
     belief::Belief,
+    calibrate::{CalibrationError, calibrate},
     estimate::{Estimate, Reading, Trial, estimate},
     forward::{Hand, STROKE, marks},
     protocol::{PROTOCOL, Quantity, Test},
@@ -71,6 +72,17 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
         coverage.error = coverage.error.sqrt();
     }
     Ok(found)
+}
+
+/// A table drawn from the doubt about `table`, and what a club player makes of `table` who plays the whole protocol on it.
+///
+/// # Errors
+/// Where the doubt cannot be, or leaves nothing to find.
+pub fn calibrated(table: &Table, doubt: &TableDoubt, seed: u64) -> Result<[Table; 2], CalibrationError> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let truth = TableSampler::new(table, doubt, 1.0).map_or_else(|| table.clone(), |sampler| drawn(&sampler, &mut rng));
+    let trials: Vec<_> = played(&truth, &mut rng).into_iter().enumerate().collect();
+    Ok([truth, calibrate("calibrated", table, doubt, &trials)?.table])
 }
 
 /// A table that can be played on.

@@ -19,13 +19,10 @@ use crate::{
 pub const MAX_SPEED: f64 = 6.0;
 
 /// Slowest stroke that is tried, m/s.
-const MIN_SPEED: f64 = 0.4;
+pub const MIN_SPEED: f64 = 0.4;
 
 /// Steepest cue that is tried, rad: 30°, beyond which a stroke is a massé.
 pub const MAX_ELEVATION: f64 = PI / 6.0;
-
-/// Steepest cue of the wide net, rad: 7°, for a player lifts the cue only with a reason.
-const USUAL_ELEVATION: f64 = 0.12;
 
 /// Tips are tried up to this share of the miscue limit's radius, so that rounding never oversteps it.
 pub const TIP_SHARE: f64 = 0.98;
@@ -53,8 +50,10 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
 
 /// The wide net: the `n`th of a series of shots in which every ten are eight at an object ball, four at either, of any
 /// thickness; one at an object ball's image in a cushion, which comes off that cushion to it; and one anywhere. Their
-/// tips fill the disc, their speeds the range.
-pub fn stratified(table: &Table, layout: &Layout, n: u64, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+/// tips fill the disc. Their speeds, from `softest` on, are alike in their logarithm, as errors of the speed are a share of it;
+/// the cue is level, for a player lifts it only with a reason. Both were measured: of a club player's three-cushion shots 33.7 %
+/// were made that were found among speeds all alike and cues up to 7°, 35.6 % among these (120 layouts, 90,000 simulations each).
+pub fn stratified(table: &Table, layout: &Layout, n: u64, softest: f64, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let target = if n.is_multiple_of(2) { first } else { second };
     let phi = match n % 10 {
@@ -77,9 +76,9 @@ pub fn stratified(table: &Table, layout: &Layout, n: u64, rng: &mut Xoshiro256Pl
     CueInputs {
         a,
         b,
-        theta: rng.random_range(0.0..USUAL_ELEVATION),
+        theta: 0.0,
         phi: phi - squirt(table, a),
-        speed: rng.random_range(MIN_SPEED..MAX_SPEED),
+        speed: rng.random_range(softest.ln()..MAX_SPEED.ln()).exp(),
     }
 }
 
@@ -138,7 +137,7 @@ mod tests {
             for n in 0..2000 {
                 let layout = Layout::random(&table, &mut rng);
                 let cue = anything(&table, &layout, &mut rng);
-                let wide = stratified(&table, &layout, n, &mut rng);
+                let wide = stratified(&table, &layout, n, MIN_SPEED, &mut rng);
                 let near = [neighbour(&table, &wide, 3.0, &mut rng), variation(&table, &cue, &mut rng)];
                 for cue in near.into_iter().chain([cue, wide]) {
                     cue.validate().unwrap();

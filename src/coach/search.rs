@@ -5,7 +5,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Source, Suggestion,
-    candidates::{neighbour, stratified, variation},
+    candidates::{MIN_SPEED, neighbour, stratified, variation},
     next::NextValue,
     parallel,
     pool::{Candidate, Race, keep, suppose_the_worst},
@@ -31,12 +31,17 @@ const STRETCHES: [f64; 2] = [1.0, 2.0];
 
 /// Shares of what is left of the budget when the search begins, after which the sampling and the refinement end. The
 /// rest is for judging the answer.
-const SAMPLING_ENDS: f64 = 0.3;
+const SAMPLING_ENDS: f64 = 0.4;
 const REFINEMENT_ENDS: f64 = 0.88;
 
 /// Shots of the first round of sampling; each later one has twice as many, up to [`LARGEST_BATCH`].
 const FIRST_BATCH: usize = 512;
 const LARGEST_BATCH: usize = 4096;
+
+/// How much softer than the softest shot that has made the point the net's strokes may be, and the speed from which on all are
+/// tried in any case, m/s.
+const SOFTER: f64 = 0.7;
+const SOFT: f64 = 1.0;
 
 /// Shots that leave the sampling, and then the race, besides the best of each kind.
 const SHORTLIST: usize = 128;
@@ -45,8 +50,8 @@ const LEADERS: usize = 10;
 /// Shots of each kind that stay in, however they stand.
 const OF_EACH_KIND: usize = 3;
 
-/// What the hardest stroke costs against the softest in a shot's score, and what the steepest cue costs: a player is not to
-/// strike with all force and a raised cue for the last percent. In a plan it only decides between equals: where runs of
+/// What a unit of effort costs in a shot's score: a player is not to strike with all force and a raised cue for the last
+/// percent. In a plan it only decides between equals: where runs of
 /// hundreds of points are at stake, layouts differ by less than a thousandth.
 const EFFORT_PENALTY: f64 = 0.01;
 const EFFORT_PENALTY_IN_A_PLAN: f64 = 0.0001;
@@ -106,15 +111,17 @@ impl<'a> Search<'a> {
                 (0..16).map(|_| Suggestion { cue: variation(table, cue, &mut self.rng), source: Source::Variation });
             shots.extend(varied);
         }
-        let (mut drawn, mut batch) = (0, FIRST_BATCH);
+        let (mut drawn, mut batch, mut softest) = (0, FIRST_BATCH, MIN_SPEED);
         while self.task.clock.used() < self.sampling_ends || drawn == 0 {
             shots.extend((0..batch as u64).map(|n| Suggestion {
-                cue: stratified(table, self.task.layout, drawn + n, &mut self.rng),
+                cue: stratified(table, self.task.layout, drawn + n, softest, &mut self.rng),
                 source: Source::Search,
             }));
             drawn += batch as u64;
             batch = (2 * batch).min(LARGEST_BATCH);
             self.sample_batch(&shots);
+            let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
+            softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
             shots.clear();
             self.tell(tell);
         }

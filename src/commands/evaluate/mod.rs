@@ -90,6 +90,10 @@ pub struct Args {
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
     budget_ms: u64,
+    /// Simulations that the recommender has for a layout in place of a time: the answer is then the same on any machine.
+    #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
+        value_parser = clap::value_parser!(u64).range(1..))]
+    simulations: Option<u64>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -113,6 +117,8 @@ struct EvaluationReport {
     /// Decisions a second; judging the shots is not counted.
     layouts_per_second: f64,
     slowest_ms: f64,
+    /// The share of the strokes that are harder than [`HARD`].
+    hard_share: f64,
     /// Of the recommender.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
@@ -168,10 +174,17 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// What the recommender is asked for.
 fn request(args: &Args, skill: Skill) -> Request {
-    let budget = Duration::from_millis(args.budget_ms);
+    let (budget, simulations) = match args.simulations {
+        Some(simulations) => (Duration::MAX, simulations),
+        None => (Duration::from_millis(args.budget_ms), u64::MAX),
+    };
     let doubt = args.choose_doubt.unwrap_or(args.doubt);
-    Request { rule: args.rule, skill, doubt, plan: args.plan, budget, seed: args.seed, ..Request::default() }
+    let Args { rule, plan, seed, .. } = *args;
+    Request { rule, skill, doubt, plan, budget, simulations, seed, ..Request::default() }
 }
+
+/// Speed above which a stroke counts as a hard one, m/s: filmed players' balls leave the cue at 3.5 m/s, after a stroke of 2.5.
+const HARD: f64 = 5.0;
 
 /// Name of the networks alone as a player.
 const POLICY: &str = "policy";
@@ -201,7 +214,7 @@ fn measure(
     reward: Reward,
     player: &mut dyn FnMut(&Layout) -> CueInputs,
 ) -> EvaluationReport {
-    let (mut total, mut successes, mut seconds, mut slowest) = (0.0, 0, 0.0, 0.0_f64);
+    let (mut total, mut successes, mut hard, mut seconds, mut slowest) = (0.0, 0, 0, 0.0, 0.0_f64);
     let mut chances = Vec::new();
     for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
         let start = Instant::now();
@@ -212,6 +225,7 @@ fn measure(
         let earned = reward.of(table, &layout, &cue);
         total += earned;
         successes += usize::from(earned >= 1.0);
+        hard += usize::from(cue.speed > HARD);
         if let Some(skill) = args.skill {
             chances.push(robustness::chance(args, table, &layout, skill, &cue));
         }
@@ -227,6 +241,7 @@ fn measure(
         success: (reward == Reward::R1 || reward.rule().is_some()).then(|| SuccessRate::new(successes, count)),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * slowest,
+        hard_share: hard as f64 / count as f64,
         simulations_per_layout: None,
         robustness: args.skill.map(|skill| Robustness::new(skill, args.doubt, chances)),
     }
@@ -254,6 +269,7 @@ fn print(out: &mut impl Write, report: &EvaluationReport, layouts: u32) -> std::
         Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
         None => writeln!(out)?,
     }
+    writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 

@@ -33,7 +33,10 @@ struct SelfPlayReport {
     skill: Skill,
     doubt: Doubt,
     seed: u64,
-    budget_ms: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    budget_ms: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulations: Option<u64>,
     plan: bool,
     /// Innings begun, and among them those that were broken off, by the limit of points or of time.
     innings: usize,
@@ -105,7 +108,8 @@ fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: D
         skill,
         doubt: args.doubt,
         seed: args.seed,
-        budget_ms: args.budget_ms,
+        budget_ms: args.simulations.is_none().then_some(args.budget_ms),
+        simulations: args.simulations,
         plan: args.plan,
         innings: innings.len(),
         broken_off: innings.len() - misses as usize,

@@ -1,0 +1,64 @@
+//! What a calibration is worth: how often a player makes the coach's shots on a table that the coach knows exactly, knows by
+//! a calibration, or takes for `match`.
+//!
+//! `cargo run --release --example calibrated -- 40 5 club` draws 40 tables from what real tables differ by and has a club
+//! player calibrate each. Of 5 layouts on each the coach is asked for a shot at three cushions, with each knowledge of the
+//! table; all of them are played on the drawn table with the player's errors.
+
+use std::{env, error::Error, time::Duration};
+
+use carom::{
+    calibration::calibrated,
+    coach::{Coach, Doubt, Request, Shooter, Skill, make_probability},
+    game::Rule,
+    learning::evaluation::held_out_layouts,
+    table::{Table, TableDoubt},
+};
+
+/// Simulations for each shot.
+const SIMULATIONS: u64 = 60_000;
+
+/// Attempts at every shot.
+const ATTEMPTS: usize = 1000;
+
+/// What the coach knows of the table.
+const KNOWN: [&str; 3] = ["exactly", "calibrated", "not at all"];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = env::args().skip(1);
+    let mut count = || words.next().map_or(Err("say how many tables and layouts, like: calibrated 40 5"), Ok);
+    let (tables, layouts): (u64, usize) = (count()?.parse()?, count()?.parse()?);
+    let skill: Skill = words.next().map_or(Ok(Skill::CLUB), |word| word.parse())?;
+    let rule = Rule::ThreeCushion;
+    let base = Table { name: "own".to_owned(), ..Table::default() };
+    let certain = Doubt { table: 0.0, ..Doubt::FULL };
+    let (mut made, mut told) = ([0.0; 3], [0.0; 3]);
+    for seed in 0..tables {
+        let [truth, own] = calibrated(&base, &TableDoubt::of(&base), seed)?;
+        let coaches = [(&truth, certain), (&own, Doubt::FULL), (&base, Doubt::FULL)]
+            .map(|(table, doubt)| (Coach::without_policy(table.clone()), doubt));
+        for layout in held_out_layouts(&truth, layouts, seed) {
+            for (which, (coach, doubt)) in coaches.iter().enumerate() {
+                let budget = Duration::MAX;
+                let request = Request {
+                    rule,
+                    skill,
+                    doubt: *doubt,
+                    budget,
+                    simulations: SIMULATIONS,
+                    seed,
+                    ..Request::default()
+                };
+                let advice = coach.recommend(&layout, &request)?;
+                told[which] += advice.make_probability.map_or(0.0, |made| made.rate);
+                let shooter = Shooter { skill, doubt: certain };
+                made[which] += make_probability(shooter, rule, &truth, &layout, &advice.cue, ATTEMPTS, !seed).rate;
+            }
+        }
+        let asked = (seed + 1) as f64 * layouts as f64;
+        let share =
+            |which: usize| format!("{} {:.3} (told {:.3})", KNOWN[which], made[which] / asked, told[which] / asked);
+        println!("{} tables: made where the table is known {}", seed + 1, [0, 1, 2].map(share).join(", "));
+    }
+    Ok(())
+}
