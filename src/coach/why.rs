@@ -220,9 +220,15 @@ impl Why {
         let degrees = |width: f64| format!("{}\u{b0}", short(width, 2));
         let mut parts = Vec::new();
         let second = self.second.as_ref();
+        let other = second.and_then(|second| second.make_probability);
+        parts.extend(
+            self.make_probability
+                .zip(other)
+                .map(|(rate, other)| format!("made {} of the time, the next shot {}", percent(rate), percent(other))),
+        );
         parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
-            Some(other) => format!("the aim may be {} off in all, the next shot's {}", degrees(width), degrees(other)),
-            None => format!("the aim may be {} off in all", degrees(width)),
+            Some(other) => format!("its aim may be {} off in all, there {}", degrees(width), degrees(other)),
+            None => format!("its aim may be {} off in all", degrees(width)),
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
             let (diamond, middle) = self.scale;
@@ -231,7 +237,12 @@ impl Why {
                 PlaceUnit::Mm => format!("{} mm", short(1e3 * along, 0)),
             });
             let [along, up] = at;
-            format!("{} and {} kiss in {} of the strokes, at {along} along and {up} up", names[one], names[other], percent(share))
+            format!(
+                "{} and {} kiss in {} of the strokes, at {along} along and {up} up",
+                names[one],
+                names[other],
+                percent(share)
+            )
         }));
         parts.extend(self.next_probability.map(|next| format!("it leaves the next point at {}", percent(next))));
         parts.extend(second.map(|second| second.words(names)));
@@ -246,9 +257,9 @@ impl Difference {
     fn words(&self, names: [&'static str; 3]) -> String {
         let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
         parts.extend(self.first_ball.map(|ball| format!("off {}", names[ball])));
-        parts.extend((self.fuller.abs() > FULLER).then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()));
+        parts
+            .extend((self.fuller.abs() > FULLER).then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()));
         parts.extend((self.harder.abs() > HARDER).then(|| if self.harder > 0.0 { "harder" } else { "softer" }.into()));
-        parts.extend(self.make_probability.map(|rate| format!("made {:.0} %", 100.0 * rate)));
         format!("the next: {}", parts.join(", "))
     }
 }
@@ -278,7 +289,8 @@ mod tests {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::without_policy(table.clone());
-        let request = Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_secs(60), ..Request::default() };
+        let request =
+            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_secs(60), ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));

@@ -215,12 +215,7 @@ pub const PATTERNS: [Pattern; 30] = [
         course: "ball to ball, the first hit about half",
         is_it: |t| t.fullness() < THICK,
     },
-    Pattern {
-        tag: "thick",
-        name: "thick carom",
-        course: "ball to ball, the first hit thick",
-        is_it: |_| true,
-    },
+    Pattern { tag: "thick", name: "thick carom", course: "ball to ball, the first hit thick", is_it: |_| true },
 ];
 
 impl Pattern {

@@ -29,8 +29,7 @@ pub fn fullness_words(fullness: f64) -> (&'static str, bool) {
 
 /// So many half tips, in words: "half a tip", "two and a half tips".
 pub fn tips_words(halves: u32) -> String {
-    const WHOLE: [&str; 11] =
-        ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    const WHOLE: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     let whole = WHOLE[(halves / 2).min(10) as usize];
     match (halves, halves % 2) {
         (1, _) => "half a tip".to_owned(),
@@ -72,10 +71,14 @@ mod tests {
 
     #[test]
     fn tips_and_hours_are_told_in_halves() {
-        assert_eq!([1, 2, 3, 4, 5].map(tips_words).join(", "), "half a tip, one tip, one and a half tips, two tips, two and a half tips");
+        assert_eq!(
+            [1, 2, 3, 4, 5].map(tips_words).join(", "),
+            "half a tip, one tip, one and a half tips, two tips, two and a half tips"
+        );
         let told = [(0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (-1.0, 1.0), (0.0, -2.0), (-2.0, -0.2), (-0.2, 1.0)]
             .map(|(right, up)| clock_words(clock(right, up).unwrap()));
-        let wanted = ["12 o'clock", "3 o'clock", "half past 1", "half past 10", "6 o'clock", "9 o'clock", "half past 11"];
+        let wanted =
+            ["12 o'clock", "3 o'clock", "half past 1", "half past 10", "6 o'clock", "9 o'clock", "half past 11"];
         assert_eq!(told, wanted);
         assert_eq!(clock(0.0, 0.0), None);
     }

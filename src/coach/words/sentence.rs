@@ -10,7 +10,8 @@ use crate::{
 impl ShotWords {
     /// How to strike, in one sentence, for who plays with `cue_ball`.
     pub fn sentence(&self, cue_ball: CueBall, units: Units) -> String {
-        let text = format!("{}; {}; {}.", self.first_words(cue_ball, units), self.tip_words(units), self.stroke_words());
+        let text =
+            format!("{}; {}; {}.", self.first_words(cue_ball, units), self.tip_words(units), self.stroke_words());
         capital(&text)
     }
 
@@ -18,7 +19,8 @@ impl ShotWords {
     pub fn course(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
         let cushions = |cushions: &[Cushion]| -> Vec<String> {
-            let one = |cushion: &Cushion| format!("{} {}", length_word(cushion.rail), self.place(cushion.diamond, units, 1));
+            let one =
+                |cushion: &Cushion| format!("{} {}", length_word(cushion.rail), self.place(cushion.diamond, units, 1));
             cushions.iter().map(one).collect()
         };
         let mut stops = cushions(&self.before);
@@ -45,9 +47,10 @@ impl ShotWords {
             };
             format!("{}, {full}{side}", cue_ball.names()[hit.ball])
         });
-        let cushion = self.before.first().or(self.between.first().filter(|_| ball.is_none())).map(|cushion| {
-            format!("{} first at {}", rail_words(cushion.rail), self.place(cushion.diamond, units, 1))
-        });
+        let cushion =
+            self.before.first().or(self.between.first().filter(|_| ball.is_none())).map(|cushion| {
+                format!("{} first at {}", rail_words(cushion.rail), self.place(cushion.diamond, units, 1))
+            });
         match (cushion, ball) {
             (Some(cushion), Some(ball)) => format!("{cushion}, then {ball}"),
             (Some(cushion), None) => format!("{cushion}, no ball"),
@@ -60,9 +63,8 @@ impl ShotWords {
     fn tip_words(&self, units: Units) -> String {
         let half_tips = |tips: f64| (2.0 * tips.abs()).round() as u32;
         let [side, height] = match units.tip {
-            TipUnit::Tips => [self.tips_right, self.tips_above].map(|tips| {
-                (half_tips(tips) > 0).then(|| numbers::tips_words(half_tips(tips)))
-            }),
+            TipUnit::Tips => [self.tips_right, self.tips_above]
+                .map(|tips| (half_tips(tips) > 0).then(|| numbers::tips_words(half_tips(tips)))),
             TipUnit::Mm => [self.tips_right, self.tips_above].map(|tips| {
                 let text = short(1e3 * self.radius * TIP * tips.abs(), 1);
                 (text != "0").then(|| format!("{text} mm"))

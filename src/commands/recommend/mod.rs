@@ -247,7 +247,8 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     let advice = coach.recommend(layout, &request).map_err(Failure::wrong_input)?;
     let mut answer = RecommendAnswer::from(advice.clone());
     let (table, layout, shooter, seed) = (coach.table().clone(), *layout, request.shooter(), args.seed);
-    let shots: Vec<CueInputs> = std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)).collect();
+    let shots: Vec<CueInputs> =
+        std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)).collect();
     let words = in_time("the words for the shot", move || {
         let told = shots.iter().map(|cue| Told::of(&table, &layout, cue)).collect::<Result<Vec<_>, _>>()?;
         let why = advice.solved.then(|| Reasons::of(shooter, rule, &table, &layout, &advice, seed)).transpose()?;

@@ -61,7 +61,7 @@ impl Told {
         writeln!(out, "{}", numbers.course(CueBall::White, units))?;
         writeln!(out, "{}", numbers.aim(units))?;
         match (self.pattern, self.course) {
-            (Some(pattern), Some(course)) => writeln!(out, "Pattern: {pattern}. {course}."),
+            (Some(pattern), Some(course)) => writeln!(out, "Pattern: {pattern} ({course})."),
             _ => Ok(()),
         }
     }
