@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use super::words::LengthUnit;
+use super::words::{LengthUnit, number_word};
 use crate::{
     game::{Point, Rule, Tally},
     simulation::{EventKind, Recording},
-    table::{CueBall, Layout, Table},
+    table::{BALLS, CueBall, Layout, Table},
 };
 
 /// Time between two looks at the balls for how near they come, s: a fast ball runs 2 cm in it.
@@ -112,18 +112,7 @@ impl Verdict {
                 Some(miss) => format!("no ball was met, {}", passed(miss)),
                 None => "no ball was met".to_owned(),
             },
-            (true, false) => match self.miss {
-                Some(miss) => passed(miss),
-                None => {
-                    let [met, missed] = if tally.met[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
-                    let cushions = if tally.cushions < wanted {
-                        format!("; {}, {} needed", cushion_words(tally.cushions), number_word(wanted))
-                    } else {
-                        String::new()
-                    };
-                    format!("{met} was met, {missed} was not{cushions}")
-                }
-            },
+            (true, false) => self.miss.map_or_else(|| self.second_missed(names), passed),
             _ if tally.cushions_before_second < wanted => {
                 let made = cushion_words(tally.cushions_before_second);
                 format!("{made} before {}, {} needed", names[second], number_word(wanted))
@@ -132,17 +121,24 @@ impl Verdict {
             _ => return None,
         })
     }
+
+    /// Which ball was not met, and whether there were cushions enough.
+    fn second_missed(&self, names: [&str; BALLS]) -> String {
+        let (tally, wanted) = (&self.tally, self.point.rule.cushions());
+        let [met, missed] = if tally.met[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
+        let said = format!("{met} was met, {missed} was not");
+        if tally.cushions < wanted {
+            format!("{said}; {}, {} needed", cushion_words(tally.cushions), number_word(wanted))
+        } else {
+            said
+        }
+    }
 }
 
 /// A number of cushions in words.
 pub fn cushion_words(count: u32) -> String {
     let unit = if count == 1 { "cushion" } else { "cushions" };
     format!("{} {unit}", number_word(count))
-}
-
-fn number_word(number: u32) -> String {
-    const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
-    WORDS.get(number as usize).map_or_else(|| number.to_string(), |word| (*word).to_owned())
 }
 
 /// The nearest that the cue ball comes to one of these balls once it has met so many cushions.

@@ -269,19 +269,18 @@ mod tests {
     use super::*;
     use crate::coach::{Coach, Request, Skill};
 
-    /// Yellow is driven to the right rail and back, through the way of the cue ball.
+    /// The break with natural english: red comes back from the far cushions through the way of the cue ball.
     #[test]
     fn a_kiss_that_the_errors_bring_is_named_with_its_balls_and_its_place() {
         let table = Table::default();
-        let seen = |skill: Skill, layout: &Layout, cue: &CueInputs| {
-            kiss(skill.into(), Rule::StraightRail, &table, layout, cue, 1)
-        };
-        let layout = Layout::parse("0.6,0 1.0,0 0.2,0.02", &table).unwrap();
-        let drawn = |speed: f64| CueInputs { a: 0.0, b: -0.35, theta: 0.05, phi: 0.0, speed };
-        let shots = (10..60).map(|step| drawn(0.1 * f64::from(step)));
-        let kisses: Vec<Kiss> = shots.filter_map(|cue| seen(Skill::CLUB, &layout, &cue)).collect();
-        assert!(kisses.iter().all(|kiss| kiss.share >= NAMED && kiss.balls[0] < kiss.balls[1]), "{kisses:?}");
-        assert_eq!(seen(Skill::PERFECT, &layout, &drawn(3.0)), None);
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();
+        let seen = |skill: Skill| kiss(skill.into(), Rule::ThreeCushion, &table, &layout, &cue, 1);
+        let found = seen(Skill::NATIONAL).unwrap();
+        assert_eq!(found.balls, [0, 2], "{found:?}");
+        assert!((0.02..0.4).contains(&found.share), "{found:?}");
+        assert!(found.place.abs().cmple(table.reach()).all(), "{found:?}");
+        assert_eq!(seen(Skill::PERFECT), None);
     }
 
     #[test]
@@ -290,7 +289,7 @@ mod tests {
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::without_policy(table.clone());
         let request =
-            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_secs(60), ..Request::default() };
+            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_mins(1), ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));

@@ -9,7 +9,7 @@ mod units;
 
 use serde::Serialize;
 
-pub use numbers::clock;
+pub use numbers::{clock, number_word};
 pub use pace::{pace_word, table_lengths};
 pub(super) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};

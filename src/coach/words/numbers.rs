@@ -27,10 +27,15 @@ pub fn fullness_words(fullness: f64) -> (&'static str, bool) {
     (SIXTEENTHS[sixteenths], sixteenths == 16)
 }
 
+/// A whole number in words up to ten.
+pub fn number_word(number: u32) -> String {
+    const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    WORDS.get(number as usize).map_or_else(|| number.to_string(), |word| (*word).to_owned())
+}
+
 /// So many half tips, in words: "half a tip", "two and a half tips".
 pub fn tips_words(halves: u32) -> String {
-    const WHOLE: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
-    let whole = WHOLE[(halves / 2).min(10) as usize];
+    let whole = number_word(halves / 2);
     match (halves, halves % 2) {
         (1, _) => "half a tip".to_owned(),
         (2, _) => "one tip".to_owned(),

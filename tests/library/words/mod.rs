@@ -35,7 +35,7 @@ fn tried(layouts: usize, simulations: u64) -> Tried {
     for number in 0..layouts {
         let layout = Layout::random(&table, &mut rng);
         let rule = Rule::ALL[number % Rule::ALL.len()];
-        let budget = Duration::from_secs(60);
+        let budget = Duration::from_mins(1);
         let request =
             Request { rule, skill: Skill::EXPERT, doubt: Doubt::FULL, budget, simulations, ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();
@@ -72,6 +72,6 @@ fn a_thousand_recommendations_have_names_and_make_the_point_when_their_words_are
     let tried = tried(1000, 20_000);
     println!("{tried:?} for {READINGS:?}");
     assert_eq!(tried.named, 1000, "{tried:?}");
-    let [.., both] = tried.made;
-    assert!(tried.solved >= 980 && 10 * both >= 9 * tried.solved, "{tried:?}");
+    let least = 9 * tried.solved;
+    assert!(tried.solved >= 980 && tried.made.iter().all(|made| 10 * made >= least), "{tried:?}");
 }

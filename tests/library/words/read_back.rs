@@ -76,8 +76,8 @@ pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> O
     let found = match reading {
         Reading::Aim => at(aim.0),
         Reading::Both => nearest(aim, &said, &stops, table, layout, &at)?,
-        Reading::Sentence => nearest(window(&said, table, layout)?, &said, &[], table, layout, &at)?,
-        Reading::Course => nearest(window(&said, table, layout)?, &said, &stops, table, layout, &at)?,
+        Reading::Sentence => nearest(window(&said, table, layout), &said, &[], table, layout, &at)?,
+        Reading::Course => nearest(window(&said, table, layout), &said, &stops, table, layout, &at)?,
     };
     Some(found)
 }
@@ -192,21 +192,21 @@ fn aim(text: &str, table: &Table, layout: &Layout) -> Option<(f64, f64)> {
 
 /// The direction that the sentence tells, and how far off it may be: as far as a sixteenth of a ball, or a tenth of a diamond,
 /// is rounded.
-fn window(said: &Said, table: &Table, layout: &Layout) -> Option<(f64, f64)> {
+fn window(said: &Said, table: &Table, layout: &Layout) -> (f64, f64) {
     let start = layout.balls[0];
     let squirted = |phi: f64| phi - squirt(table, said.cue.a);
     if let Some(mark) = said.rail {
         let way = mark.place(table) + table.radius * mark.rail.normal() - start;
         // From the cue ball's side a diamond seems the shorter, the flatter the way.
         let seen = (way.normalize_or_zero().dot(mark.rail.normal())).abs().max(0.1);
-        return Some((squirted(way.to_angle()), 0.08 * table.diamond() * seen / way.length()));
+        return (squirted(way.to_angle()), 0.08 * table.diamond() * seen / way.length());
     }
     let way = layout.balls[said.ball] - start;
     let angle = |left: f64| (2.0 * table.radius * left / way.length()).clamp(-1.0, 1.0).asin();
     let (least, most) = (angle(said.left - 0.04), angle(said.left + 0.04));
     // A cue that is raised bends the way a little.
     let bend = said.cue.a.abs() * 0.01;
-    Some((squirted(way.to_angle() + 0.5 * (least + most)), 0.5 * (most - least) + bend))
+    (squirted(way.to_angle() + 0.5 * (least + most)), 0.5 * (most - least) + bend)
 }
 
 /// Of the directions in a window, the one whose shot is most like what is said.
