@@ -18,6 +18,29 @@ pub struct Mark {
     pub diamond: f64,
 }
 
+impl Mark {
+    /// The point of a cushion's nose that is next to `place`, m.
+    pub fn on(table: &Table, rail: Rail, place: DVec2) -> Self {
+        let along = match rail {
+            Rail::Left | Rail::Right => place.y + 0.5 * table.width,
+            Rail::Bottom | Rail::Top => place.x + 0.5 * table.length,
+        };
+        Self { rail, diamond: along / table.diamond() }
+    }
+
+    /// Where it is on the table, m.
+    pub fn place(self, table: &Table) -> DVec2 {
+        let half = 0.5 * DVec2::new(table.length, table.width);
+        let along = self.diamond * table.diamond();
+        match self.rail {
+            Rail::Left => DVec2::new(-half.x, along - half.y),
+            Rail::Right => DVec2::new(half.x, along - half.y),
+            Rail::Bottom => DVec2::new(along - half.x, -half.y),
+            Rail::Top => DVec2::new(along - half.x, half.y),
+        }
+    }
+}
+
 /// How the cue ball meets the first object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Hit {
@@ -70,12 +93,7 @@ fn mark(table: &Table, from: DVec2, direction: DVec2) -> Mark {
         if approach > 1e-12 { (from.dot(inward) + half.dot(inward.abs())) / approach } else { f64::INFINITY }
     };
     let rail = Rail::ALL.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(Rail::Left);
-    let place = from + distance(rail) * direction + half;
-    let along = match rail {
-        Rail::Left | Rail::Right => place.y,
-        Rail::Bottom | Rail::Top => place.x,
-    };
-    Mark { rail, diamond: along / table.diamond() }
+    Mark::on(table, rail, from + distance(rail) * direction)
 }
 
 /// How the cue ball meets the first object ball of a recorded shot; `None` where it meets none.

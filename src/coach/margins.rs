@@ -127,20 +127,26 @@ pub struct Map {
 /// The margins of a shot that makes the point, in the order of [`Input::ALL`]. Between two steps of the scan a miss can
 /// hide; the end of the margin is then found to a thousandth of a step. `None` where the shot makes no point.
 pub fn margins(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<[Margin; 5]> {
-    let makes = |cue: &CueInputs| outcome(rule, table, layout, cue) == Outcome::Point;
-    if !makes(cue) {
-        return None;
-    }
-    Some(Input::ALL.map(|input| {
-        let side = |sign: f64| {
-            nearest_miss(
-                input,
-                |by| makes(&input.shifted(table, cue, sign * by)),
-                |by| is_stroke(table, layout, &input.shifted(table, cue, sign * by)) || input.is_tip(),
-            )
-        };
-        Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
-    }))
+    let makes = outcome(rule, table, layout, cue) == Outcome::Point;
+    makes.then(|| Input::ALL.map(|input| around(input, rule, table, layout, cue)))
+}
+
+/// The margin of one input alone.
+pub fn margin(input: Input, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Margin> {
+    let makes = outcome(rule, table, layout, cue) == Outcome::Point;
+    makes.then(|| around(input, rule, table, layout, cue))
+}
+
+fn around(input: Input, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Margin {
+    let side = |sign: f64| {
+        let shifted = |by: f64| input.shifted(table, cue, sign * by);
+        nearest_miss(
+            input,
+            |by| outcome(rule, table, layout, &shifted(by)) == Outcome::Point,
+            |by| is_stroke(table, layout, &shifted(by)) || input.is_tip(),
+        )
+    };
+    Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
 }
 
 impl Input {

@@ -22,9 +22,13 @@ mod scatter;
 mod search;
 mod self_play;
 mod skill;
+mod technique;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod verdict;
+mod why;
+pub mod words;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
 pub use aim::{Aim, Hit, Mark, aim, first_hit, line_of_aim};
@@ -32,9 +36,13 @@ pub use coach::{Coach, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
 pub use kind::{Kind, Pace, Way};
-pub use margins::{Input, Map, Margin, Outcome, map, margins, outcome};
+pub use margins::{Input, Map, Margin, Outcome, map, margin, margins, outcome};
 pub use request::{Request, Shooter};
 pub use risk::{Cause, Risk};
 pub use scatter::{Scatter, scatter};
 pub use self_play::{Inning, inning};
 pub use skill::{Growth, Skill, SkillError};
+pub use technique::{Cushion, PATTERNS, Pattern, Technique};
+pub use verdict::{Miss, Passed, Verdict, cushion_words};
+pub use why::{Difference, Kiss, Why, why};
+pub use words::{ShotWords, Units};

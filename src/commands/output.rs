@@ -10,8 +10,10 @@ use serde::Serialize;
 
 use super::Failure;
 use crate::{
+    coach::Units,
     physics::Impulse,
     printing::{self, OneLine},
+    terminal::Settings,
 };
 
 /// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
@@ -31,6 +33,11 @@ pub fn prompt(words: &str) {
 /// A line on the standard output; a text of several is shown as one.
 pub fn line(text: impl Display) -> Result<(), Failure> {
     Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
+}
+
+/// The units that the user has chosen; a file with mistakes is the business of `carom config --check`.
+pub fn units() -> Units {
+    Settings::load(&Settings::path()).0.units
 }
 
 /// The equivalent ball impulse for people to read.

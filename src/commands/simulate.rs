@@ -1,9 +1,6 @@
 //! `carom simulate`: one shot as a list of events, or a file of shots.
 
-use std::{
-    fmt,
-    io::{self, Write},
-};
+use std::io::{self, Write};
 
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
@@ -11,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::{
     Failure, bounded,
     input::{ByTable, Keys, PositionArgs, answer_lines},
-    output::{impulse_words, tell},
+    output::{impulse_words, tell, units},
 };
 use crate::{
-    drills::{cushions, missing},
-    game::{Point, Rule, Tally},
+    coach::Verdict,
+    game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
     printing,
     simulation::{Event, Recording},
@@ -40,6 +37,9 @@ pub struct Args {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
+    /// List also where balls begin to roll, stop, and rest against something; --json always does.
+    #[arg(long)]
+    rolls: bool,
     /// JSON Lines of shots with `preset`, `layout` and `cue`, or `impulse` (velocity, spin of the cue ball) in its place; "-" reads the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "shot")]
     batch: Option<String>,
@@ -104,7 +104,7 @@ impl GivenImpulse {
 
 impl BatchLine {
     fn answer(&self, table: &Table, rule: Rule, steps: Option<Steps>) -> Result<SimulateAnswer, Failure> {
-        let outcome = |(recording, _): &Played| Outcome::of(self.rule.unwrap_or(rule), table, &self.layout, recording);
+        let outcome = |(recording, _): &Played| Verdict::of(self.rule.unwrap_or(rule), table, &self.layout, recording);
         match (&self.cue, &self.impulse) {
             (Some(cue), None) => {
                 let played = play(table, &self.layout, cue, steps)?;
@@ -129,39 +129,6 @@ struct PlacedEvent {
     event: Event,
     #[serde(skip_serializing_if = "Option::is_none")]
     at: Option<DVec2>,
-}
-
-/// What a shot comes to under a rule.
-struct Outcome {
-    point: Point,
-    tally: Tally,
-}
-
-impl Outcome {
-    fn of(rule: Rule, table: &Table, layout: &Layout, recording: &Recording) -> Self {
-        let mut tally = Tally::default();
-        recording.events().iter().for_each(|event| tally.note(event));
-        Self { point: Point::of(rule, table, layout), tally }
-    }
-
-    /// Cushions before the second object ball, where the cue ball meets it.
-    fn cushions(&self) -> Option<u32> {
-        self.tally.met_both().then_some(self.tally.cushions_before_second)
-    }
-}
-
-impl fmt::Display for Outcome {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { point, tally } = self;
-        let made = if point.is_made(tally) { "a point" } else { "no point" };
-        let missing = missing(*point, tally, CueBall::White);
-        let cushions = self
-            .cushions()
-            .filter(|_| tally.is_point(point.rule))
-            .map(|count| format!("{} before the second ball", cushions(count)));
-        let words: Vec<String> = [missing, cushions].into_iter().flatten().collect();
-        write!(formatter, "{made} ({}): {}", point.rule, words.join("; "))
-    }
 }
 
 /// The answer in JSON.
@@ -229,11 +196,11 @@ struct StepsAnswer {
 }
 
 impl SimulateAnswer {
-    fn of((recording, stepped): &Played, outcome: &Outcome, cue_room: Option<CueRoom>) -> Self {
+    fn of((recording, stepped): &Played, verdict: &Verdict, cue_room: Option<CueRoom>) -> Self {
         Self {
-            rule: outcome.point.rule,
-            point: outcome.point.is_made(&outcome.tally),
-            cushions_before_second: outcome.cushions(),
+            rule: verdict.point.rule,
+            point: verdict.is_made(),
+            cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
             cue_room,
             events: recording
                 .events()
@@ -282,13 +249,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
         tell(format_args!("note: {note}"));
     }
-    let outcome = Outcome::of(args.rule, &table, &layout, &played.0);
+    let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout();
     if args.json {
-        printing::json(&mut out, &SimulateAnswer::of(&played, &outcome, cue_room))?;
+        printing::json(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room))?;
         writeln!(out)?;
     } else {
-        describe(&mut out, &played, &outcome)?;
+        describe(&mut out, args, &played, &verdict)?;
     }
     Ok(())
 }
@@ -317,10 +284,11 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -
 }
 
 /// The shot for people to read.
-fn describe(out: &mut impl Write, (recording, stepped): &Played, outcome: &Outcome) -> io::Result<()> {
+fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, verdict: &Verdict) -> io::Result<()> {
     writeln!(out, "{}", impulse_words(recording.impulse()))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
-    for event in recording.events() {
+    let is_told = |event: &&Event| args.rolls || event.kind.is_contact();
+    for event in recording.events().iter().filter(is_told) {
         let (first, second) = event.kind.balls();
         let first = BALL_NAMES[first];
         let balls = second.map_or_else(|| first.to_owned(), |second| format!("{first} {}", BALL_NAMES[second]));
@@ -347,5 +315,6 @@ fn describe(out: &mut impl Write, (recording, stepped): &Played, outcome: &Outco
     if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
         writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;
     }
-    writeln!(out, "{outcome}")
+    let said = verdict.words(CueBall::White, units().length);
+    writeln!(out, "{said} ({})", verdict.point.rule)
 }

@@ -48,6 +48,11 @@ impl EventKind {
         }
     }
 
+    /// Whether a ball meets another or a cushion.
+    pub const fn is_contact(self) -> bool {
+        matches!(self, Self::BallBall(..) | Self::BallRail(..))
+    }
+
     /// The cushion that takes part.
     pub const fn rail(self) -> Option<Rail> {
         match self {

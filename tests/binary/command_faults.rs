@@ -33,11 +33,11 @@ fn simulate<'a>(shot: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 #[test]
 fn a_simulated_shot_is_judged_by_the_rule_that_is_asked_for() {
     let straight = said(&simulate(ONE_CUSHION, &[]));
-    assert!(straight.contains("a point (straight): 1 cushion before the second ball"), "{straight}");
+    assert!(straight.contains("Point: yellow, one cushion, red (straight)"), "{straight}");
     let three = said(&simulate(ONE_CUSHION, &["--rule", "three-cushion"]));
-    assert!(three.contains("no point (three-cushion): 1 cushion before the second ball, 3 needed"), "{three}");
+    assert!(three.contains("No point: one cushion before red, three needed (three-cushion)"), "{three}");
     let missed = said(&simulate("0,0,0,90,0.5", &["--rule", "one-cushion"]));
-    assert!(missed.contains("no point (one-cushion): no ball was met"), "{missed}");
+    assert!(missed.contains("No point: no ball was met, passed yellow by "), "{missed}");
     assert!(refusal(&simulate(ONE_CUSHION, &["--rule", "snooker"])).contains("three-cushion"));
 }
 

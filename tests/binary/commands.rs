@@ -81,6 +81,41 @@ fn recommend_gives_a_shot_that_simulates_to_a_point() {
 }
 
 #[test]
+fn a_recommendation_is_told_as_a_player_says_it() {
+    let args = ["recommend", "--layout", LAYOUT, "--skill", "club", "--budget-ms", "5000", "--simulations", "4000"];
+    let answer = json(&[&args[..], &["--json"]].concat());
+    let words = &answer["words"];
+    let sentence = words["sentence"].as_str().unwrap();
+    assert!(sentence.contains(" table length") && sentence.ends_with("cue."), "{sentence}");
+    assert!(words["table_lengths"].as_f64().unwrap() > 0.0 && words["ahead"]["diamond"].is_number(), "{words}");
+    assert!(answer["pattern"].is_string() && answer["why"]["sentence"].is_string(), "{answer}");
+    for other in answer["alternatives"].as_array().unwrap() {
+        assert!(other["pattern"].is_string() && other["words"]["course"].is_string(), "{other}");
+    }
+    let home = tempfile::tempdir().unwrap();
+    let text = |settings: &str| {
+        std::fs::create_dir_all(home.path().join("carom")).unwrap();
+        std::fs::write(home.path().join("carom/config.toml"), settings).unwrap();
+        let told = carom(&args).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path()).output().unwrap();
+        String::from_utf8(told.stdout).unwrap()
+    };
+    let told = text("");
+    assert_eq!(told.lines().next(), Some(sentence), "{told}");
+    assert!(told.contains("\nPattern: ") && told.contains("\nWhy: "), "{told}");
+    let told = text("tip_unit = \"mm\"\nplace_unit = \"mm\"\n");
+    assert!(told.lines().nth(2).unwrap().contains(" mm on the "), "{told}");
+}
+
+#[test]
+fn where_balls_roll_is_listed_where_it_is_asked_for() {
+    let text = |more: &[&str]| {
+        let args = [&["simulate", "--layout", LAYOUT, "--shot", SHOT], more].concat();
+        String::from_utf8(carom(&args).output().unwrap().stdout).unwrap()
+    };
+    assert!(!text(&[]).contains("sliding-rolling") && text(&["--rolls"]).contains("sliding-rolling"));
+}
+
+#[test]
 fn a_recommendation_says_how_sure_it_is_how_far_off_one_may_be_and_what_else_there_is() {
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
     let args = ["recommend", "--layout", LAYOUT, "--skill", own, "--budget-ms", "200", "--margins", "--plan", "--json"];

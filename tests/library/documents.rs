@@ -12,3 +12,11 @@ fn the_table_of_keys_is_that_of_the_program() {
         assert!(written.contains(part), "{part}");
     }
 }
+
+#[test]
+fn the_glossary_has_every_pattern_with_its_course() {
+    let rows: Vec<String> =
+        carom::coach::PATTERNS.iter().map(|pattern| format!("| {} | {} |", pattern.name, pattern.course)).collect();
+    let table = rows.join("\n") + "\n";
+    assert!(include_str!("../../docs/glossary.md").contains(&table), "docs/glossary.md needs this table:\n{table}");
+}

@@ -3,8 +3,8 @@
 use std::{collections::HashSet, fs, path::Path};
 
 use carom::{
-    coach::Skill,
-    drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, Technique, decode, encode, flaws, shifted},
+    coach::{PATTERNS, Pattern, Skill, Technique},
+    drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, decode, encode, flaws, shifted},
     game::scores,
     learning::normal_pair,
     physics::CueInputs,
@@ -52,6 +52,30 @@ fn every_shot_shows_what_its_category_teaches() {
     };
     let draws = exercises.iter().filter(|e| e.category == Category::Draw);
     assert!(draws.filter(turns).count() >= 6);
+}
+
+/// Of exercises for gathering the tags tell what yellow does, and of those for one cushion `draw`, `follow` and `thin` tell the
+/// stroke.
+#[test]
+fn the_classifier_calls_exercises_as_their_tags_do() {
+    let mut compared = 0;
+    for exercise in bundled().into_iter().filter(|exercise| exercise.category != Category::Gather) {
+        let table = exercise.table().unwrap();
+        let technique = Technique::of(&table, &exercise.layout, &exercise.shot.unwrap()).unwrap();
+        let named = Pattern::of(&technique).unwrap();
+        let is_stroke =
+            |tag: &str| exercise.category == Category::OneCushion && ["draw", "follow", "thin"].contains(&tag);
+        let is_pattern = |tag: &&str| PATTERNS.iter().any(|pattern| pattern.tag == *tag) && !is_stroke(tag);
+        let mut wanted: Vec<&str> = exercise.tags.iter().map(String::as_str).filter(is_pattern).collect();
+        match exercise.category {
+            Category::Draw => wanted = vec!["draw"],
+            Category::Follow => wanted = vec!["follow"],
+            _ => {}
+        }
+        compared += usize::from(!wanted.is_empty());
+        assert!(wanted.is_empty() || wanted.contains(&named.tag), "{} {wanted:?}: {named:?}", exercise.name);
+    }
+    assert!(compared >= 65, "{compared}");
 }
 
 #[test]

@@ -10,3 +10,4 @@ mod same_bits;
 mod screens;
 mod stability;
 mod thesis_agents;
+mod words;

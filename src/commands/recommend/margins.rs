@@ -1,14 +1,14 @@
 //! `carom recommend --margins`: how far off the shot may be, and where to aim.
 
-use std::{fmt, sync::mpsc, thread, time::Duration};
+use std::fmt;
 
 use serde::Serialize;
 
 use crate::{
     coach::{Aim, Input, Map, Margin, aim, map, margins},
-    commands::{Failure, output::tell},
     game::Rule,
     physics::CueInputs,
+    simulation::ShotError,
     table::{BALL_NAMES, Layout, Table},
 };
 
@@ -34,33 +34,12 @@ pub struct Margins {
     maps: [Map; 2],
 }
 
-/// Longest time that the margins of one shot may take. On a table that exists they take a tenth.
-const LONGEST: Duration = Duration::from_secs(1);
-
 impl Margins {
-    /// Of one shot, where they can be had in time; otherwise that is told on the standard error.
-    pub fn in_time(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Option<Self>, Failure> {
-        let (sender, found) = mpsc::channel();
-        let (table, layout, cue) = (table.clone(), *layout, *cue);
-        // Nobody waits for one that takes longer; it ends with the program.
-        thread::spawn(move || drop(sender.send(Self::of(rule, &table, &layout, &cue))));
-        found.recv_timeout(LONGEST).map_or_else(
-            |_| {
-                tell(format_args!(
-                    "note: the margins take more than {} s on this table and are left out",
-                    LONGEST.as_secs()
-                ));
-                Ok(None)
-            },
-            |margins| margins.map(Some),
-        )
-    }
-
     /// Of one shot.
-    pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, Failure> {
+    pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
         let draw = |across, up| map(rule, table, layout, cue, across, up, CELLS);
         Ok(Self {
-            aim: aim(table, layout, cue).map_err(Failure::wrong_input)?,
+            aim: aim(table, layout, cue)?,
             inputs: margins(rule, table, layout, cue),
             maps: [
                 draw((Input::Side, TIP), (Input::Height, TIP)),

@@ -1,6 +1,8 @@
 //! `carom recommend`: a shot for a layout, or for a file of layouts.
 
+mod in_time;
 mod margins;
+mod told;
 
 use std::{
     io::{self, Write},
@@ -9,12 +11,16 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use self::margins::Margins;
+use self::{
+    in_time::in_time,
+    margins::Margins,
+    told::{Reasons, Told},
+};
 use super::{
     Failure,
     input::{ByTable, Keys, PositionArgs, answer_lines, note_doubts},
     lookup::{policy_called, skill_called},
-    output::impulse_words,
+    output::{impulse_words, units},
 };
 use crate::{
     coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source},
@@ -22,6 +28,7 @@ use crate::{
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
     printing,
+    simulation::ShotError,
     table::{Layout, Table},
 };
 
@@ -109,6 +116,12 @@ struct RecommendAnswer {
     /// Where they were asked for.
     #[serde(flatten)]
     margins: Option<Margins>,
+    /// Where anything was simulated.
+    #[serde(flatten)]
+    told: Option<Told>,
+    /// Of a shot that makes the point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<Reasons>,
 }
 
 #[derive(Serialize)]
@@ -119,6 +132,8 @@ struct Alternative {
     source: Source,
     #[serde(flatten)]
     sort: Sort,
+    #[serde(flatten)]
+    told: Option<Told>,
 }
 
 /// How often the player makes it; empty where that is not known.
@@ -190,7 +205,8 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
 fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<RecommendAnswer, Failure> {
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
-        answer.margins = Margins::in_time(rule, coach.table(), layout, &answer.cue)?;
+        let (table, layout, cue) = (coach.table().clone(), *layout, answer.cue);
+        answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue))?;
     }
     Ok(answer)
 }
@@ -214,6 +230,8 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
             elapsed_ms: 1e3 * start.elapsed().as_secs_f64(),
             alternatives: Vec::new(),
             margins: None,
+            told: None,
+            why: None,
         });
     }
     let request = Request {
@@ -226,7 +244,23 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         seed: args.seed,
         ..Request::default()
     };
-    coach.recommend(layout, &request).map(RecommendAnswer::from).map_err(Failure::wrong_input)
+    let advice = coach.recommend(layout, &request).map_err(Failure::wrong_input)?;
+    let mut answer = RecommendAnswer::from(advice.clone());
+    let (table, layout, shooter, seed) = (coach.table().clone(), *layout, request.shooter(), args.seed);
+    let shots: Vec<CueInputs> =
+        std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)).collect();
+    let words = in_time("the words for the shot", move || {
+        let told = shots.iter().map(|cue| Told::of(&table, &layout, cue)).collect::<Result<Vec<_>, _>>()?;
+        let why = advice.solved.then(|| Reasons::of(shooter, rule, &table, &layout, &advice, seed)).transpose()?;
+        Ok::<_, ShotError>((told, why))
+    })?;
+    if let Some((told, why)) = words {
+        let mut told = told.into_iter();
+        answer.told = told.next();
+        answer.alternatives.iter_mut().zip(told).for_each(|(shot, told)| shot.told = Some(told));
+        answer.why = why;
+    }
+    Ok(answer)
 }
 
 fn no_policy(table: &Table) -> Failure {
@@ -243,6 +277,7 @@ impl From<Recommendation> for RecommendAnswer {
             chance: shot.make_probability.into(),
             source: shot.source,
             sort: Some(shot.kind).into(),
+            told: None,
         });
         Self {
             cue: advice.cue,
@@ -256,12 +291,23 @@ impl From<Recommendation> for RecommendAnswer {
             elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
             alternatives: alternatives.collect(),
             margins: None,
+            told: None,
+            why: None,
         }
     }
 }
 
 /// The recommendation for people to read.
 fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &RecommendAnswer) -> io::Result<()> {
+    if let Some(told) = &answer.told {
+        told.describe(out, units())?;
+    }
+    if let Some(why) = &answer.why {
+        why.describe(out, units())?;
+    }
+    if answer.told.is_some() {
+        writeln!(out)?;
+    }
     let CueInputs { a, b, theta, speed, .. } = answer.cue;
     let side = match a {
         a if a > 0.0 => " (left of centre)",
@@ -288,10 +334,11 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     if let Some(margins) = &answer.margins {
         write!(out, "{margins}")?;
     }
-    for Alternative { cue, chance, sort, .. } in &answer.alternatives {
+    for Alternative { cue, chance, sort, told, .. } in &answer.alternatives {
         let CueInputs { a, b, theta, speed, .. } = *cue;
         let (theta, phi) = (theta.to_degrees(), cue.phi_text(3));
-        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {}", words(sort, chance, args))?;
+        let pattern = told.as_ref().and_then(Told::pattern).map_or_else(String::new, |name| format!("{name}; "));
+        writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {pattern}{}", words(sort, chance, args))?;
     }
     writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
 }

@@ -5,7 +5,10 @@ use std::path::Path;
 use toml::de::{DeFloat, DeInteger, DeValue};
 
 use crate::{
-    coach::Skill,
+    coach::{
+        Skill,
+        words::{LengthUnit, PlaceUnit, TipUnit},
+    },
     game::Rule,
     table::PRESETS,
     terminal::{
@@ -199,6 +202,42 @@ pub const ENTRIES: &[Entry] = &[
         get: |settings| settings.mouse.to_string(),
         set: |settings, value| {
             settings.mouse = value.as_bool()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Units",
+        key: "tip_unit",
+        about: "In what a shot tells how far the tip is from the centre of the ball.",
+        accepted: "\"tips\", \"mm\"",
+        choices: || TipUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(name(&TipUnit::NAMED, &settings.units.tip)),
+        set: |settings, value| {
+            settings.units.tip = named(&TipUnit::NAMED, value.as_str()?)?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Units",
+        key: "place_unit",
+        about: "In what it tells places along the cushions.",
+        accepted: "\"diamonds\", \"mm\"",
+        choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
+        set: |settings, value| {
+            settings.units.place = named(&PlaceUnit::NAMED, value.as_str()?)?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Units",
+        key: "length_unit",
+        about: "In what distances on the table are told.",
+        accepted: "\"metres\", \"feet\"",
+        choices: || LengthUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(name(&LengthUnit::NAMED, &settings.units.length)),
+        set: |settings, value| {
+            settings.units.length = named(&LengthUnit::NAMED, value.as_str()?)?;
             Some(())
         },
     },

@@ -15,7 +15,7 @@ use std::{
 use directories::ProjectDirs;
 
 use crate::{
-    coach::{Doubt, Skill},
+    coach::{Doubt, Skill, Units},
     game::Rule,
     storage,
     table::{PRESETS, Table},
@@ -50,6 +50,8 @@ pub struct Settings {
     /// times of 100; the rest is for players who err more and for the next point, and no longer than a player looks at the
     /// table.
     pub think_ms: u64,
+    /// The units in which lengths are told.
+    pub units: Units,
     /// The step of the arrow keys, mm.
     pub step_mm: f64,
     /// Seconds of a shot in a second of the screen.
@@ -72,6 +74,7 @@ impl Default for Settings {
             doubt: Doubt::FULL,
             plan: true,
             think_ms: 1000,
+            units: Units::default(),
             step_mm: 10.0,
             speed: 1.0,
             mouse: true,

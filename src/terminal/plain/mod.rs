@@ -13,7 +13,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::{Coach, Kind, Request, aim, margins},
+    coach::{Coach, Kind, Pattern, Request, ShotWords, Technique, Units, Verdict, Why, aim, margins, why},
     game::Point,
     learning::evaluation::SuccessRate,
     physics::CueInputs,
@@ -42,6 +42,9 @@ struct Conversation {
     /// The shots that were found for the balls as they lie, and which of them is spoken of.
     shots: Vec<Found>,
     chosen: usize,
+    /// Why the first of them leads.
+    why: Option<Why>,
+    units: Units,
     rng: Xoshiro256PlusPlus,
 }
 
@@ -74,6 +77,8 @@ pub fn converse(
         balls: History::new((layout, CueBall::White)),
         shots: Vec::new(),
         chosen: 0,
+        why: None,
+        units: settings.units,
         rng,
     };
     write!(output, "carom. Say help for what may be said.\n{}\n{prompt}", talk.places())?;
@@ -159,8 +164,16 @@ impl Conversation {
                     None => "This shot makes no point.".to_owned(),
                 }
             }),
-            Order::Tell => self.about_the_shot(|talk, shot| {
-                talk.recorded(shot, |recording| speech::events(recording, talk.cue_ball()))
+            Order::Numbers => self.about_the_shot(|talk, shot| {
+                let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
+                speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball())
+            }),
+            Order::Tell(all) => self.about_the_shot(|talk, shot| {
+                talk.recorded(shot, |recording| {
+                    let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), recording);
+                    let outcome = verdict.words(talk.cue_ball(), talk.units.length);
+                    format!("{}\n{outcome}.", speech::events(recording, all, talk.cue_ball()))
+                })
             }),
             Order::GoOn => match self.shots.get(self.chosen).copied() {
                 Some(shot) => match Recording::new(self.table(), self.layout(), &shot.cue) {
@@ -207,6 +220,9 @@ impl Conversation {
             Ok(advice) => advice,
             Err(error) => return error.to_string(),
         };
+        let shooter = self.request.shooter();
+        self.why =
+            why(shooter, self.request.rule, self.table(), self.layout(), &advice, 0).ok().filter(|_| advice.solved);
         let best = Found { cue: advice.cue, kind: advice.kind, rate: advice.make_probability };
         let others = advice.alternatives.iter().map(|shot| Found {
             cue: shot.cue,
@@ -229,9 +245,18 @@ impl Conversation {
     /// The shot that is spoken of.
     fn describe(&self) -> String {
         self.about_the_shot(|talk, shot| {
-            let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
-            let chance = speech::chance(shot.kind, shot.rate, talk.request.skill, talk.cue_ball());
-            format!("{chance}\n{}", speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball()))
+            let mut lines = Vec::new();
+            let (cue_ball, units) = (talk.cue_ball(), talk.units);
+            if let Ok(technique) = Technique::of(talk.table(), talk.layout(), &shot.cue) {
+                let words = ShotWords::of_technique(talk.table(), talk.layout(), &shot.cue, &technique);
+                lines.extend([words.sentence(cue_ball, units), words.course(cue_ball, units), words.aim(units)]);
+                let pattern = Pattern::of(&technique);
+                lines.extend(pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course)));
+            }
+            lines.push(speech::chance(shot.kind, shot.rate, talk.request.skill, cue_ball));
+            let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
+            lines.extend(why.map(|why| why.words(cue_ball, units)));
+            lines.join("\n")
         })
     }
 
@@ -264,10 +289,13 @@ mod tests {
 
     #[test]
     fn a_shot_is_told_its_margins_its_course_and_its_end() {
-        let said = talk("shot\nmargins\ntell\ngo on\nundo\nquit\nwhere");
+        let said = talk("shot\nnumbers\nmargins\ntell\ngo on\nundo\nquit\nwhere");
         for words in [
             "percent of the time, between",
             "hits yellow",
+            "table lengths), ",
+            "Pattern: ",
+            "\nPoint: ",
             "Direction: up to",
             "white meets yellow.",
             "all balls lie still",
@@ -297,7 +325,8 @@ mod tests {
 
     #[test]
     fn the_other_player_has_the_other_ball_and_every_colour_is_told_right() {
-        let said = talk("cue ball yellow\nwhere\nmove yellow up 10\nshot\ntell\nundo\nundo\nwhere\ncue ball white\n");
+        let said =
+            talk("cue ball yellow\nwhere\nmove yellow up 10\nshot\nnumbers\ntell\nundo\nundo\nwhere\ncue ball white\n");
         let told = "Yellow lies at 4.00 diamonds along and 2.03 up, 0 and 10 millimetres from the middle.";
         assert!(said.contains("The cue ball is yellow.") && said.contains(told), "{said}");
         assert!(said.contains("hits white") || said.contains("hits red"), "{said}");

@@ -37,8 +37,10 @@ pub enum Order {
     Other,
     /// How far off it may be.
     Margins,
-    /// What happens in it.
-    Tell,
+    /// Where the tip meets the ball, the speed and the direction, in numbers.
+    Numbers,
+    /// Which balls and cushions are met in it, or with `true` all that happens, and what comes of it.
+    Tell(bool),
     /// Balls as it leaves them.
     GoOn,
     /// Which filmed shots there are.
@@ -57,7 +59,9 @@ pub enum Order {
 pub const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; an empty line does the same"),
     ("other", "the next of the other shots"),
-    ("tell", "what happens in the shot"),
+    ("numbers", "the shot in millimetres, metres a second and degrees"),
+    ("tell", "what the balls meet in the shot, and what comes of it"),
+    ("tell all", "the same, and where they begin to roll and stop"),
     ("margins", "how far off the shot may be, and where to aim"),
     ("go on", "take the balls as the shot leaves them"),
     ("where", "where the balls lie"),
@@ -89,7 +93,9 @@ impl FromStr for Order {
         Ok(match words[..] {
             [] | ["shot"] => Self::Shot,
             ["other"] => Self::Other,
-            ["tell"] => Self::Tell,
+            ["numbers"] => Self::Numbers,
+            ["tell"] => Self::Tell(false),
+            ["tell", "all"] => Self::Tell(true),
             ["margins"] => Self::Margins,
             ["go", "on"] => Self::GoOn,
             ["where"] => Self::Where,

@@ -107,8 +107,8 @@ pub fn margins(margins: &[Margin]) -> String {
     margins.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// What happens in a shot.
-pub fn events(recording: &Recording, cue_ball: CueBall) -> String {
+/// What balls and cushions are met in a shot, or with `all` everything that happens.
+pub fn events(recording: &Recording, all: bool, cue_ball: CueBall) -> String {
     let names = cue_ball.names();
     let words = |kind: EventKind| match kind {
         EventKind::BallBall(one, other) => format!("{} meets {}", names[one], names[other]),
@@ -116,7 +116,8 @@ pub fn events(recording: &Recording, cue_ball: CueBall) -> String {
         other => event_words(other, cue_ball),
     };
     let line = |event: &Event| format!("{} seconds: {}.", fixed(event.time, 2), words(event.kind));
-    let mut lines: Vec<String> = recording.events().iter().map(line).collect();
+    let told = recording.events().iter().filter(|event| all || event.kind.is_contact());
+    let mut lines: Vec<String> = told.map(line).collect();
     lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")
 }

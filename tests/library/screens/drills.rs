@@ -175,7 +175,7 @@ fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
     let player = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space");
     player.says("the shot is on its way");
     let ended = player.press("Enter");
-    ended.says("missed: ");
+    ended.says("No point: ");
     assert_eq!(ended.app.frame_interval(), None);
     let next = ended.press("Enter");
     next.says("set the stroke").says("0 of 1 made");

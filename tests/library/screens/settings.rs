@@ -26,7 +26,7 @@ fn every_setting_is_listed_with_its_value_and_the_marked_one_in_words() {
     check("values", &player);
     let skill = player.press("Down Down Down Down Down");
     skill.shows(&["2 changed", "Who plays: the errors that the", "degrees and m/s like"]);
-    let speed = with(NO_COLOUR, "speed = 2.0\n").press("End Up");
+    let speed = with(NO_COLOUR, "speed = 2.0\n").press("End Up Up Up Up");
     speed.is_plain().shows(&["1 changed", "How fast shots are played", "Accepted: 0.1, 0.25, 0.5, 1, 2, 4"]);
     with(ASCII, "speed = 2.0\n").is_plain().shows(&["> theme", "Colours of the screen."]);
     let large = new().text(200, 60);

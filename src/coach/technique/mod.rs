@@ -1,36 +1,51 @@
-//! What a shot does on the table.
+//! What a shot does on the table, and the name that players have for it.
 
-mod flaws;
 mod patterns;
 
-pub use flaws::{GATHERED, flaws};
 pub use patterns::{PATTERNS, Pattern};
 
+use serde::Serialize;
+
+use super::{Hit, Mark, first_hit};
 use crate::{
-    coach::first_hit,
     game::Tally,
     physics::CueInputs,
     simulation::{EventKind, Rail, Recording, ShotError},
     table::{Layout, Table},
 };
 
+/// A cushion that the cue ball meets.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cushion {
+    /// Which one.
+    pub rail: Rail,
+    /// Where on its nose, in diamonds: 0 to 8 from the left on a long one, 0 to 4 from below on a short one.
+    pub diamond: f64,
+    /// How fast the cue ball comes on along it, m/s; positive to the right, or upwards.
+    #[serde(skip)]
+    pub along: f64,
+}
+
 /// What the cue ball does in a shot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Technique {
     /// What the rules look at.
     pub tally: Tally,
-    /// The object ball that is met first.
-    pub first: Option<usize>,
+    /// How the object ball is met that comes first.
+    pub first: Option<Hit>,
     /// Cushions before it, in order.
-    pub before: Vec<Rail>,
+    pub before: Vec<Cushion>,
     /// Cushions between the first and the second object ball, in order.
-    pub between: Vec<Rail>,
-    /// Cushions that yellow meets in the whole shot, in order.
+    pub between: Vec<Cushion>,
+    /// Cushions that the first ball meets in the whole shot, in order.
     pub sent: Vec<Rail>,
-    /// How much of the first ball is covered as the cue ball comes on: 1 is head-on, 0 a graze.
-    pub fullness: f64,
     /// Angle between the cue ball's way to the first ball and its way from there, once it rolls or meets something, rad.
     pub turn: f64,
+    /// Angle by which the cue ball's way bends until it meets anything, rad.
+    pub bend: f64,
+    /// Spin about the axis across its way as the cue ball meets the first ball, in units of a rolling ball's: 1 rolls, 0 slides,
+    /// less turns backwards.
+    pub roll: f64,
     /// Side spin at the first cushion in units of a rolling ball's spin, R w / v: positive where it is running (the rebound is
     /// longer for it), negative where it is reverse, 0 without a cushion before the second ball.
     pub english: f64,
@@ -48,31 +63,45 @@ impl Technique {
     /// # Errors
     /// What is wrong with the layout or the stroke.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
-        let recording = Recording::new(table, layout, cue)?;
+        Ok(Self::of_recorded(table, &Recording::new(table, layout, cue)?))
+    }
+
+    /// What the cue ball does in a recorded shot.
+    pub fn of_recorded(table: &Table, recording: &Recording) -> Self {
+        let first = first_hit(table, recording);
+        let of_first = |ball: usize| first.is_some_and(|hit| hit.ball == ball);
+        let events = recording.events().iter();
         let mut technique = Self {
             tally: Tally::default(),
-            first: None,
+            first,
             before: Vec::new(),
             between: Vec::new(),
-            sent: recording
-                .events()
-                .iter()
-                .filter_map(|event| event.kind.rail().filter(|_| event.kind.balls().0 == 1))
-                .collect(),
-            fullness: first_hit(table, &recording).map_or(0.0, |hit| hit.fullness),
+            sent: events.filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0))).collect(),
             turn: 0.0,
+            bend: 0.0,
+            roll: 0.0,
             english: 0.0,
             drives_second: false,
             is_clean: true,
             spread: spread(&recording.final_layout()),
         };
-        technique.follow(table, &recording);
-        Ok(technique)
+        technique.follow(table, recording);
+        technique
+    }
+
+    /// How much of the first ball is covered as the cue ball comes on: 1 is head-on, 0 a graze, or no ball.
+    pub fn fullness(&self) -> f64 {
+        self.first.map_or(0.0, |hit| hit.fullness)
+    }
+
+    /// All cushions before the second object ball, in order.
+    pub fn cushions(&self) -> impl Iterator<Item = &Cushion> {
+        self.before.iter().chain(&self.between)
     }
 
     /// Follows the cue ball up to the second object ball.
     fn follow(&mut self, table: &Table, recording: &Recording) {
-        let mut incoming = None;
+        let (mut first, mut incoming, mut has_touched) = (None, None, false);
         for event in recording.events() {
             self.tally.note(event);
             // At its own time an event has already changed the course.
@@ -81,20 +110,29 @@ impl Technique {
                 self.turn = before.velocity.angle_to(way).abs();
                 incoming = None;
             }
+            if !has_touched && matches!(event.kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _)) {
+                has_touched = true;
+                self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
+            }
             match event.kind {
                 EventKind::BallBall(1, 2) => self.drives_second = true,
-                EventKind::BallBall(0, ball) if self.first.is_none() => {
-                    self.first = Some(ball);
+                EventKind::BallBall(0, ball) if first.is_none() => {
+                    first = Some(ball);
                     incoming = Some(before.velocity);
+                    let ahead = before.velocity.normalize_or_zero();
+                    self.roll = table.radius * before.spin.truncate().dot(ahead.perp()) / before.velocity.length();
                 }
-                EventKind::BallBall(0, ball) if self.first == Some(ball) => self.is_clean = false,
+                EventKind::BallBall(0, ball) if first == Some(ball) => self.is_clean = false,
                 EventKind::BallRail(0, rail) => {
+                    let along = before.velocity.dot(rail.normal().perp().abs());
                     if self.before.is_empty() && self.between.is_empty() {
                         // A ball that rolls along the cushion as on a track has an english of 1.
-                        let along = before.velocity.dot(rail.normal().perp());
-                        self.english = table.radius * before.spin.z * along.signum() / before.velocity.length();
+                        let turning = before.velocity.dot(rail.normal().perp()).signum();
+                        self.english = table.radius * before.spin.z * turning / before.velocity.length();
                     }
-                    if self.first.is_none() { &mut self.before } else { &mut self.between }.push(rail);
+                    let Mark { diamond, .. } = Mark::on(table, rail, before.position);
+                    let cushion = Cushion { rail, diamond, along };
+                    if first.is_none() { &mut self.before } else { &mut self.between }.push(cushion);
                 }
                 _ => {}
             }
@@ -127,7 +165,8 @@ mod tests {
         let bank = |a: &str| technique("-1,-0.5 1.3,-0.5 1.3,0.5", &format!("{a},0,0,45,3"));
         let (running, reverse) = (bank("-0.3"), bank("0.3"));
         assert!(running.english > 0.3 && reverse.english < -0.3, "{} {}", running.english, reverse.english);
-        assert_eq!(running.before.first(), Some(&Rail::Top));
+        assert_eq!(running.before.first().map(|cushion| cushion.rail), Some(Rail::Top));
+        assert!(running.before[0].along > 0.0 && running.bend < 0.01);
         assert_eq!(running.first, None);
     }
 
@@ -136,6 +175,19 @@ mod tests {
         let drawn = technique("-0.3,0 0,0 -1,0.3", "0,-0.4,2,0.3,3");
         let followed = technique("-0.3,0 0,0 -1,0.3", "0,0.4,2,0.3,3");
         assert!(drawn.turn > 2.5 && followed.turn < 0.6, "{} {}", drawn.turn, followed.turn);
-        assert!(drawn.fullness > 0.9);
+        assert!(drawn.fullness() > 0.9 && drawn.roll < -0.5 && followed.roll > 0.5, "{drawn:?} {followed:?}");
+    }
+
+    #[test]
+    fn the_first_ball_may_be_the_red_one() {
+        let red = technique("-0.3,0 -1,0.3 0,0", "0,0.4,2,0.3,3");
+        assert!(red.first.is_some_and(|hit| hit.ball == 2));
+        assert!(red.sent.contains(&Rail::Right), "{red:?}");
+    }
+
+    #[test]
+    fn a_cue_that_is_raised_high_bends_the_way() {
+        let bent = technique("-0.3,-0.3 0.5,0.5 1,0.3", "0.3,-0.2,60,0,3");
+        assert!(bent.bend > 0.2, "{}", bent.bend);
     }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_3;
 
-use super::{PATTERNS, Technique};
+use super::{Category, Exercise, ExerciseError};
 use crate::{
-    drills::{Category, Exercise, ExerciseError},
+    coach::{PATTERNS, Pattern, Technique},
     game::{Point, scores},
     physics::{CueInputs, has_room},
 };
@@ -31,9 +31,9 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let mut checks = vec![
         ("the cue has room for it", has_room(&table, layout, &cue)),
         ("it makes the point by its rule", Point::of(exercise.rule, &table, layout).is_made(&technique.tally)),
-        ("it meets yellow first", technique.first == Some(1)),
+        ("it meets yellow first", technique.first.is_some_and(|hit| hit.ball == 1)),
         ("it meets yellow only once before red", technique.is_clean),
-        ("it covers at least a twentieth of yellow", technique.fullness >= 0.05),
+        ("it covers at least a twentieth of yellow", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];
     checks.extend(match exercise.category {
@@ -49,7 +49,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ],
         Category::Follow => vec![
             ("the tip is more than 0.2 R above the centre", cue.b > 0.2),
-            ("yellow is hit at least seven tenths full", technique.fullness >= 0.7),
+            ("yellow is hit at least seven tenths full", technique.fullness() >= 0.7),
             ("the cue ball turns by less than 40 degrees", technique.turn < 2.0 / 3.0 * FRAC_PI_3),
         ],
         Category::Side => vec![
@@ -63,11 +63,11 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             ("all balls are within 0.6 m after", technique.spread <= GATHERED),
         ],
         Category::ThreeCushion => {
-            let pattern = exercise.tags.first().and_then(|tag| PATTERNS.iter().find(|pattern| pattern.tag == tag));
+            let tag = exercise.tags.first().map_or("", String::as_str);
             vec![
                 ("the rule is three-cushion", exercise.rule.cushions() == 3),
-                ("the first tag names a pattern", pattern.is_some()),
-                ("the course is the pattern's", pattern.is_some_and(|pattern| (pattern.is_it)(&technique))),
+                ("the first tag names a pattern", PATTERNS.iter().any(|pattern| pattern.tag == tag)),
+                ("the course is the pattern's", Pattern::of(&technique).is_some_and(|pattern| pattern.tag == tag)),
                 ("between the balls there are no more than five cushions", technique.between.len() <= 5),
             ]
         }

@@ -1,0 +1,257 @@
+//! What came of a stroke in a player's words: the point, or what was missing.
+
+use glam::DVec2;
+
+use super::words::{LengthUnit, number_word};
+use crate::{
+    game::{Point, Rule, Tally},
+    simulation::{EventKind, Recording},
+    table::{BALLS, CueBall, Layout, Table},
+};
+
+/// Time between two looks at the balls for how near they come, s: a fast ball runs 2 cm in it.
+const LOOK: f64 = 0.005;
+
+/// A cue ball slower than this has stopped, m/s.
+const STOPPED: f64 = 0.05;
+
+/// How the cue ball missed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Passed {
+    /// On the ball's left, as the cue ball came on.
+    Left,
+    /// On its right.
+    Right,
+    /// It stopped before the ball.
+    Short,
+}
+
+/// The nearest that the cue ball came to the ball that it missed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Miss {
+    /// The ball, 1 or 2.
+    pub ball: usize,
+    /// The gap between the two balls then, m.
+    pub gap: f64,
+    /// How it was missed.
+    pub passed: Passed,
+}
+
+/// What came of a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// What was asked.
+    pub point: Point,
+    /// What the cue ball did.
+    pub tally: Tally,
+    /// How a ball was missed, where the cue ball came by with cushions enough.
+    pub miss: Option<Miss>,
+}
+
+impl Verdict {
+    /// Of a recorded shot.
+    pub fn of(rule: Rule, table: &Table, layout: &Layout, recording: &Recording) -> Self {
+        let mut tally = Tally::default();
+        recording.events().iter().for_each(|event| tally.note(event));
+        let miss = match tally.met {
+            [true, true] => None,
+            [true, false] => miss(table, recording, rule.cushions(), &[2]),
+            [false, true] => miss(table, recording, rule.cushions(), &[1]),
+            [false, false] => miss(table, recording, 0, &[1, 2]),
+        };
+        Self { point: Point::of(rule, table, layout), tally, miss }
+    }
+
+    /// Whether it made the point.
+    pub fn is_made(&self) -> bool {
+        self.point.is_made(&self.tally)
+    }
+
+    /// In words, for who plays with `cue_ball`: "Point: red, three cushions, yellow", or what was missing.
+    pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
+        match self.missing(cue_ball, unit) {
+            Some(missing) => format!("No point: {missing}"),
+            None => format!("Point: {}", self.way(cue_ball)),
+        }
+    }
+
+    /// Balls and cushions up to the second ball.
+    fn way(&self, cue_ball: CueBall) -> String {
+        let (first, second) = self.order();
+        let Tally { cushions_before_first: before, cushions_before_second: all, .. } = self.tally;
+        let cushions = |count: u32| (count > 0).then(|| cushion_words(count));
+        let names = cue_ball.names();
+        let parts = [
+            cushions(before),
+            Some(names[first].to_owned()),
+            cushions(all.saturating_sub(before)),
+            Some(names[second].to_owned()),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// The object balls as they were met.
+    const fn order(&self) -> (usize, usize) {
+        if self.tally.red_first { (2, 1) } else { (1, 2) }
+    }
+
+    /// What it lacks where it makes no point.
+    fn missing(&self, cue_ball: CueBall, unit: LengthUnit) -> Option<String> {
+        let (tally, names, wanted) = (&self.tally, cue_ball.names(), self.point.rule.cushions());
+        let passed = |miss: Miss| {
+            let (ball, gap) = (names[miss.ball], unit.words(miss.gap));
+            match miss.passed {
+                Passed::Left => format!("passed {ball} by {gap} on the left"),
+                Passed::Right => format!("passed {ball} by {gap} on the right"),
+                Passed::Short => format!("stopped {gap} short of {ball}"),
+            }
+        };
+        let (first, second) = self.order();
+        Some(match (tally.met_any(), tally.met_both()) {
+            (false, _) => match self.miss {
+                Some(miss) => format!("no ball was met, {}", passed(miss)),
+                None => "no ball was met".to_owned(),
+            },
+            (true, false) => self.miss.map_or_else(|| self.second_missed(names), passed),
+            _ if tally.cushions_before_second < wanted => {
+                let made = cushion_words(tally.cushions_before_second);
+                format!("{made} before {}, {} needed", names[second], number_word(wanted))
+            }
+            _ if !self.is_made() => format!("{} was met first, a game opens with {}", names[first], names[second]),
+            _ => return None,
+        })
+    }
+
+    /// Which ball was not met, and whether there were cushions enough.
+    fn second_missed(&self, names: [&str; BALLS]) -> String {
+        let (tally, wanted) = (&self.tally, self.point.rule.cushions());
+        let [met, missed] = if tally.met[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
+        let said = format!("{met} was met, {missed} was not");
+        if tally.cushions < wanted {
+            format!("{said}; {}, {} needed", cushion_words(tally.cushions), number_word(wanted))
+        } else {
+            said
+        }
+    }
+}
+
+/// A number of cushions in words.
+pub fn cushion_words(count: u32) -> String {
+    let unit = if count == 1 { "cushion" } else { "cushions" };
+    format!("{} {unit}", number_word(count))
+}
+
+/// The nearest that the cue ball comes to one of these balls once it has met so many cushions.
+fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) -> Option<Miss> {
+    let rails = recording.events().iter().filter(|event| matches!(event.kind, EventKind::BallRail(0, _)));
+    let start = match cushions.checked_sub(1) {
+        None => 0.0,
+        Some(before) => rails.map(|event| event.time).nth(before as usize)?,
+    };
+    let gap = |ball: usize, time: f64| {
+        let places = recording.positions(time);
+        places[0].distance(places[ball]) - 2.0 * table.radius
+    };
+    let looks = ((recording.duration() - start) / LOOK).ceil() as usize;
+    let times = (0..=looks).map(|look| (start + LOOK * look as f64).min(recording.duration()));
+    let all = times.flat_map(|time| balls.iter().map(move |ball| (*ball, time)));
+    let (ball, near) = all.min_by(|one, other| gap(one.0, one.1).total_cmp(&gap(other.0, other.1)))?;
+    // Between two looks the gap has one least value.
+    let (mut from, mut to) = ((near - LOOK).max(start), (near + LOOK).min(recording.duration()));
+    for _ in 0..30 {
+        let third = (to - from) / 3.0;
+        if gap(ball, from + third) < gap(ball, to - third) { to -= third } else { from += third }
+    }
+    let time = 0.5 * (from + to);
+    // A ball that the cue ball only leaves behind was not missed.
+    if time < LOOK && cushions == 0 {
+        return None;
+    }
+    let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time));
+    let towards: DVec2 = other.position - cue_ball.position;
+    let passed = match cue_ball.velocity.perp_dot(towards) {
+        _ if cue_ball.velocity.length() < STOPPED => Passed::Short,
+        side if side > 0.0 => Passed::Right,
+        _ => Passed::Left,
+    };
+    Some(Miss { ball, gap: gap(ball, time).max(0.0), passed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::CueInputs;
+
+    fn told(point: Point, tally: Tally, cue_ball: CueBall) -> String {
+        Verdict { point, tally, miss: None }.words(cue_ball, LengthUnit::Metres)
+    }
+
+    #[test]
+    fn a_point_is_told_in_the_order_of_balls_and_cushions() {
+        let tally = |before, all| Tally {
+            met: [true; 2],
+            red_first: true,
+            cushions: all,
+            cushions_before_first: before,
+            cushions_before_second: all,
+        };
+        let three = Point::from(Rule::ThreeCushion);
+        assert_eq!(told(three, tally(0, 3), CueBall::White), "Point: red, three cushions, yellow");
+        assert_eq!(told(three, tally(1, 5), CueBall::Yellow), "Point: one cushion, red, four cushions, white");
+        assert_eq!(told(Rule::StraightRail.into(), tally(0, 0), CueBall::White), "Point: red, yellow");
+    }
+
+    #[test]
+    fn a_miss_says_what_was_missing() {
+        let said = |met, cushions_before_second, rule: Rule| {
+            let tally = Tally { met, cushions: 2, cushions_before_second, ..Tally::default() };
+            told(rule.into(), tally, CueBall::White)
+        };
+        assert_eq!(said([false, false], 0, Rule::StraightRail), "No point: no ball was met");
+        assert_eq!(said([false, true], 0, Rule::OneCushion), "No point: red was met, yellow was not");
+        let few = said([true, false], 0, Rule::ThreeCushion);
+        assert_eq!(few, "No point: yellow was met, red was not; two cushions, three needed");
+        let short = said([true, true], 2, Rule::ThreeCushion);
+        assert_eq!(short, "No point: two cushions before red, three needed");
+        let opening = Point { rule: Rule::ThreeCushion, red_first: true };
+        let off_red = Tally { met: [true; 2], red_first: true, cushions_before_second: 3, ..Tally::default() };
+        assert_eq!(told(opening, off_red, CueBall::White), "Point: red, three cushions, yellow");
+        let wrong = told(opening, Tally { red_first: false, ..off_red }, CueBall::White);
+        assert_eq!(wrong, "No point: yellow was met first, a game opens with red");
+        let one = Tally { met: [true, false], ..Tally::default() };
+        assert_eq!(told(Rule::StraightRail.into(), one, CueBall::Yellow), "No point: white was met, red was not");
+    }
+
+    fn verdict(layout: &str, cue: &str, rule: Rule) -> Verdict {
+        let table = Table::default();
+        let layout = Layout::parse(layout, &table).unwrap();
+        let recording = Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap();
+        Verdict::of(rule, &table, &layout, &recording)
+    }
+
+    #[test]
+    fn how_near_and_on_which_side_a_ball_was_passed_is_as_the_player_sees_it() {
+        // Straight along the middle to the right: yellow 10 cm to the left of the way, red far behind.
+        let Verdict { miss, .. } = verdict("-1,0 0,0.1 -1.3,-0.6", "0,0,0,0,2", Rule::StraightRail);
+        let Miss { ball, gap, passed } = miss.unwrap();
+        assert_eq!((ball, passed), (1, Passed::Right), "the cue ball goes by on the right of yellow");
+        assert!((gap - (0.1 - 2.0 * Table::default().radius)).abs() < 1e-4, "{gap}");
+        let mirrored = verdict("-1,0 0,-0.1 -1.3,0.6", "0,0,0,0,2", Rule::StraightRail);
+        let said = mirrored.words(CueBall::White, LengthUnit::Metres);
+        assert_eq!(said, "No point: no ball was met, passed yellow by 3.9 cm on the left");
+    }
+
+    #[test]
+    fn a_ball_that_comes_to_rest_before_the_other_stopped_short() {
+        let Verdict { miss, .. } = verdict("-1,0 1.2,0 1.2,0.5", "0,0,0,0,0.4", Rule::StraightRail);
+        assert_eq!(miss.map(|miss| miss.passed), Some(Passed::Short));
+    }
+
+    #[test]
+    fn what_passes_before_the_cushions_that_are_needed_is_no_near_miss() {
+        // Yellow full, and red 10 cm beside the way.
+        let shot = |rule| verdict("-1,0 0,0 0.4,0.1", "0,0.3,0,0,1", rule);
+        assert!(shot(Rule::StraightRail).miss.is_some_and(|miss| miss.ball == 2));
+        assert_eq!(shot(Rule::ThreeCushion).miss, None);
+    }
+}

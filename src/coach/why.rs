@@ -1,0 +1,300 @@
+//! Why a shot leads: its margin, the kiss that lies in wait, what it leaves, and how the next best differs.
+
+use std::{ops::ControlFlow, sync::atomic::AtomicBool, time::Duration};
+
+use glam::DVec2;
+use serde::Serialize;
+
+use super::{
+    Input, Pattern, Recommendation, Shooter, Technique, Units,
+    clock::Clock,
+    draws::{Draws, Worlds},
+    margin,
+    trial::{CONTACT_STEPS, Task},
+    words::{self, PlaceUnit, short, table_lengths},
+};
+use crate::{
+    game::{Rule, Tally},
+    physics::{CueInputs, strike},
+    simulation::{Event, EventKind, Observer, Recording, ShotError, StepBudget, watch},
+    table::{CueBall, Layout, Table},
+};
+
+/// Attempts among which kisses are counted.
+const ATTEMPTS: usize = 200;
+
+/// Share of the attempts from which on a kiss is named.
+const NAMED: f64 = 0.02;
+
+/// Two balls that meet again within this time have met once, s: a ball that follows another through runs on to it.
+const SAME: f64 = 0.1;
+
+/// Differences of fullness and of table lengths that are told.
+const FULLER: f64 = 0.06;
+const HARDER: f64 = 0.3;
+
+/// Two balls that meet where they should not.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Kiss {
+    /// Share of the player's attempts that it spoils.
+    pub share: f64,
+    /// The balls.
+    pub balls: [usize; 2],
+    /// Where they meet, m, in the first such attempt.
+    pub place: DVec2,
+}
+
+/// How the next best shot differs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// What it is called.
+    pub pattern: Option<&'static str>,
+    /// Its first ball, where that is another.
+    pub first_ball: Option<usize>,
+    /// How much more of the same first ball it hits; less is thinner.
+    pub fuller: f64,
+    /// How many table lengths harder it is; less is softer.
+    pub harder: f64,
+    /// How often it is made.
+    pub make_probability: Option<f64>,
+    /// By how much its direction may be off in all, degrees; `None` where there is no end to that.
+    pub aim_deg: Option<f64>,
+}
+
+/// Why a shot leads.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Why {
+    /// How often it is made.
+    pub make_probability: Option<f64>,
+    /// By how much its direction may be off in all, degrees; `None` where there is no end to that, or it makes no point.
+    pub aim_deg: Option<f64>,
+    /// The kiss that spoils most attempts.
+    pub kiss: Option<Kiss>,
+    /// Probability of the next point.
+    pub next_probability: Option<f64>,
+    /// The next best shot.
+    pub second: Option<Difference>,
+    /// A diamond, m, and the middle of the table from its lower left corner.
+    #[serde(skip)]
+    scale: (f64, DVec2),
+}
+
+/// Why the recommended shot leads. It takes some hundred simulations; the same seed draws the same attempts.
+///
+/// # Errors
+/// What is wrong with the layout or the stroke.
+pub fn why(
+    shooter: impl Into<Shooter>,
+    rule: Rule,
+    table: &Table,
+    layout: &Layout,
+    advice: &Recommendation,
+    seed: u64,
+) -> Result<Why, ShotError> {
+    let technique = Technique::of(table, layout, &advice.cue)?;
+    let second = advice.alternatives.first().map(|other| -> Result<Difference, ShotError> {
+        let its = Technique::of(table, layout, &other.cue)?;
+        let [ball, its_ball] = [&technique, &its].map(|technique| technique.first.map(|hit| hit.ball));
+        let lengths = |cue: &CueInputs| table_lengths(table, cue.speed).unwrap_or_default();
+        Ok(Difference {
+            pattern: Pattern::of(&its).map(|pattern| pattern.name),
+            first_ball: its_ball.filter(|_| its_ball != ball),
+            fuller: if its_ball == ball { its.fullness() - technique.fullness() } else { 0.0 },
+            harder: lengths(&other.cue) - lengths(&advice.cue),
+            make_probability: other.make_probability.map(|rate| rate.rate),
+            aim_deg: aim_width(rule, table, layout, &other.cue),
+        })
+    });
+    Ok(Why {
+        make_probability: advice.make_probability.map(|rate| rate.rate),
+        aim_deg: aim_width(rule, table, layout, &advice.cue),
+        kiss: kiss(shooter.into(), rule, table, layout, &advice.cue, seed),
+        next_probability: advice.next_probability,
+        second: second.transpose()?,
+        scale: (table.diamond(), 0.5 * DVec2::new(table.length, table.width)),
+    })
+}
+
+/// By how much the direction may be off to both sides together, degrees.
+fn aim_width(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<f64> {
+    let margin = margin(Input::Direction, rule, table, layout, cue)?;
+    Some(margin.less? + margin.more?)
+}
+
+/// The kiss that spoils most of the player's attempts; `None` where none spoils two of a hundred.
+fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs, seed: u64) -> Option<Kiss> {
+    if shooter.skill.is_perfect() {
+        return None;
+    }
+    let never = AtomicBool::new(false);
+    let clock = Clock::start(Duration::MAX, u64::MAX, &never);
+    let worlds = Worlds::new(table, layout, shooter.doubt);
+    let (skill, until) = (shooter.skill, clock.moment(1.0));
+    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: CONTACT_STEPS };
+    let meant = Contacts::of(table, layout, cue, f64::INFINITY);
+    if !task.point().is_made(&meant.tally) {
+        return None;
+    }
+    // What happens long after the meant shot is over spoils nothing.
+    let latest = 1.2 * meant.met.last().map_or(0.0, |contact| contact.0);
+    let mut found: Vec<([usize; 2], CueInputs, &Table, &Layout, f64)> = Vec::new();
+    let draws = Draws::independent(ATTEMPTS, &worlds, seed);
+    for draw in draws.iter() {
+        let (stroke, real, balls) = task.stroke(cue, draw);
+        if stroke.is_miscue(real) {
+            continue;
+        }
+        let seen = Contacts::of(real, balls, &stroke, latest);
+        if let Some((time, pair)) = seen.unexpected(&meant).filter(|_| !task.point().is_made(&seen.tally)) {
+            found.push((pair, stroke, real, balls, time));
+        }
+    }
+    let count = |pair: [usize; 2]| found.iter().filter(|kiss| kiss.0 == pair).count();
+    let (balls, stroke, real, layout, time) = found.iter().max_by_key(|kiss| count(kiss.0))?;
+    let share = count(*balls) as f64 / ATTEMPTS as f64;
+    if share < NAMED {
+        return None;
+    }
+    let places = Recording::new(real, layout, stroke).ok()?.positions(*time);
+    Some(Kiss { share, balls: *balls, place: 0.5 * (places[balls[0]] + places[balls[1]]) })
+}
+
+/// Notes which balls meet, until the cue ball has met both or it is too late.
+struct Contacts {
+    tally: Tally,
+    met: Vec<(f64, [usize; 2])>,
+    latest: f64,
+    patience: StepBudget,
+}
+
+impl Contacts {
+    fn of(table: &Table, layout: &Layout, cue: &CueInputs, latest: f64) -> Self {
+        let patience = StepBudget(CONTACT_STEPS);
+        let mut contacts = Self { tally: Tally::default(), met: Vec::new(), latest, patience };
+        watch(table, layout, &strike(table, cue), &mut contacts);
+        contacts
+    }
+
+    fn count(&self, pair: [usize; 2]) -> usize {
+        self.met.iter().filter(|contact| contact.1 == pair).count()
+    }
+
+    /// The first contact that the meant shot has not: of balls that meet more often than there.
+    fn unexpected(&self, meant: &Self) -> Option<(f64, [usize; 2])> {
+        let mut seen = Vec::new();
+        self.met.iter().copied().find(|(_, pair)| {
+            seen.push(*pair);
+            seen.iter().filter(|one| *one == pair).count() > meant.count(*pair)
+        })
+    }
+}
+
+impl Observer for Contacts {
+    const ENDS: bool = false;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        if event.time > self.latest {
+            return ControlFlow::Break(());
+        }
+        self.tally.note(&event);
+        if let EventKind::BallBall(one, other) = event.kind {
+            let pair = [one, other];
+            let last = self.met.iter().rev().find(|contact| contact.1 == pair);
+            if last.is_none_or(|last| event.time - last.0 > SAME) {
+                self.met.push((event.time, pair));
+            }
+        }
+        if self.tally.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.patience.step()
+    }
+}
+
+impl Why {
+    /// In one line, for who plays with `cue_ball`.
+    pub fn words(&self, cue_ball: CueBall, units: Units) -> String {
+        let names = cue_ball.names();
+        let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+        let degrees = |width: f64| format!("{}\u{b0}", short(width, 2));
+        let mut parts = Vec::new();
+        let second = self.second.as_ref();
+        let other = second.and_then(|second| second.make_probability);
+        parts.extend(
+            self.make_probability
+                .zip(other)
+                .map(|(rate, other)| format!("made {} of the time, the next shot {}", percent(rate), percent(other))),
+        );
+        parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
+            Some(other) => format!("its aim may be {} off in all, there {}", degrees(width), degrees(other)),
+            None => format!("its aim may be {} off in all", degrees(width)),
+        }));
+        parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
+            let (diamond, middle) = self.scale;
+            let at = (place + middle).to_array().map(|along| match units.place {
+                PlaceUnit::Diamonds => short(along / diamond, 1),
+                PlaceUnit::Mm => format!("{} mm", short(1e3 * along, 0)),
+            });
+            let [along, up] = at;
+            format!(
+                "{} and {} kiss in {} of the strokes, at {along} along and {up} up",
+                names[one],
+                names[other],
+                percent(share)
+            )
+        }));
+        parts.extend(self.next_probability.map(|next| format!("it leaves the next point at {}", percent(next))));
+        parts.extend(second.map(|second| second.words(names)));
+        if parts.is_empty() {
+            return "Nothing else makes the point.".to_owned();
+        }
+        words::capital(&format!("{}.", parts.join("; ")))
+    }
+}
+
+impl Difference {
+    fn words(&self, names: [&'static str; 3]) -> String {
+        let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
+        parts.extend(self.first_ball.map(|ball| format!("off {}", names[ball])));
+        parts
+            .extend((self.fuller.abs() > FULLER).then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()));
+        parts.extend((self.harder.abs() > HARDER).then(|| if self.harder > 0.0 { "harder" } else { "softer" }.into()));
+        format!("the next: {}", parts.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::{Coach, Request, Skill};
+
+    /// The break with natural english: red comes back from the far cushions through the way of the cue ball.
+    #[test]
+    fn a_kiss_that_the_errors_bring_is_named_with_its_balls_and_its_place() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();
+        let seen = |skill: Skill| kiss(skill.into(), Rule::ThreeCushion, &table, &layout, &cue, 1);
+        let found = seen(Skill::NATIONAL).unwrap();
+        assert_eq!(found.balls, [0, 2], "{found:?}");
+        assert!((0.02..0.4).contains(&found.share), "{found:?}");
+        assert!(found.place.abs().cmple(table.reach()).all(), "{found:?}");
+        assert_eq!(seen(Skill::PERFECT), None);
+    }
+
+    #[test]
+    fn the_reasons_are_facts_of_the_two_best_shots() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
+        let coach = Coach::without_policy(table.clone());
+        let request =
+            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_mins(1), ..Request::default() };
+        let advice = coach.recommend(&layout, &request).unwrap();
+        let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
+        assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
+        assert_eq!(why.second.is_some(), !advice.alternatives.is_empty());
+        let said = why.words(CueBall::White, Units::default());
+        assert!(said.ends_with('.') && said.contains(if why.second.is_some() { "the next" } else { "." }), "{said}");
+    }
+}

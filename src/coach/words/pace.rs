@@ -1,0 +1,70 @@
+//! How hard a stroke is, as players gauge it: by how many table lengths a ball runs that is struck so.
+//!
+//! The scale is the lag's. A lag, up the table and back, is two lengths and soft; players call a length more medium and one
+//! less very soft.
+
+use glam::DVec2;
+
+use crate::{
+    physics::CueInputs,
+    simulation::{EventKind, Rail, Recording},
+    table::{Layout, Table},
+};
+
+/// How many lengths of this table a ball runs, from cushion to cushion, that a level cue strikes in the middle at `speed`, m/s.
+/// A table that leans is taken as level. `None` where the table is too small for three balls, or the speed is none.
+pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
+    let level = Table { tilt: DVec2::ZERO, room: None, ..table.clone() };
+    let (corner, start) = (level.reach(), DVec2::new(-0.25 * level.length, 0.0));
+    let layout = Layout::new([start, corner, DVec2::new(corner.x, -corner.y)]);
+    let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed };
+    let recording = Recording::new(&level, &layout, &cue).ok()?;
+    let (mut way, mut last) = (0.0, start.x);
+    for event in recording.events() {
+        if let EventKind::BallRail(0, rail) = event.kind {
+            let place = if rail == Rail::Right { corner.x } else { -corner.x };
+            way += (place - last).abs();
+            last = place;
+        }
+    }
+    way += (recording.final_layout().balls[0].x - last).abs();
+    Some(way / (2.0 * corner.x))
+}
+
+/// What players call a stroke of so many table lengths.
+pub fn pace_word(lengths: f64) -> &'static str {
+    match lengths {
+        _ if lengths < 1.5 => "very soft",
+        _ if lengths < 2.5 => "soft",
+        _ if lengths < 3.5 => "medium",
+        _ if lengths < 4.5 => "hard",
+        _ => "very hard",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_harder_stroke_runs_further_on_every_table() {
+        for name in crate::table::PRESETS {
+            let table = Table::preset(name).unwrap();
+            let lengths: Vec<f64> =
+                (1..=24).map(|step| table_lengths(&table, 0.25 * f64::from(step)).unwrap()).collect();
+            assert!(lengths.is_sorted_by(|one, other| one < other), "{name}: {lengths:?}");
+            assert!(lengths[0] > 0.0 && lengths[23] > 1.7, "{name}: {lengths:?}");
+        }
+        assert_eq!(table_lengths(&Table::default(), 0.0), None);
+    }
+
+    #[test]
+    fn a_ball_that_stops_before_the_cushion_has_run_as_far_as_it_lies_away() {
+        let table = Table { rolling_friction: 0.2, ..Table::default() };
+        let lengths = table_lengths(&table, 0.5).unwrap();
+        let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 0.5 };
+        let layout = Layout::parse("-0.71,0 1,0.5 1,-0.5", &table).unwrap();
+        let end = Recording::new(&table, &layout, &cue).unwrap().final_layout().balls[0];
+        assert!((lengths - (end.x + 0.71) / (table.length - 2.0 * table.radius)).abs() < 1e-9 && end.x < 1.0);
+    }
+}

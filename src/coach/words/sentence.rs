@@ -1,0 +1,138 @@
+//! The sentences: how to strike, which way the cue ball goes, and where to aim.
+
+use super::{English, PlaceUnit, ShotWords, TIP, TipUnit, Units, numbers, pace_word, short};
+use crate::{
+    coach::{Cushion, Mark},
+    simulation::Rail,
+    table::CueBall,
+};
+
+impl ShotWords {
+    /// How to strike, in one sentence, for who plays with `cue_ball`.
+    pub fn sentence(&self, cue_ball: CueBall, units: Units) -> String {
+        let text =
+            format!("{}; {}; {}.", self.first_words(cue_ball, units), self.tip_words(units), self.stroke_words());
+        capital(&text)
+    }
+
+    /// Which way the cue ball goes: balls, and cushions with where each is met.
+    pub fn course(&self, cue_ball: CueBall, units: Units) -> String {
+        let names = cue_ball.names();
+        let cushions = |cushions: &[Cushion]| -> Vec<String> {
+            let one =
+                |cushion: &Cushion| format!("{} {}", length_word(cushion.rail), self.place(cushion.diamond, units, 1));
+            cushions.iter().map(one).collect()
+        };
+        let mut stops = cushions(&self.before);
+        stops.extend(self.first.map(|hit| names[hit.ball].to_owned()));
+        stops.extend(cushions(&self.between));
+        stops.extend(self.second.map(|ball| names[ball].to_owned()));
+        capital(&format!("{}.", stops.join(" \u{2013} ")))
+    }
+
+    /// The line along which the cue points, from cushion to cushion, on the noses.
+    pub fn aim(&self, units: Units) -> String {
+        let mark = |mark: Mark| format!("{} on the {}", self.place(mark.diamond, units, 2), rail_words(mark.rail));
+        format!("Cue from {} to {}.", mark(self.behind), mark(self.ahead))
+    }
+
+    /// Which ball, and how full; or which cushion comes first.
+    fn first_words(&self, cue_ball: CueBall, units: Units) -> String {
+        let ball = self.first.map(|hit| {
+            let (full, is_middle) = numbers::fullness_words(hit.fullness);
+            let side = match (is_middle, hit.left) {
+                (true, _) => "",
+                (false, true) => " on the left",
+                (false, false) => " on the right",
+            };
+            format!("{}, {full}{side}", cue_ball.names()[hit.ball])
+        });
+        let cushion =
+            self.before.first().or(self.between.first().filter(|_| ball.is_none())).map(|cushion| {
+                format!("{} first at {}", rail_words(cushion.rail), self.place(cushion.diamond, units, 1))
+            });
+        match (cushion, ball) {
+            (Some(cushion), Some(ball)) => format!("{cushion}, then {ball}"),
+            (Some(cushion), None) => format!("{cushion}, no ball"),
+            (None, Some(ball)) => ball,
+            (None, None) => "no ball".to_owned(),
+        }
+    }
+
+    /// Where the tip meets the ball.
+    fn tip_words(&self, units: Units) -> String {
+        let half_tips = |tips: f64| (2.0 * tips.abs()).round() as u32;
+        let [side, height] = match units.tip {
+            TipUnit::Tips => [self.tips_right, self.tips_above]
+                .map(|tips| (half_tips(tips) > 0).then(|| numbers::tips_words(half_tips(tips)))),
+            TipUnit::Mm => [self.tips_right, self.tips_above].map(|tips| {
+                let text = short(1e3 * self.radius * TIP * tips.abs(), 1);
+                (text != "0").then(|| format!("{text} mm"))
+            }),
+        };
+        let running = match self.english {
+            Some(English::Running) => "running ",
+            Some(English::Reverse) => "reverse ",
+            None => "",
+        };
+        let way = if self.tips_right > 0.0 { "right" } else { "left" };
+        let side = side.map(|side| format!("{side} of {running}{way}"));
+        let above = if self.tips_above > 0.0 { "above" } else { "below" };
+        let height = height.map(|height| match height.as_str() {
+            "half a tip" => format!("a little {above} centre"),
+            _ => format!("{height} {above} centre"),
+        });
+        let clock = self.clock.map(numbers::clock_words).unwrap_or_default();
+        match (side, height) {
+            (None, None) => "centre ball".to_owned(),
+            (None, Some(height)) => format!("no side, {height}"),
+            (Some(side), height) => {
+                format!("{side} at {clock}, {}", height.unwrap_or_else(|| "centre height".to_owned()))
+            }
+        }
+    }
+
+    /// How hard, and how the cue is held.
+    fn stroke_words(&self) -> String {
+        let cue = match self.elevation_deg.round() {
+            _ if self.elevation_deg < 0.5 => "level cue".to_owned(),
+            _ if self.is_level => "cue as level as it can be".to_owned(),
+            degrees => format!("cue raised {degrees}\u{b0}"),
+        };
+        let lengths = short(self.table_lengths, 1);
+        let unit = if lengths == "1" { "length" } else { "lengths" };
+        format!("{} ({lengths} table {unit}), {cue}", pace_word(self.table_lengths))
+    }
+
+    /// A place along a cushion.
+    fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
+        match units.place {
+            PlaceUnit::Diamonds => short(diamonds, decimals),
+            PlaceUnit::Mm => format!("{} mm", short(1e3 * self.diamond * diamonds, 0)),
+        }
+    }
+}
+
+/// Whether a cushion is a long or a short one.
+const fn length_word(rail: Rail) -> &'static str {
+    match rail {
+        Rail::Top | Rail::Bottom => "long",
+        Rail::Left | Rail::Right => "short",
+    }
+}
+
+/// A cushion by where it lies on the screen.
+const fn rail_words(rail: Rail) -> &'static str {
+    match rail {
+        Rail::Top => "top long rail",
+        Rail::Bottom => "bottom long rail",
+        Rail::Left => "left short rail",
+        Rail::Right => "right short rail",
+    }
+}
+
+/// The text with a capital letter.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

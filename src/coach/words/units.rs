@@ -1,0 +1,94 @@
+//! The units in which a player is told lengths.
+
+use serde::{Deserialize, Serialize};
+
+/// How far the tip is from the centre of the ball.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TipUnit {
+    /// Tips of [`super::TIP`] radii.
+    #[default]
+    Tips,
+    /// Millimetres.
+    Mm,
+}
+
+/// Places along the cushions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PlaceUnit {
+    /// Diamonds, an eighth of the table's length each.
+    #[default]
+    Diamonds,
+    /// Millimetres.
+    Mm,
+}
+
+/// Distances on the table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LengthUnit {
+    /// Metres and centimetres.
+    #[default]
+    Metres,
+    /// Feet and inches.
+    Feet,
+}
+
+/// The units in which a player is told lengths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Units {
+    /// Of the tip's place.
+    pub tip: TipUnit,
+    /// Of places along the cushions.
+    pub place: PlaceUnit,
+    /// Of distances.
+    pub length: LengthUnit,
+}
+
+impl TipUnit {
+    /// Both, by name.
+    pub const NAMED: [(&'static str, Self); 2] = [("tips", Self::Tips), ("mm", Self::Mm)];
+}
+
+impl PlaceUnit {
+    /// Both, by name.
+    pub const NAMED: [(&'static str, Self); 2] = [("diamonds", Self::Diamonds), ("mm", Self::Mm)];
+}
+
+impl LengthUnit {
+    /// Both, by name.
+    pub const NAMED: [(&'static str, Self); 2] = [("metres", Self::Metres), ("feet", Self::Feet)];
+
+    /// A distance of so many metres, in the smaller of the two units where that is below a hundred centimetres or 24 inches.
+    pub fn words(self, metres: f64) -> String {
+        const INCH: f64 = 0.0254;
+        match self {
+            Self::Metres if metres < 0.095 => format!("{} cm", short(100.0 * metres, 1)),
+            Self::Metres if metres < 0.995 => format!("{:.0} cm", 100.0 * metres),
+            Self::Metres => format!("{} m", short(metres, 1)),
+            Self::Feet if metres < 24.0 * INCH => format!("{} in", short(metres / INCH, 1)),
+            Self::Feet => format!("{} ft", short(metres / INCH / 12.0, 1)),
+        }
+    }
+}
+
+/// A number with so many decimals, without noughts at its end.
+pub fn short(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_told_in_the_unit_that_fits_them() {
+        let told = |unit: LengthUnit| [0.004, 0.03, 0.31, 1.26].map(|metres| unit.words(metres));
+        assert_eq!(told(LengthUnit::Metres), ["0.4 cm", "3 cm", "31 cm", "1.3 m"]);
+        assert_eq!(told(LengthUnit::Feet), ["0.2 in", "1.2 in", "12.2 in", "4.1 ft"]);
+        assert_eq!([short(-0.01, 1), short(30.0, 0), short(3.10, 2)], ["0", "30", "3.1"]);
+    }
+}

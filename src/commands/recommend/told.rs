@@ -1,0 +1,104 @@
+//! A recommendation in a player's words.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use crate::{
+    coach::{Pattern, Recommendation, Shooter, ShotWords, Technique, Units, Why, why},
+    game::Rule,
+    physics::CueInputs,
+    simulation::ShotError,
+    table::{CueBall, Layout, Table},
+};
+
+/// A shot in words: three sentences, and the numbers that they tell.
+#[derive(Serialize)]
+pub struct Words {
+    sentence: String,
+    course: String,
+    aim: String,
+    #[serde(flatten)]
+    numbers: ShotWords,
+}
+
+/// Why it leads: a sentence, and the facts.
+#[derive(Serialize)]
+pub struct Reasons {
+    sentence: String,
+    #[serde(flatten)]
+    facts: Why,
+}
+
+/// What is said of a shot.
+#[derive(Serialize)]
+pub struct Told {
+    /// Absent where no ball is met.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pattern: Option<&'static str>,
+    words: Words,
+    #[serde(skip)]
+    course: Option<&'static str>,
+}
+
+impl Told {
+    /// Of one shot.
+    pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
+        let technique = Technique::of(table, layout, cue)?;
+        let pattern = Pattern::of(&technique);
+        let numbers = ShotWords::of_technique(table, layout, cue, &technique);
+        Ok(Self {
+            pattern: pattern.map(|pattern| pattern.name),
+            words: Words::of(numbers, Units::default()),
+            course: pattern.map(|pattern| pattern.course),
+        })
+    }
+
+    /// The same for people to read.
+    pub fn describe(&self, out: &mut impl Write, units: Units) -> io::Result<()> {
+        let numbers = &self.words.numbers;
+        writeln!(out, "{}", numbers.sentence(CueBall::White, units))?;
+        writeln!(out, "{}", numbers.course(CueBall::White, units))?;
+        writeln!(out, "{}", numbers.aim(units))?;
+        match (self.pattern, self.course) {
+            (Some(pattern), Some(course)) => writeln!(out, "Pattern: {pattern} ({course})."),
+            _ => Ok(()),
+        }
+    }
+
+    /// Its name alone.
+    pub const fn pattern(&self) -> Option<&'static str> {
+        self.pattern
+    }
+}
+
+impl Words {
+    fn of(numbers: ShotWords, units: Units) -> Self {
+        Self {
+            sentence: numbers.sentence(CueBall::White, units),
+            course: numbers.course(CueBall::White, units),
+            aim: numbers.aim(units),
+            numbers,
+        }
+    }
+}
+
+impl Reasons {
+    /// Of a recommendation that makes the point.
+    pub fn of(
+        shooter: Shooter,
+        rule: Rule,
+        table: &Table,
+        layout: &Layout,
+        advice: &Recommendation,
+        seed: u64,
+    ) -> Result<Self, ShotError> {
+        let facts = why(shooter, rule, table, layout, advice, seed)?;
+        Ok(Self { sentence: facts.words(CueBall::White, Units::default()), facts })
+    }
+
+    /// The same for people to read.
+    pub fn describe(&self, out: &mut impl Write, units: Units) -> io::Result<()> {
+        writeln!(out, "Why: {}", self.facts.words(CueBall::White, units))
+    }
+}
