@@ -1,10 +1,11 @@
 //! Which system describes a shot, and what it says on the player's table.
 
+use glam::DVec2;
 use serde::Serialize;
 
 use super::{
     leg::Leg,
-    lines::{Line, Mirror},
+    lines::{Line, Mirror, behind_at, metres},
     shift::Shift,
     system::{Numbers, System},
 };
@@ -15,6 +16,8 @@ const RUNNING: f64 = 0.15;
 /// How far from the system's aim on the first cushion a shot's may be that it still describes, diamonds. Tables differ by
 /// half a diamond from each other.
 const NEAR: f64 = 1.0;
+/// How far along the line of the example its ball lies.
+const EXAMPLE: f64 = 0.25;
 /// Lines that are tried on the first cushion.
 const TRIED: u32 = 48;
 /// Halvings of the distance between two of them: to a thousandth of a diamond and further.
@@ -74,15 +77,19 @@ impl Applied {
         }
         let place = |index: usize| mirror.place(leg.hits[index].1);
         let arrival = system.arrival(table, place(1), place(2))?;
+        let applied = Self::counted(system, table, mirror, mirror.place(leg.from), arrival)?;
+        let shot = Line::between(applied.line.from, place(0));
+        let (counted, played) = (system.first_along(&applied.line)?, system.first_along(&shot)?);
+        let shot_first = system.numbers(&shot).map(|numbers| numbers.first);
+        ((counted - played).abs() <= NEAR).then_some(Self { shot_first, ..applied })
+    }
+
+    /// What `system` says of a ball whose middle is at `from` and that is to arrive at `arrival` on the third cushion, both in
+    /// diamonds and as the system is taught; `None` where it has no line for it.
+    fn counted(system: System, table: &Table, mirror: Mirror, from: DVec2, arrival: f64) -> Option<Self> {
         let wanted = system.third_number(arrival)?;
-        let from = mirror.place(leg.from);
         let aimed = |along: f64| Line::between(from, system.first_at(along));
         let line = solve(system, |along| Some(system.numbers(&aimed(along))?.third - wanted)).map(aimed)?;
-        let shot = Line::between(from, place(0));
-        let (system_along, shot_along) = (system.first_along(&line)?, system.first_along(&shot)?);
-        if (system_along - shot_along).abs() > NEAR {
-            return None;
-        }
         let played = |line: &Line| system.played(table, mirror, line, &system.natural());
         let on_table = solve(system, |along| Some(played(&aimed(along))? - arrival)).map(aimed);
         Some(Self {
@@ -90,11 +97,30 @@ impl Applied {
             numbers: system.numbers(&line)?,
             table_first: on_table.and_then(|line| system.numbers(&line)).map(|numbers| numbers.first),
             table_third: played(&line).and_then(|along| system.third_number(along)),
-            shot_first: system.numbers(&shot).map(|numbers| numbers.first),
+            shot_first: None,
             mirror,
             line,
             arrival,
         })
+    }
+
+    /// The line that a system is taught with, on this table.
+    pub fn example(system: System, table: &Table) -> Option<Self> {
+        let line = system.example();
+        let from = line.from + EXAMPLE * line.way;
+        Self::counted(system, table, Mirror::default(), from, system.third_along(system.numbers(&line)?.third)?)
+    }
+
+    /// The way of a ball that runs as the system supposes on the system's line, as this table plays it, from the diamond behind
+    /// it to the third cushion: the middles of the ball at the cushions, m.
+    pub fn path(&self, table: &Table) -> Vec<DVec2> {
+        let Self { system, mirror, line, .. } = self;
+        let turned = |place: DVec2| metres(table, mirror.place(place));
+        let line_on_table = Line::between(mirror.place(line.from), mirror.place(line.from + line.way));
+        let hits = system.natural().run(table, &line_on_table, mirror.rail(system.rails()[0]));
+        let behind = line.behind().map(|along| turned(behind_at(along)));
+        let hits = hits.into_iter().take(3).map(|(_, place)| metres(table, place));
+        behind.into_iter().chain([turned(line.from)]).chain(hits).collect()
     }
 }
 
@@ -130,5 +156,79 @@ const fn scale(system: System) -> f64 {
     match system {
         System::Corner5 => 10.0,
         System::Plus | System::Seven => 1.5,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{physics::CueInputs, table::Layout};
+
+    fn guided(layout: &str, cue: &str) -> Option<Guide> {
+        let table = Table::default();
+        let layout = Layout::parse(layout, &table).unwrap();
+        guide(&table, &Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap())
+    }
+
+    #[test]
+    fn every_example_is_counted_as_it_is_taught_and_corrected_by_what_the_table_plays() {
+        let table = Table::default();
+        for (system, numbers) in
+            [(System::Corner5, [50.0, 20.0, 30.0]), (System::Plus, [4.0, 3.0, 7.0]), (System::Seven, [4.0, 24.0, 6.0])]
+        {
+            let applied = Applied::example(system, &table).unwrap();
+            let Numbers { start, first, third } = applied.numbers;
+            assert!(
+                [start, first, third].iter().zip(numbers).all(|(one, other)| (one - other).abs() < 0.1),
+                "{applied:?}"
+            );
+            // Aimed at the table's own number the natural stroke does arrive there.
+            let on_table = Line::between(applied.line.from, system.first_at(first_along(system, &applied)));
+            let arrival = system.played(&table, applied.mirror, &on_table, &system.natural()).unwrap();
+            assert!((arrival - applied.arrival).abs() < 0.02, "{system}: {arrival} for {}", applied.arrival);
+            assert_eq!(applied.path(&table).len(), 5, "{system}");
+        }
+    }
+
+    /// Where the line leads that has the table's first number.
+    fn first_along(system: System, applied: &Applied) -> f64 {
+        let aimed = |along: f64| Line::between(applied.line.from, system.first_at(along));
+        let first = applied.table_first.unwrap();
+        solve(system, |along| Some(system.numbers(&aimed(along))?.first - first)).unwrap()
+    }
+
+    #[test]
+    fn a_bank_with_running_side_is_counted_by_corner_5_whichever_way_it_runs() {
+        // From the lower right corner to the upper long cushion, and its three mirror images.
+        let mut told = Vec::new();
+        for (layout, cue) in [
+            ("6d,1d 7d,3.5d 0.5d,0.5d", "-0.4,0.3,0,133,4"),
+            ("2d,1d 1d,3.5d 7.5d,0.5d", "0.4,0.3,0,47,4"),
+            ("6d,3d 7d,0.5d 0.5d,3.5d", "0.4,0.3,0,227,4"),
+            ("2d,3d 1d,0.5d 7.5d,3.5d", "-0.4,0.3,0,313,4"),
+        ] {
+            let Some(Guide::System(applied)) = guided(layout, cue) else {
+                panic!("{layout} {:?}", guided(layout, cue))
+            };
+            assert_eq!(applied.system, System::Corner5);
+            told.push(applied.to_string());
+        }
+        assert!(told[0].starts_with("Corner-5: ") && told.iter().all(|words| *words == told[0]), "{told:?}");
+    }
+
+    #[test]
+    fn without_running_side_or_three_cushions_no_system_is_named() {
+        assert_eq!(guided("6d,1d 7d,3.5d 0.5d,0.5d", "0,0,0,133,0.6"), None);
+        let reverse = guided("6d,1d 7d,3.5d 0.5d,0.5d", "0.4,0.3,0,133,4");
+        assert!(!matches!(reverse, Some(Guide::System(_))), "{reverse:?}");
+    }
+
+    #[test]
+    fn a_line_that_no_system_has_is_counted_from_the_line_beside_it() {
+        // Three times across: long, the other long, the first long.
+        let Some(Guide::Shift(shift)) = guided("2.3d,1d 7d,3.5d 0.5d,0.5d", "0,0.2,0,75,4") else { panic!() };
+        assert_eq!(shift.rails, [crate::simulation::Rail::Top; 2]);
+        assert!((shift.third - shift.table_third).abs() < 0.1 && shift.by.abs() <= 0.5, "{shift:?}");
+        assert!(shift.to_string().starts_with("Parallel shift: top 3 comes to top "), "{shift}");
     }
 }

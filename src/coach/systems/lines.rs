@@ -33,8 +33,12 @@ pub struct Mirror {
 
 impl Mirror {
     /// All four.
-    pub const ALL: [Self; 4] =
-        [Self { x: false, y: false }, Self { x: true, y: false }, Self { x: false, y: true }, Self { x: true, y: true }];
+    pub const ALL: [Self; 4] = [
+        Self { x: false, y: false },
+        Self { x: true, y: false },
+        Self { x: false, y: true },
+        Self { x: true, y: true },
+    ];
 
     /// A place in diamonds, turned over; twice is not at all.
     pub fn place(self, place: DVec2) -> DVec2 {

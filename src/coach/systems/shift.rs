@@ -10,10 +10,7 @@ use super::{
     lines::{BEHIND, Line, diamonds, metres},
     natural::hits,
 };
-use crate::{
-    simulation::Rail,
-    table::Table,
-};
+use crate::{simulation::Rail, table::Table};
 
 /// A line that leads to a diamond, and the shot's line beside it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -52,7 +49,15 @@ impl Shift {
             let by = aimed - diamond;
             let arrival = arrival(table, leg, -by)?;
             let third = arrival + turned * by;
-            Some(Self { name: "parallel-shift", rails: [first, leg.hits[2].0], diamond, arrival, by, third, table_third })
+            Some(Self {
+                name: "parallel-shift",
+                rails: [first, leg.hits[2].0],
+                diamond,
+                arrival,
+                by,
+                third,
+                table_third,
+            })
         })
     }
 }

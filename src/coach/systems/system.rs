@@ -147,9 +147,9 @@ impl System {
     /// table, found by `study::filmed`.
     pub const fn natural(self) -> Natural {
         match self {
-            Self::Corner5 => Natural { side: 0.5, roll: 0.9, speed: 3.0 },
-            Self::Plus => Natural { side: 0.5, roll: 0.9, speed: 3.0 },
-            Self::Seven => Natural { side: 0.0, roll: 0.9, speed: 3.0 },
+            Self::Corner5 => Natural { side: 0.99, roll: 1.27, speed: 3.0 },
+            Self::Plus => Natural { side: 0.66, roll: 1.06, speed: 4.5 },
+            Self::Seven => Natural { side: -0.13, roll: 1.48, speed: 2.7 },
         }
     }
 
@@ -260,6 +260,15 @@ impl System {
         // Past a corner the third cushion may be met before the second.
         let index = if hit(1)?.0 == third { 1 } else { 2 };
         self.arrival(table, hit(index - 1)?.1, hit(index)?.1)
+    }
+
+    /// The line with which it is taught.
+    pub fn example(self) -> Line {
+        match self {
+            Self::Corner5 => Line::between(behind_at(8.0 + BEHIND), self.first_at(2.0)),
+            Self::Plus => Line::between(behind_at(4.0), self.first_at(3.0)),
+            Self::Seven => Line::between(behind_at(6.0), self.first_at(2.4)),
+        }
     }
 
     /// The numbers that stand at the rails.
@@ -391,7 +400,10 @@ mod tests {
                         counted += 1;
                         assert!((numbers.start - start).abs() < 1e-9, "{system}");
                         // From 6 on Plus has other numbers on the first cushion.
-                        assert!(system == System::Plus && *start > 5.0 || (numbers.first - first).abs() < 1e-9, "{system}");
+                        assert!(
+                            system == System::Plus && *start > 5.0 || (numbers.first - first).abs() < 1e-9,
+                            "{system}"
+                        );
                     }
                 }
             }

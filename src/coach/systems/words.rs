@@ -59,7 +59,13 @@ impl Applied {
 
 impl fmt::Display for Applied {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}: {}, aim at {}", self.system, self.arithmetic(), number(self.system, self.numbers.first))?;
+        write!(
+            formatter,
+            "{}: {}, aim at {}",
+            self.system,
+            self.arithmetic(),
+            number(self.system, self.numbers.first)
+        )?;
         let correction = self.correction();
         if correction.is_empty() { Ok(()) } else { write!(formatter, "; {correction}") }
     }
@@ -75,7 +81,11 @@ impl fmt::Display for Shift {
             by.abs(),
             if *by < 0.0 { "before" } else { "beyond" },
         )?;
-        if tenth(*third) == tenth(*table_third) { Ok(()) } else { write!(formatter, ", on your table {table_third:.1}") }
+        if tenth(*third) == tenth(*table_third) {
+            Ok(())
+        } else {
+            write!(formatter, ", on your table {table_third:.1}")
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! `carom recommend`: a shot for a layout, or for a file of layouts.
 
 mod margins;
+mod system;
 
 use std::{
     io::{self, Write},
@@ -17,7 +18,7 @@ use super::{
     output::impulse_words,
 };
 use crate::{
-    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source},
+    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source, systems::Guide},
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
@@ -109,6 +110,9 @@ struct RecommendAnswer {
     /// Where they were asked for.
     #[serde(flatten)]
     margins: Option<Margins>,
+    /// What a player counts on the diamonds for it, where a system applies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    system: Option<Guide>,
 }
 
 #[derive(Serialize)]
@@ -192,6 +196,9 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Rec
     if args.margins {
         answer.margins = Margins::in_time(rule, coach.table(), layout, &answer.cue)?;
     }
+    if answer.solved == Some(true) {
+        answer.system = system::of(coach.table(), layout, &answer.cue);
+    }
     Ok(answer)
 }
 
@@ -214,6 +221,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
             elapsed_ms: 1e3 * start.elapsed().as_secs_f64(),
             alternatives: Vec::new(),
             margins: None,
+            system: None,
         });
     }
     let request = Request {
@@ -256,6 +264,7 @@ impl From<Recommendation> for RecommendAnswer {
             elapsed_ms: 1e3 * advice.elapsed.as_secs_f64(),
             alternatives: alternatives.collect(),
             margins: None,
+            system: None,
         }
     }
 }
@@ -278,6 +287,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
         None => writeln!(out, "the networks' own shot, not simulated")?,
+    }
+    if let Some(system) = &answer.system {
+        writeln!(out, "{system}")?;
     }
     if let Some(risk) = &answer.risk {
         writeln!(out, "{risk}")?;

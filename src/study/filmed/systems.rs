@@ -121,8 +121,6 @@ mod tests {
     fn the_coach_plays_each_system_with_the_stroke_that_fits_it_best_on_the_match_table() {
         for (system, most) in bundled().iter().zip([0.11, 0.33, 0.15]) {
             let counted = system.counted().unwrap();
-            let natural = system.natural(&Table::default());
-            println!("{natural:?}");
             let rms = system.rms(&Table::default(), &counted.natural());
             assert!(rms <= most, "{counted}: {rms}");
         }

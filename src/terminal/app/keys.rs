@@ -111,7 +111,7 @@ impl App {
     pub(super) fn place_below(&self) -> KeyContext {
         match self.screen {
             PageId::Coach if self.help.is_some() => KeyContext::Coach,
-            PageId::Coach => self.coach.saving().map_or(KeyContext::Coach, KeyContext::Saving),
+            PageId::Coach => self.coach.question().map_or(KeyContext::Coach, KeyContext::Question),
             PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page().place()),
             PageId::Training => KeyContext::Training(self.training.place()),
             PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page_place()),
