@@ -202,10 +202,10 @@ mod tests {
         // From the lower right corner to the upper long cushion, and its three mirror images.
         let mut told = Vec::new();
         for (layout, cue) in [
-            ("6d,1d 7d,3.5d 0.5d,0.5d", "-0.4,0.3,0,133,4"),
-            ("2d,1d 1d,3.5d 7.5d,0.5d", "0.4,0.3,0,47,4"),
-            ("6d,3d 7d,0.5d 0.5d,3.5d", "0.4,0.3,0,227,4"),
-            ("2d,3d 1d,0.5d 7.5d,3.5d", "-0.4,0.3,0,313,4"),
+            ("6d,1d 7d,3.5d 0.5d,0.5d", "0.4,0.3,0,133,4"),
+            ("2d,1d 1d,3.5d 7.5d,0.5d", "-0.4,0.3,0,47,4"),
+            ("6d,3d 7d,0.5d 0.5d,3.5d", "-0.4,0.3,0,227,4"),
+            ("2d,3d 1d,0.5d 7.5d,3.5d", "0.4,0.3,0,313,4"),
         ] {
             let Some(Guide::System(applied)) = guided(layout, cue) else {
                 panic!("{layout} {:?}", guided(layout, cue))
@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn without_running_side_or_three_cushions_no_system_is_named() {
         assert_eq!(guided("6d,1d 7d,3.5d 0.5d,0.5d", "0,0,0,133,0.6"), None);
-        let reverse = guided("6d,1d 7d,3.5d 0.5d,0.5d", "0.4,0.3,0,133,4");
+        let reverse = guided("6d,1d 7d,3.5d 0.5d,0.5d", "-0.4,0.3,0,133,4");
         assert!(!matches!(reverse, Some(Guide::System(_))), "{reverse:?}");
     }
 

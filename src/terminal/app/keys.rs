@@ -74,6 +74,7 @@ impl App {
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
         self.input(Typed::Paste(text));
+        self.gather(true);
     }
 
     /// Takes what was typed or pasted where text is typed; `false` where none is, or the key means something else.
