@@ -129,6 +129,9 @@ fn solve(system: System, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let [low, high] = system.first_ends();
     let at = |step: u32| low + (high - low) * f64::from(step) / f64::from(TRIED);
     let errors: Vec<Option<f64>> = (0..=TRIED).map(|step| error(at(step))).collect();
+    if let Some(step) = errors.iter().position(|error| error.is_some_and(|error| error.abs() < EXACT)) {
+        return Some(at(step as u32));
+    }
     let (step, below) = errors.windows(2).enumerate().find_map(|(step, pair)| match *pair {
         // Where the course changes the arrival jumps; that is no solution.
         [Some(one), Some(other)] if one * other <= 0.0 && (one - other).abs() < JUMP * scale(system) => {
@@ -148,6 +151,8 @@ fn solve(system: System, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
+/// An error that is nought but for rounding, diamonds.
+const EXACT: f64 = 1e-9;
 /// Two diamonds between two lines that are next to each other are a jump.
 const JUMP: f64 = 2.0;
 
