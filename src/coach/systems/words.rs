@@ -34,22 +34,32 @@ impl Applied {
     /// The arithmetic as a player does it, with the numbers as they are said: `50 - 30 = 20`.
     pub fn arithmetic(&self) -> String {
         let Numbers { start, third, .. } = self.numbers;
-        let [start, third] = [start, third].map(|number| rounded(self.system, number));
-        let (sign, first) = match self.system {
-            System::Corner5 => ("-", start - third),
-            System::Plus => ("-", third - start),
-            System::Seven => ("x", start * third),
+        let (sign, [one, other]) = match self.system {
+            System::Corner5 => ("-", [start, third]),
+            System::Plus => ("-", [third, start]),
+            System::Seven => ("x", [start, third]),
         };
-        let [one, other] = if self.system == System::Plus { [third, start] } else { [start, third] };
-        let said = |value: f64| number(self.system, value);
-        format!("{} {sign} {} = {}", said(one), said(other), said(first))
+        let [one, other] = [one, other].map(|value| number(self.system, value));
+        format!("{one} {sign} {other} = {}", self.aim())
+    }
+
+    /// What comes of it: the number on the first cushion.
+    pub fn aim(&self) -> String {
+        let Numbers { start, third, .. } = self.numbers;
+        let [start, third] = [start, third].map(|number| rounded(self.system, number));
+        let first = match self.system {
+            System::Corner5 => start - third,
+            System::Plus => third - start,
+            System::Seven => start * third,
+        };
+        number(self.system, first)
     }
 
     /// What the table says to it; empty where it says nothing.
     pub fn correction(&self) -> String {
         let said = |value: f64| number(self.system, value);
         match (self.table_first, self.table_third) {
-            (Some(first), _) if said(first) == said(self.numbers.first) => "the same on your table".to_owned(),
+            (Some(first), _) if said(first) == self.aim() => "the same on your table".to_owned(),
             (Some(first), _) => format!("on your table {}", said(first)),
             (None, Some(third)) => format!("on your table it comes to {}", said(third)),
             (None, None) => String::new(),

@@ -103,9 +103,12 @@ pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
     let inner = draw_title(title, area, ui);
     let width = usize::from(inner.width.saturating_sub(2));
     let side = if system.is_running() { "running side" } else { "no side" };
+    let own =
+        lesson.applied.shot_first.map(|first| format!("the shot itself, with its side, at {}", number(system, first)));
     let sentences = [
-        (format!("{}: aim at {}", lesson.applied.arithmetic(), number(system, lesson.applied.numbers.first)), true),
+        (format!("{}: aim at {}", lesson.applied.arithmetic(), lesson.applied.aim()), true),
         (lesson.applied.correction(), true),
+        (own.unwrap_or_default(), true),
         (format!("{}; {side}", system.track()), false),
         (system.rule().to_owned(), false),
         (
