@@ -19,7 +19,9 @@ const NEAR: f64 = 1.0;
 /// How far along the line of the example its ball lies.
 const EXAMPLE: f64 = 0.25;
 /// Lines that are tried on the first cushion.
-const TRIED: u32 = 48;
+const TRIED: usize = 48;
+/// Most by which the arrival changes from one of them to the next, diamonds; and the third number.
+const JUMPS: [f64; 2] = [0.7, 10.0];
 /// Halvings of the distance between two of them: to a thousandth of a diamond and further.
 const HALVINGS: u32 = 12;
 
@@ -89,9 +91,12 @@ impl Applied {
     fn counted(system: System, table: &Table, mirror: Mirror, from: DVec2, arrival: f64) -> Option<Self> {
         let wanted = system.third_number(arrival)?;
         let aimed = |along: f64| Line::between(from, system.first_at(along));
-        let line = solve(system, |along| Some(system.numbers(&aimed(along))?.third - wanted)).map(aimed)?;
+        let [low, _] = system.first_ends();
+        let third_off = |along: f64| Some(system.numbers(&aimed(along))?.third - wanted);
+        let counted = solve(system, low, JUMPS[1], third_off)?;
+        let line = aimed(counted);
         let played = |line: &Line| system.played(table, mirror, line, &system.natural());
-        let on_table = solve(system, |along| Some(played(&aimed(along))? - arrival)).map(aimed);
+        let on_table = solve(system, counted, JUMPS[0], |along| Some(played(&aimed(along))? - arrival)).map(aimed);
         Some(Self {
             system,
             numbers: system.numbers(&line)?,
@@ -124,25 +129,26 @@ impl Applied {
     }
 }
 
-/// The place on a system's first cushion at which `error` is nought, of several the first from the corner on.
-fn solve(system: System, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+/// The place on a system's first cushion at which `error` is nought, of several the one nearest to `near`. Between two lines
+/// that are tried it changes by less than `jump`: where the course takes another cushion it leaps, and that is no solution.
+fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let [low, high] = system.first_ends();
-    let at = |step: u32| low + (high - low) * f64::from(step) / f64::from(TRIED);
+    let at = |step: usize| low + (high - low) * step as f64 / TRIED as f64;
     let errors: Vec<Option<f64>> = (0..=TRIED).map(|step| error(at(step))).collect();
-    if let Some(step) = errors.iter().position(|error| error.is_some_and(|error| error.abs() < EXACT)) {
-        return Some(at(step as u32));
-    }
-    let (step, below) = errors.windows(2).enumerate().find_map(|(step, pair)| match *pair {
-        // Where the course changes the arrival jumps; that is no solution.
-        [Some(one), Some(other)] if one * other <= 0.0 && (one - other).abs() < JUMP * scale(system) => {
-            Some((step as u32, one <= 0.0))
+    let exact = |step: usize| errors[step].filter(|error| error.abs() < EXACT).map(|_| (at(step), None));
+    let crossed = |step: usize| match (errors[step], errors.get(step + 1).copied().flatten()) {
+        (Some(one), Some(other)) if one * other < 0.0 && (one - other).abs() < jump => {
+            Some((at(step), Some(one < 0.0)))
         }
         _ => None,
-    })?;
-    let (mut low, mut high) = (at(step), at(step + 1));
+    };
+    let found = (0..=TRIED).filter_map(|step| exact(step).or_else(|| crossed(step)));
+    let (mut low, below) = found.min_by(|one, other| (one.0 - near).abs().total_cmp(&(other.0 - near).abs()))?;
+    let Some(below) = below else { return Some(low) };
+    let mut high = low + at(1) - at(0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if (error(middle)? <= 0.0) == below {
+        if (error(middle)? < 0.0) == below {
             low = middle;
         } else {
             high = middle;
@@ -151,18 +157,8 @@ fn solve(system: System, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     Some(0.5 * (low + high))
 }
 
-/// An error that is nought but for rounding, diamonds.
+/// An error that is nought but for rounding.
 const EXACT: f64 = 1e-9;
-/// Two diamonds between two lines that are next to each other are a jump.
-const JUMP: f64 = 2.0;
-
-/// What a diamond is in a system's numbers, roughly and at most.
-const fn scale(system: System) -> f64 {
-    match system {
-        System::Corner5 => 10.0,
-        System::Plus | System::Seven => 1.5,
-    }
-}
 
 #[cfg(test)]
 mod tests {
@@ -199,7 +195,8 @@ mod tests {
     fn first_along(system: System, applied: &Applied) -> f64 {
         let aimed = |along: f64| Line::between(applied.line.from, system.first_at(along));
         let first = applied.table_first.unwrap();
-        solve(system, |along| Some(system.numbers(&aimed(along))?.first - first)).unwrap()
+        let near = system.first_along(&applied.line).unwrap();
+        solve(system, near, 10.0, |along| Some(system.numbers(&aimed(along))?.first - first)).unwrap()
     }
 
     #[test]
