@@ -210,9 +210,6 @@ pub const COACH: &[Binding<A, W>] = &[
         Some(("step", 2)), "choose a smaller or larger step"),
     bind(Balls, W::Placing, &[letter('D', A::TurnQuarters)], None,
         "steps of quarter diamonds, or of millimetres again").known_as("snap grid"),
-    bind(Balls, W::Idle, &[letter('p', A::TypePositions)], Some(("type", 1)),
-        "type where the balls lie, in diamonds or metres, or a share code; pasting does it too")
-        .known_as("position coordinates enter paste load import code diamonds"),
     bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
         Some(("event", 2)), "step from event to event"),
     bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
@@ -223,6 +220,9 @@ pub const COACH: &[Binding<A, W>] = &[
         None, "to the stroke, to the end"),
     bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "go on with the balls as the shot leaves them, with the next shot of the plan"),
+    bind(Balls, W::Idle, &[letter('p', A::TypePositions)], Some(("type", 1)),
+        "type where the balls lie, in diamonds or metres, or a share code; pasting does it too")
+        .known_as("position coordinates enter paste load import code diamonds"),
     bind(Shot, W::Idle, &[letter('R', A::NextRule), letter('S', A::NextSkill), letter('P', A::TurnPlan)],
         Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too"),
     bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),
