@@ -12,6 +12,9 @@ use super::{
 };
 use crate::{simulation::Rail, table::Table};
 
+/// How far from where the ball arrives the shift may be that it still tells, diamonds.
+const NEAR: f64 = 0.5;
+
 /// A line that leads to a diamond, and the shot's line beside it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
@@ -32,8 +35,8 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, or the
-    /// third cushion does not lie along the first.
+    /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, it
+    /// is too far off, or the third cushion does not lie along the first.
     pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
         let [first, second, third] = leg.rails();
         if is_long(first) != is_long(third) {
@@ -49,7 +52,7 @@ impl Shift {
             let by = aimed - diamond;
             let arrival = arrival(table, leg, -by)?;
             let third = arrival + turned * by;
-            Some(Self {
+            ((third - table_third).abs() <= NEAR).then_some(Self {
                 name: "parallel-shift",
                 rails: [first, leg.hits[2].0],
                 diamond,

@@ -75,8 +75,8 @@ fn write_at(
     } else {
         // In the corner the number stands where both rails meet.
         let y = match () {
-            () if is_below => bed.bottom(),
-            () if is_above => bed.y - 1,
+            () if is_below && !is_inside => bed.bottom(),
+            () if is_above && !is_inside => bed.y - 1,
             () => row,
         };
         let x = match (is_left, is_inside) {
