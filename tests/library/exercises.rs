@@ -66,7 +66,7 @@ fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
         let Some(Guide::System(applied)) = guide(&table, &recording) else { panic!("{}", exercise.name) };
         // What the point says, and what the coach would say: three numbers with a sign and an equals sign.
         let [told, counted] = [&exercise.point, &applied.arithmetic()].map(|text| {
-            let words: Vec<&str> = text.split(|c: char| c == ' ' || c == ',' || c == ':').collect();
+            let words: Vec<&str> = text.split([' ', ',', ':']).collect();
             let equals = words.iter().position(|word| *word == "=").unwrap();
             [3, 1].map(|back| words[equals - back]).map(|word| word.parse::<f64>().unwrap())
         });

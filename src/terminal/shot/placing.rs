@@ -59,9 +59,9 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
 /// The way from `place`, m, to the quarter of a diamond that is so many quarters away along each axis; a ball between two of
 /// them comes to the next one first. Less than a quarter is not rounded.
 pub fn quarters(table: &Table, place: DVec2, count: DVec2) -> DVec2 {
-    let quarter = 0.25 * table.diamond();
     // A ball lies on a quarter that is off by rounding alone.
     const ROUNDING: f64 = 1e-6;
+    let quarter = 0.25 * table.diamond();
     let step = |from: f64, half: f64, count: f64| {
         let at = (from + half) / quarter;
         let to = match count {
