@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use carom::{
-    coach::{Skill, make_probability},
-    drills::{Category, Exercise, GATHERED, Technique, flaws},
+    coach::{Skill, Technique, make_probability},
+    drills::{Category, Exercise, GATHERED, flaws},
     game::scores,
     learning::normal_pair,
     physics::{CueInputs, with_room},
@@ -183,7 +183,7 @@ fn random_stroke(category: Category, rng: &mut impl RngExt) -> CueInputs {
         Category::Draw => (0.0, step(-9, -5, TIP)),
         Category::Follow => (0.0, step(5, 8, TIP)),
         Category::Side => (step(6, 8, TIP) * (step(0, 1, 0.5) - 1.0), step(-4, 6, TIP)),
-        Category::OneCushion | Category::Gather | Category::ThreeCushion | Category::Own => {
+        Category::OneCushion | Category::Gather | Category::ThreeCushion | Category::Systems | Category::Own => {
             (step(-8, 8, TIP), step(-9, 7, TIP))
         }
     };

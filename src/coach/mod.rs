@@ -22,6 +22,7 @@ mod scatter;
 mod search;
 mod self_play;
 mod skill;
+pub mod systems;
 mod technique;
 #[cfg(test)]
 mod tests;

@@ -132,7 +132,7 @@ mod tests {
             assert_eq!(exam, draw(&library, level, 5).unwrap());
             assert_ne!(exam, draw(&library, level, 6).unwrap());
             assert!(exam.iter().all(|exercise| exercise.category != Category::Own));
-            for category in &Category::ALL[..7] {
+            for category in &Category::ALL[..8] {
                 let count = exam.iter().filter(|exercise| exercise.category == *category).count();
                 assert!((2..=3).contains(&count), "{count} of {category}");
             }

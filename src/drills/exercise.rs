@@ -30,13 +30,15 @@ pub enum Category {
     Gather,
     /// The patterns of three-cushion.
     ThreeCushion,
+    /// Diamond systems.
+    Systems,
     /// Somebody's own position.
     Own,
 }
 
 impl Category {
     /// All of them, in the order of the library.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::FirstCaroms,
         Self::Draw,
         Self::Follow,
@@ -44,6 +46,7 @@ impl Category {
         Self::OneCushion,
         Self::Gather,
         Self::ThreeCushion,
+        Self::Systems,
         Self::Own,
     ];
 
@@ -57,6 +60,7 @@ impl Category {
             Self::OneCushion => "one-cushion",
             Self::Gather => "gather",
             Self::ThreeCushion => "three-cushion",
+            Self::Systems => "systems",
             Self::Own => "own",
         }
     }
@@ -71,6 +75,7 @@ impl Category {
             Self::OneCushion => "One cushion",
             Self::Gather => "Gather and rappel",
             Self::ThreeCushion => "Three-cushion patterns",
+            Self::Systems => "Diamond systems",
             Self::Own => "My positions",
         }
     }

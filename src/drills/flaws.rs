@@ -4,9 +4,13 @@ use std::f64::consts::FRAC_PI_3;
 
 use super::{Category, Exercise, ExerciseError};
 use crate::{
-    coach::{PATTERNS, Pattern, Technique},
+    coach::{
+        PATTERNS, Pattern, Technique,
+        systems::{Guide, guide},
+    },
     game::{Point, scores},
     physics::{CueInputs, has_room},
+    simulation::Recording,
 };
 
 /// Balls are gathered where no two are further apart, m: a little less than two diamonds of a `match` table.
@@ -71,10 +75,24 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
                 ("between the balls there are no more than five cushions", technique.between.len() <= 5),
             ]
         }
+        Category::Systems => vec![
+            ("the rule is three-cushion", exercise.rule.cushions() == 3),
+            ("the first tag names the system that describes it", exercise.tags.first() == system(exercise)?.as_ref()),
+        ],
         Category::Own => Vec::new(),
     });
     checks.extend(tagged(exercise, &technique, &cue));
     Ok(checks.into_iter().filter_map(|(sentence, holds)| (!holds).then_some(sentence)).collect())
+}
+
+/// The tag of the diamond system that describes the shot.
+fn system(exercise: &Exercise) -> Result<Option<String>, ExerciseError> {
+    let Some(cue) = &exercise.shot else { return Ok(None) };
+    let table = exercise.table()?;
+    Ok(match guide(&table, &Recording::new(&table, &exercise.layout, cue)?) {
+        Some(Guide::System(applied)) => Some(applied.system.name().to_lowercase()),
+        _ => None,
+    })
 }
 
 /// What the tags promise of the stroke and of its course, each with whether it holds.

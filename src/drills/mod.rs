@@ -17,7 +17,7 @@ pub mod store;
 mod validity;
 mod verdict;
 
-pub use code::{CodeError, decode, encode};
+pub use code::{CodeError, decode, encode, is_code};
 pub use compare::{Advice, advise, chance, difference};
 pub use exercise::{Category, Exercise, ExerciseError, Par};
 pub use file::{LibraryFile, LibraryFileError};

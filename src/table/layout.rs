@@ -166,19 +166,23 @@ impl Layout {
     /// [`LayoutError::Text`]; the positions are not checked against the table.
     pub fn parse(text: &str, table: &Table) -> Result<Self, LayoutError> {
         let refuse = || LayoutError::Text(text.to_owned());
-        let coordinate = |part: &str, half_extent: f64| match part.strip_suffix('d') {
-            Some(diamonds) => diamonds.parse::<f64>().map(|n| n * table.diamond() - half_extent),
-            None => part.parse::<f64>(),
-        };
         let mut balls = [DVec2::ZERO; BALLS];
         let mut words = text.split_whitespace();
         for ball in &mut balls {
-            let (x, y) = words.next().and_then(|word| word.split_once(',')).ok_or_else(refuse)?;
-            ball.x = coordinate(x, 0.5 * table.length).map_err(|_| refuse())?;
-            ball.y = coordinate(y, 0.5 * table.width).map_err(|_| refuse())?;
+            *ball = words.next().and_then(|word| place(word, table)).ok_or_else(refuse)?;
         }
         if words.next().is_some() { Err(refuse()) } else { Ok(Self::new(balls)) }
     }
+}
+
+/// Reads one position, `"x,y"`, as [`Layout::parse`] does.
+pub(super) fn place(word: &str, table: &Table) -> Option<DVec2> {
+    let coordinate = |part: &str, half_extent: f64| match part.strip_suffix('d') {
+        Some(diamonds) => diamonds.parse::<f64>().ok().map(|n| n * table.diamond() - half_extent),
+        None => part.parse::<f64>().ok(),
+    };
+    let (x, y) = word.split_once(',')?;
+    Some(DVec2::new(coordinate(x, 0.5 * table.length)?, coordinate(y, 0.5 * table.width)?))
 }
 
 #[cfg(test)]

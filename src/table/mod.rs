@@ -7,6 +7,7 @@ mod layout;
 mod models;
 mod opening;
 mod parameters;
+mod positions;
 mod rail;
 mod room;
 
@@ -16,5 +17,6 @@ pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
 pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};
 pub use parameters::{JUDGED, PRESETS, Table, TableError};
+pub use positions::PositionsError;
 pub use rail::Rail;
 pub use room::Room;

@@ -1,5 +1,6 @@
 //! Numbers and events in the words of a player.
 
+use glam::DVec2;
 use indicatif::HumanCount;
 
 use crate::{
@@ -7,7 +8,7 @@ use crate::{
     game::Rule,
     learning::evaluation::SuccessRate,
     simulation::{EventKind, Rail},
-    table::{BALLS, CueBall},
+    table::{BALLS, CueBall, Table},
 };
 
 /// The cushion's name as it lies on the screen.
@@ -127,6 +128,11 @@ pub fn long_time_words(seconds: f64) -> String {
 /// Metres as millimetres with one decimal.
 pub fn millimetres(metres: f64) -> String {
     fixed(1000.0 * metres, 1)
+}
+
+/// A place in metres from the middle of `table` in diamonds from the lower left corner of the noses, as layouts are typed.
+pub fn in_diamonds(table: &Table, place: DVec2) -> DVec2 {
+    (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
 }
 
 /// Millimetres of a step size, without needless decimals.

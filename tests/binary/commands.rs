@@ -276,3 +276,30 @@ fn a_table_that_only_has_the_name_of_a_bundled_one_gets_no_bundled_policy() {
     let (code, said) = refusal(&mut carom(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]));
     assert!(code == 2 && said.contains("no policy is bundled"), "{said}");
 }
+
+#[test]
+fn a_recommendation_counts_on_the_diamonds_where_a_system_describes_it() {
+    // Two balls in the way of a bank from the corner: 50 - 30 = 20.
+    let layout = "0.84,-0.32 -0.27,-0.55 -0.18,-0.63";
+    let args = ["recommend", "--rule", "three-cushion", "--budget-ms", "60000", "--simulations", "20000"];
+    let mut counted = 0;
+    for seed in ["0", "1", "2"] {
+        let answer = json(&[&args[..], &["--layout", layout, "--seed", seed, "--json"]].concat());
+        let system = &answer["system"];
+        let number = |name: &str| system[name].as_f64().unwrap();
+        match system["name"].as_str() {
+            Some("corner5") => assert!((number("start") - number("third") - number("first")).abs() < 0.2, "{system}"),
+            Some("plus") => assert!((number("third") - number("start") - number("first")).abs() < 0.02, "{system}"),
+            Some("seven") => assert!((number("start") * number("third") - number("first")).abs() < 0.2, "{system}"),
+            Some("parallel-shift") => assert!((number("third") - number("arrival")).abs() <= 1.0, "{system}"),
+            other => assert_eq!(other, None),
+        }
+        if let Some(name) = system["name"].as_str() {
+            counted += 1;
+            let text = carom(&[&args[..], &["--layout", layout, "--seed", seed]].concat()).output().unwrap().stdout;
+            let line = if name == "parallel-shift" { "Parallel shift: " } else { "aim at " };
+            assert!(String::from_utf8(text).unwrap().contains(line), "{name}");
+        }
+    }
+    assert!(counted > 0, "no shot of three seeds takes three cushions in a row");
+}

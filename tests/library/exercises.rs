@@ -3,11 +3,15 @@
 use std::{collections::HashSet, fs, path::Path};
 
 use carom::{
-    coach::{PATTERNS, Pattern, Skill, Technique},
+    coach::{
+        PATTERNS, Pattern, Skill, Technique,
+        systems::{Guide, System, guide},
+    },
     drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, decode, encode, flaws, shifted},
     game::scores,
     learning::normal_pair,
     physics::CueInputs,
+    simulation::Recording,
 };
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -76,6 +80,26 @@ fn the_classifier_calls_exercises_as_their_tags_do() {
         assert!(wanted.is_empty() || wanted.contains(&named.tag), "{} {wanted:?}: {named:?}", exercise.name);
     }
     assert!(compared >= 65, "{compared}");
+}
+
+#[test]
+fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
+    for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Systems) {
+        let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
+        let recording = Recording::new(&table, &exercise.layout, &shot).unwrap();
+        let Some(Guide::System(applied)) = guide(&table, &recording) else { panic!("{}", exercise.name) };
+        // What the point says, and what the coach would say: three numbers with a sign and an equals sign.
+        let [told, counted] = [&exercise.point, &applied.arithmetic()].map(|text| {
+            let words: Vec<&str> = text.split([' ', ',', ':']).collect();
+            let equals = words.iter().position(|word| *word == "=").unwrap();
+            [3, 1].map(|back| words[equals - back]).map(|word| word.parse::<f64>().unwrap())
+        });
+        // Three tenths of a diamond.
+        let near = if applied.system == System::Corner5 { 3.0 } else { 0.3 };
+        for (told, counted) in told.into_iter().zip(counted) {
+            assert!((told - counted).abs() <= near, "{}: {}", exercise.name, applied.arithmetic());
+        }
+    }
 }
 
 #[test]

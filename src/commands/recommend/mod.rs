@@ -2,6 +2,7 @@
 
 mod in_time;
 mod margins;
+mod system;
 mod told;
 
 use std::{
@@ -23,7 +24,7 @@ use super::{
     output::{impulse_words, units},
 };
 use crate::{
-    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source},
+    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source, systems::Guide},
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
@@ -122,6 +123,9 @@ struct RecommendAnswer {
     /// Of a shot that makes the point.
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<Reasons>,
+    /// What a player counts on the diamonds for it, where a system applies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    system: Option<Guide>,
 }
 
 #[derive(Serialize)]
@@ -208,6 +212,9 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Rec
         let (table, layout, cue) = (coach.table().clone(), *layout, answer.cue);
         answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue))?;
     }
+    if answer.solved == Some(true) {
+        answer.system = system::of(coach.table(), layout, &answer.cue);
+    }
     Ok(answer)
 }
 
@@ -232,6 +239,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
             margins: None,
             told: None,
             why: None,
+            system: None,
         });
     }
     let request = Request {
@@ -293,6 +301,7 @@ impl From<Recommendation> for RecommendAnswer {
             margins: None,
             told: None,
             why: None,
+            system: None,
         }
     }
 }
@@ -324,6 +333,9 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
         None => writeln!(out, "the networks' own shot, not simulated")?,
+    }
+    if let Some(system) = &answer.system {
+        writeln!(out, "{system}")?;
     }
     if let Some(risk) = &answer.risk {
         writeln!(out, "{risk}")?;

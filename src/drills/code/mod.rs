@@ -117,6 +117,11 @@ fn code(exercise: &Exercise, title: &str, tags: &[String]) -> String {
     format!("{PREFIX}{}", base32::encode(&bytes))
 }
 
+/// Whether a text is meant to be a share code.
+pub fn is_code(text: &str) -> bool {
+    text.trim_start().get(..PREFIX.len()).is_some_and(|start| start.eq_ignore_ascii_case(PREFIX))
+}
+
 /// Reads a share code; spaces and line breaks in it do not matter, and neither do capitals. The exercise is the user's
 /// own, and one that can be played.
 ///

@@ -6,13 +6,12 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::lone::{Follower, Motion, alone};
-use crate::{simulation::Rail, table::Table};
+use crate::{
+    coach::systems::{self, Line, Mirror},
+    table::Table,
+};
 
 const SYSTEMS: &str = include_str!("../../../tests/data/filmed/systems.json");
-
-/// How far behind the nose the diamonds stand, in diamonds.
-const FRAME: f64 = 0.225;
 
 /// A diamond system.
 #[derive(Clone, Debug, Deserialize)]
@@ -41,12 +40,9 @@ pub struct Natural {
     pub id: String,
     /// Cases.
     pub cases: usize,
-    /// Running side as a surface speed, over the ball's speed.
-    pub side: f64,
-    /// Roll over natural roll.
-    pub roll: f64,
-    /// Speed of the ball, m/s.
-    pub speed: f64,
+    /// The stroke.
+    #[serde(flatten)]
+    pub stroke: systems::Natural,
     /// Root mean square of the arrivals' errors, diamonds.
     pub rms: f64,
 }
@@ -63,14 +59,7 @@ pub fn bundled() -> Vec<System> {
 impl System {
     /// The natural stroke on `table`: the best of a net of sides, rolls and speeds.
     pub fn natural(&self, table: &Table) -> Natural {
-        let mut best = Natural {
-            id: self.id.clone(),
-            cases: self.cases.len(),
-            side: 0.0,
-            roll: 1.0,
-            speed: 2.6,
-            rms: f64::INFINITY,
-        };
+        let mut best = (systems::Natural { side: 0.0, roll: 1.0, speed: 2.6 }, f64::INFINITY);
         let mut width = [0.8, 0.6, 1.2];
         let mut middle = [0.5, 0.8, 3.0];
         for _ in 0..5 {
@@ -80,85 +69,41 @@ impl System {
                 if !(0.0..=1.6).contains(&roll) || !(1.5..=4.5).contains(&speed) {
                     continue;
                 }
-                let rms = self.rms(table, side, roll, speed);
-                if rms < best.rms {
-                    best = Natural { side, roll, speed, rms, ..best };
+                let stroke = systems::Natural { side, roll, speed };
+                let rms = self.rms(table, &stroke);
+                if rms < best.1 {
+                    best = (stroke, rms);
                 }
             }
-            middle = [best.side, best.roll, best.speed];
+            middle = [best.0.side, best.0.roll, best.0.speed];
             width = width.map(|width| 0.35 * width);
         }
-        best
+        Natural { id: self.id.clone(), cases: self.cases.len(), stroke: best.0, rms: best.1 }
     }
 
     /// Root mean square of the errors with one stroke, diamonds. A case that does not come to its rail counts as a diamond.
-    pub fn rms(&self, table: &Table, side: f64, roll: f64, speed: f64) -> f64 {
-        let squares =
-            self.cases.iter().map(|case| case.error(table, side, roll, speed).unwrap_or(1.0).clamp(-1.0, 1.0).powi(2));
+    pub fn rms(&self, table: &Table, stroke: &systems::Natural) -> f64 {
+        let error = |case: &Case| case.error(self.counted()?, table, stroke);
+        let squares = self.cases.iter().map(|case| error(case).unwrap_or(1.0).clamp(-1.0, 1.0).powi(2));
         (squares.sum::<f64>() / self.cases.len() as f64).sqrt()
+    }
+
+    /// The system as the coach knows it.
+    fn counted(&self) -> Option<systems::System> {
+        systems::System::ALL.into_iter().find(|system| system.id() == self.id)
     }
 }
 
 impl Case {
     /// How far beyond the system's arrival the ball comes, diamonds.
-    fn error(&self, table: &Table, side: f64, roll: f64, speed: f64) -> Option<f64> {
+    fn error(&self, system: systems::System, table: &Table, stroke: &systems::Natural) -> Option<f64> {
         let [from, to] = self.cue_line.map(DVec2::from_array);
-        let diamond = table.diamond();
-        let metres = |place: DVec2| (place - DVec2::new(4.0, 2.0)) * diamond;
         let line = (to - from).normalize();
         // The ball lies on the line, half a diamond inside the nose.
         let inside = |place: DVec2| place.x > 0.4 && place.x < 7.6 && place.y > 0.4 && place.y < 3.6;
         let start = (0..200).map(|step| from + 0.02 * f64::from(step) * line).find(|place| inside(*place))?;
-        // Running side on the first rail: towards where the ball goes on.
-        let running = if line.perp_dot(self.next_direction(line)?) < 0.0 { 1.0 } else { -1.0 };
-        let motion = Motion {
-            place: metres(start),
-            velocity: speed * line,
-            slip: (1.0 - roll) * speed * line,
-            side: running * side * speed,
-        };
-        let followed = Follower::new(&[], 5).of(table, &alone(motion.place), &motion.impulse(table.radius));
-        let wanted = if self.arrival_frame_right_y.is_some() { Rail::Right } else { Rail::Bottom };
-        // The leg that leads to the third rail, or to it past a corner that is met first.
-        let hit = if followed.hits.get(1)?.1 == wanted { 1 } else { 2 };
-        let diamonds = |place: DVec2| place / diamond + DVec2::new(4.0, 2.0);
-        let (before, place) = (diamonds(followed.hits[hit - 1].2), diamonds(followed.hits.get(hit)?.2));
-        // The nose is a ball's radius beyond its centre; the diamonds are behind the nose, on the same line.
-        let radius = table.radius / diamond;
-        let direction = place - before;
-        let at_bottom = |beyond: f64| {
-            let way = (before.y - radius + beyond) / -direction.y;
-            (direction.y < 0.0).then_some(before.x + way * direction.x)
-        };
-        if let Some(x) = self.arrival_nose_x {
-            // The ball touches the nose beside its centre.
-            Some(at_bottom(0.0)? - x)
-        } else if let Some(x) = self.arrival_frame_x {
-            Some(at_bottom(FRAME + radius)? - x)
-        } else {
-            let way = (8.0 + FRAME - before.x) / direction.x;
-            (direction.x > 0.0)
-                .then_some(before.y + way * direction.y)
-                .zip(self.arrival_frame_right_y)
-                .map(|(y, wanted)| y - wanted)
-        }
-    }
-
-    /// Where a ball goes on along the first rail: the way that it came.
-    fn next_direction(&self, line: DVec2) -> Option<DVec2> {
-        let to = DVec2::from_array(self.cue_line[1]);
-        let n = if to.x < 0.0 {
-            DVec2::X
-        } else if to.y > 4.0 {
-            DVec2::NEG_Y
-        } else if to.y < 0.0 {
-            DVec2::Y
-        } else if to.x > 8.0 {
-            DVec2::NEG_X
-        } else {
-            return None;
-        };
-        Some(line - 2.0 * line.dot(n) * n)
+        let arrival = system.played(table, Mirror::default(), &Line { from: start, way: line }, stroke)?;
+        Some(arrival - self.arrival_nose_x.or(self.arrival_frame_x).or(self.arrival_frame_right_y)?)
     }
 }
 
@@ -170,5 +115,14 @@ mod tests {
     fn the_bundled_systems_have_the_cases_that_their_readme_tells() {
         let sizes: Vec<_> = bundled().iter().map(|system| (system.id.clone(), system.cases.len())).collect();
         assert_eq!(sizes, [("corner5".to_owned(), 42), ("plus".to_owned(), 23), ("seven".to_owned(), 35)]);
+    }
+
+    #[test]
+    fn the_coach_plays_each_system_with_the_stroke_that_fits_it_best_on_the_match_table() {
+        for (system, most) in bundled().iter().zip([0.11, 0.33, 0.15]) {
+            let counted = system.counted().unwrap();
+            let rms = system.rms(&Table::default(), &counted.natural());
+            assert!(rms <= most, "{counted}: {rms}");
+        }
     }
 }

@@ -161,7 +161,7 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     program(&mut all, help);
     match place {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
-        KeyContext::Saving(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
+        KeyContext::Question(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
         KeyContext::Training(place) => {
             take(&mut all, place.bindings(), A::Training, Condition::Training, training::words);
         }
@@ -233,14 +233,14 @@ mod tests {
 
     use super::*;
     use crate::terminal::{
-        DrillContext, SettingsContext, TrainingContext, keymap::works_of, pages::coach::keys::SavingContext,
+        DrillContext, SettingsContext, TrainingContext, keymap::works_of, pages::coach::keys::QuestionContext,
     };
 
     fn places() -> impl Iterator<Item = KeyContext> {
         [KeyContext::Coach, KeyContext::CommandPalette]
             .into_iter()
             .chain(TrainingContext::ALL.map(KeyContext::Training))
-            .chain(SavingContext::ALL.map(KeyContext::Saving))
+            .chain(QuestionContext::ALL.map(KeyContext::Question))
             .chain(DrillContext::ALL.map(KeyContext::Drill))
             .chain(SettingsContext::ALL.map(KeyContext::Settings))
     }

@@ -3,7 +3,7 @@
 use crossterm::event::KeyCode::Char;
 
 use crate::terminal::{
-    DrillContext, SettingsContext, TrainingContext, keymap::Chord, pages::coach::keys::SavingContext, ui::is_typed,
+    DrillContext, SettingsContext, TrainingContext, keymap::Chord, pages::coach::keys::QuestionContext, ui::is_typed,
 };
 
 /// What is on the screen: each has its own keys.
@@ -11,8 +11,8 @@ use crate::terminal::{
 pub enum KeyContext {
     /// The coach.
     Coach,
-    /// What is asked over its table before the balls are saved.
-    Saving(SavingContext),
+    /// What is asked over its table.
+    Question(QuestionContext),
     /// One of the training pages, or what is asked there.
     Training(TrainingContext),
     /// One of the drill screens.
@@ -49,7 +49,7 @@ impl KeyContext {
             Self::Training(place) => place.takes_letters(),
             Self::Drill(place) => place.takes_letters(),
             Self::Settings(place) => place.takes_letters(),
-            Self::Saving(_) | Self::CommandPalette => true,
+            Self::Question(_) | Self::CommandPalette => true,
         }
     }
 
@@ -58,7 +58,7 @@ impl KeyContext {
         let event = pressed.event();
         match self {
             Self::Training(TrainingContext::Name)
-            | Self::Saving(SavingContext::Title)
+            | Self::Question(QuestionContext::Title | QuestionContext::Positions)
             | Self::CommandPalette
             | Self::Drill(DrillContext::Search | DrillContext::Text)
             | Self::Settings(SettingsContext::Typing) => is_typed(&event),

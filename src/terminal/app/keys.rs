@@ -74,6 +74,7 @@ impl App {
     /// Text was pasted.
     pub fn paste(&mut self, text: &str) {
         self.input(Typed::Paste(text));
+        self.gather(true);
     }
 
     /// Takes what was typed or pasted where text is typed; `false` where none is, or the key means something else.
@@ -111,7 +112,7 @@ impl App {
     pub(super) fn place_below(&self) -> KeyContext {
         match self.screen {
             PageId::Coach if self.help.is_some() => KeyContext::Coach,
-            PageId::Coach => self.coach.saving().map_or(KeyContext::Coach, KeyContext::Saving),
+            PageId::Coach => self.coach.question().map_or(KeyContext::Coach, KeyContext::Question),
             PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page().place()),
             PageId::Training => KeyContext::Training(self.training.place()),
             PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page_place()),

@@ -6,7 +6,7 @@ use crate::{
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
     table::{BALLS, CueBall, Layout, Table},
-    terminal::words::{event_words, fixed, percent, rail_name},
+    terminal::words::{event_words, fixed, in_diamonds, percent, rail_name},
 };
 
 /// Where the balls lie; which is the cue ball is said where it is not white.
@@ -14,7 +14,7 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall) -> String {
     let names = cue_ball.ordered(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
-        let diamonds = (at + glam::DVec2::new(0.5 * table.length, 0.5 * table.width)) / table.diamond();
+        let diamonds = in_diamonds(table, at);
         format!(
             "{} lies at {} diamonds along and {} up, {} and {} millimetres from the middle.",
             names[ball],

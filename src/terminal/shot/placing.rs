@@ -56,6 +56,24 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
     Slide { layout, stopped }
 }
 
+/// The way from `place`, m, to the quarter of a diamond that is so many quarters away along each axis; a ball between two of
+/// them comes to the next one first. Less than a quarter is not rounded.
+pub fn quarters(table: &Table, place: DVec2, count: DVec2) -> DVec2 {
+    // A ball lies on a quarter that is off by rounding alone.
+    const ROUNDING: f64 = 1e-6;
+    let quarter = 0.25 * table.diamond();
+    let step = |from: f64, half: f64, count: f64| {
+        let at = (from + half) / quarter;
+        let to = match count {
+            _ if count.abs() < 1.0 => at + count,
+            _ if count > 0.0 => (at + ROUNDING).floor() + count,
+            _ => (at - ROUNDING).ceil() + count,
+        };
+        if count == 0.0 { 0.0 } else { (to - at) * quarter }
+    };
+    DVec2::new(step(place.x, 0.5 * table.length, count.x), step(place.y, 0.5 * table.width, count.y))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,6 +109,25 @@ mod tests {
         assert!(moved.stopped.unwrap().to_string().contains("outside the table"));
         assert_eq!(moved.layout.balls[0].x, -table.half_length());
         assert_eq!(slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.01)).stopped, None);
+    }
+
+    #[test]
+    fn quarters_of_a_diamond_are_gone_to_one_after_the_other_from_wherever_a_ball_lies() {
+        let table = Table::default();
+        let place = Layout::parse("2.1d,2d 6d,2d 4d,3d", &table).unwrap().balls[0];
+        let at = |count: [f64; 2]| {
+            let there = place + quarters(&table, place, DVec2::from(count));
+            (there + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
+        };
+        for (count, wanted) in [
+            ([1.0, 0.0], [2.25, 2.0]),
+            ([-1.0, 0.0], [2.0, 2.0]),
+            ([10.0, 0.0], [4.5, 2.0]),
+            ([0.0, -1.0], [2.1, 1.75]),
+            ([0.1, 0.0], [2.125, 2.0]),
+        ] {
+            assert!(at(count).distance(DVec2::from(wanted)) < 1e-9, "{count:?}: {}", at(count));
+        }
     }
 
     proptest! {

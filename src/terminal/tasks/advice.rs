@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use crate::{
-    coach::{Doubt, Kind, Map, Margin, Risk, Scatter, Shooter, Skill},
+    coach::{Doubt, Kind, Map, Margin, Risk, Scatter, Shooter, Skill, systems::Guide},
     game::Rule,
     learning::{Policy, evaluation::SuccessRate},
     terminal::Shot,
@@ -105,6 +105,8 @@ pub struct ShotAnalysis {
     pub hand: Skill,
     /// What comes of many attempts of the player.
     pub scatter: Scatter,
+    /// What a player counts on the diamonds for it, if it makes the point and a system applies.
+    pub system: Option<Guide>,
 }
 
 #[cfg(test)]

@@ -10,9 +10,10 @@ use std::{
 };
 
 use crate::{
-    coach::{Coach, Improvement, Input, Recommendation, Request, Skill, map, margins, scatter},
+    coach::{Coach, Improvement, Input, Recommendation, Request, Skill, map, margins, scatter, systems::guide},
     learning::Policy,
     physics::CueInputs,
+    simulation::Recording,
     table::{Layout, Table},
     terminal::{Advice, CoachQuery, Effort, Proposal, Shot, ShotAnalysis},
 };
@@ -219,5 +220,7 @@ fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
     let aim = map(*rule, table, layout, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
     go_on()?;
     let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
-    go_on().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter })
+    let recording = Recording::new(table, layout, cue).ok().filter(|_| margins.is_some());
+    let system = recording.and_then(|recording| guide(table, &recording));
+    go_on().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter, system })
 }

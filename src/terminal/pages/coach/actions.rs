@@ -15,7 +15,6 @@ use crate::{
             placing::{self, STEPS},
         },
         ui::Message,
-        words::step_words,
     },
 };
 
@@ -56,6 +55,7 @@ impl CoachPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
         let effect = self.act(action);
+        self.renew_lesson();
         // Whatever has changed, the closer look is at the shot that is shown now.
         let study = self.study();
         effect.or(study)
@@ -70,6 +70,12 @@ impl CoachPage {
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
             Action::LargerStep => self.choose_step(self.step + 1),
             Action::SmallerStep => self.choose_step(self.step.saturating_sub(1)),
+            Action::TurnQuarters => {
+                self.quarters = !self.quarters;
+                self.say_step();
+            }
+            Action::TypePositions => self.ask_positions(),
+            Action::NextSystem => self.next_lesson(),
             Action::Opening => self.open(),
             Action::OtherBall => self.take_other_ball(),
             Action::Random => {
@@ -80,6 +86,8 @@ impl CoachPage {
             Action::Redo => self.travel(History::redo),
             Action::Recommend => return Some(self.ask()),
             Action::SavePosition => self.ask_title(),
+            Action::Yes if self.typed.is_some() => self.take_positions(),
+            Action::No if self.typed.is_some() => self.typed = None,
             Action::Yes => return self.save(),
             Action::No => self.saving.no(),
             Action::Cancel => self.cancel(),
@@ -152,11 +160,20 @@ impl CoachPage {
 
     fn choose_step(&mut self, step: usize) {
         self.step = step.min(STEPS.len() - 1);
-        self.message = Some(Message::plain(format!("one step is {}", step_words(self.step_mm()))));
+        self.quarters = false;
+        self.say_step();
+    }
+
+    fn say_step(&mut self) {
+        self.message = Some(Message::plain(format!("one step is {}", self.step_words())));
     }
 
     fn move_ball(&mut self, direction: DVec2, scale: f64) {
-        let step = direction * (0.001 * self.step_mm() * scale);
+        let step = if self.quarters {
+            placing::quarters(self.table(), self.layout().balls[self.selected], direction * scale)
+        } else {
+            direction * (0.001 * self.step_mm() * scale)
+        };
         let slide = placing::slide(self.table(), self.layout(), self.selected, step);
         if slide.layout != *self.layout() {
             self.place(slide.layout);

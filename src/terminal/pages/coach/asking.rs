@@ -116,6 +116,7 @@ impl CoachPage {
             }
             _ => {}
         }
+        self.renew_lesson();
         self.study()
     }
 

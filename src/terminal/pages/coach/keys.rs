@@ -26,6 +26,10 @@ pub enum CoachAction {
     LargerStep,
     /// Chooses a smaller step.
     SmallerStep,
+    /// Chooses steps of quarter diamonds, or of millimetres again.
+    TurnQuarters,
+    /// Asks where the balls are to lie, to be typed or pasted.
+    TypePositions,
     /// Puts the balls on their spots.
     Opening,
     /// Puts the balls at random.
@@ -64,6 +68,8 @@ pub enum CoachAction {
     NextSkill,
     /// Chooses whether the next point counts.
     TurnPlan,
+    /// Teaches the diamond system of the shot, then the others.
+    NextSystem,
     /// Shows something else in the panels.
     NextView,
     /// Shows the next of the shots that may be chosen.
@@ -78,9 +84,9 @@ pub enum CoachAction {
     Resume,
     /// Asks for a title under which the balls are saved as a position to practise.
     SavePosition,
-    /// Takes the title that was typed, or says yes.
+    /// Takes what was typed, or says yes.
     Yes,
-    /// Saves nothing.
+    /// Leaves all as it is.
     No,
     /// Opens the drills.
     OpenDrills,
@@ -117,24 +123,27 @@ pub enum CoachCondition {
     Interrupted,
 }
 
-/// What is asked before the balls are saved.
+/// What is asked over the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SavingContext {
-    /// A title that is typed.
+pub enum QuestionContext {
+    /// A title that is typed, before the balls are saved.
     Title,
     /// Whether a position may be replaced.
     Replace,
+    /// Where the balls are to lie.
+    Positions,
 }
 
-impl SavingContext {
+impl QuestionContext {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Title, Self::Replace];
+    pub const ALL: [Self; 3] = [Self::Title, Self::Replace, Self::Positions];
 
     /// Its keys.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
             Self::Title => TITLE,
             Self::Replace => REPLACE,
+            Self::Positions => POSITIONS,
         }
     }
 }
@@ -151,6 +160,13 @@ const TITLE: &[Binding<A, W>] = &[
 const REPLACE: &[Binding<A, W>] = &[
     bind(Program, W::Anytime, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
     bind(Program, W::Anytime, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+];
+
+/// Positions that are typed.
+#[rustfmt::skip]
+const POSITIONS: &[Binding<A, W>] = &[
+    bind(Balls, W::Anytime, &[key(Enter, A::Yes)], Some(("place", 1)), "put the balls where it was typed"),
+    bind(Program, W::Anytime, &[key(Esc, A::No)], Some(("cancel", 1)), "leave the balls where they are"),
 ];
 
 /// The keys, the more particular ones first.
@@ -171,6 +187,9 @@ pub const COACH: &[Binding<A, W>] = &[
         ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too"),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: balls, chances, margins and maps, plan").known_as("diamonds numbers"),
+    bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
+        "diamond systems on the table: the shot's own, then the others, then none")
+        .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
     bind(Balls, W::Placing, &[
         key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
         key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),
@@ -189,6 +208,8 @@ pub const COACH: &[Binding<A, W>] = &[
         ], None, "move the selected ball by a tenth of a step"),
     bind(Balls, W::Placing, &[letter('-', A::SmallerStep), letter('+', A::LargerStep), letter('=', A::LargerStep)],
         Some(("step", 2)), "choose a smaller or larger step"),
+    bind(Balls, W::Placing, &[letter('D', A::TurnQuarters)], None,
+        "steps of quarter diamonds, or of millimetres again").known_as("snap grid"),
     bind(Shot, W::Shot, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)],
         Some(("event", 2)), "step from event to event"),
     bind(Shot, W::Watching, &[key(Left, A::PreviousEvent), key(Right, A::NextEvent)], None,
@@ -199,6 +220,9 @@ pub const COACH: &[Binding<A, W>] = &[
         None, "to the stroke, to the end"),
     bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "go on with the balls as the shot leaves them, with the next shot of the plan"),
+    bind(Balls, W::Idle, &[letter('p', A::TypePositions)], Some(("type", 1)),
+        "type where the balls lie, in diamonds or metres, or a share code; pasting does it too")
+        .known_as("position coordinates enter paste load import code diamonds"),
     bind(Shot, W::Idle, &[letter('R', A::NextRule), letter('S', A::NextSkill), letter('P', A::TurnPlan)],
         Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too"),
     bind(Balls, W::Idle, &[key(Tab, A::SelectNext), key(BackTab, A::SelectPrevious), letter('1', A::Select(0)),

@@ -1,14 +1,17 @@
 //! The state of the coach's screen: the balls, the coach's advice on them, and the clock of a shot's playback.
 //!
 //! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls,
-//! [`saving`] how they are saved as a position.
+//! [`saving`] how they are saved as a position, [`positions`] how they are typed;
+//! [`lesson`] teaches diamond systems.
 
 mod actions;
 mod advised;
 mod asking;
 mod dragging;
 pub mod keys;
+mod lesson;
 mod page;
+mod positions;
 mod saving;
 pub mod view;
 
@@ -28,11 +31,12 @@ use crate::{
         pages::coach::{
             asking::{Pending, Studying},
             dragging::Drag,
-            keys::SavingContext,
+            keys::QuestionContext,
             saving::Saving,
         },
         shot::{History, Playback, placing::STEPS},
-        ui::Message,
+        ui::{Message, TextField},
+        words::step_words,
     },
 };
 
@@ -113,7 +117,13 @@ pub struct CoachPage {
     pub left_exam: Option<Session>,
     /// What is asked before the balls are saved.
     saving: Saving,
+    /// Where the balls are to lie, as far as it is typed.
+    typed: Option<TextField>,
+    /// The system that is taught.
+    lesson: Option<lesson::Lesson>,
     step: usize,
+    /// Steps go from one quarter of a diamond to the next, whatever their size is in millimetres.
+    quarters: bool,
     /// Time that the coach may think.
     budget: Duration,
     pending: Option<Pending>,
@@ -148,7 +158,10 @@ impl CoachPage {
             before: None,
             left_exam: None,
             saving: Saving::default(),
+            typed: None,
+            lesson: None,
             step: FIRST_STEP,
+            quarters: false,
             budget: Duration::from_millis(Settings::default().think_ms),
             pending: None,
             studying: None,
@@ -157,9 +170,9 @@ impl CoachPage {
         })
     }
 
-    /// What is asked before the balls are saved.
-    pub const fn saving(&self) -> Option<SavingContext> {
-        self.saving.context()
+    /// What is asked over the table.
+    pub fn question(&self) -> Option<QuestionContext> {
+        self.typed.as_ref().map(|_| QuestionContext::Positions).or_else(|| self.saving.context())
     }
 
     /// Offers to go on from where the last session ended, if that is somewhere else.
@@ -339,9 +352,19 @@ impl CoachPage {
         self.shot().filter(|_| self.mode == Mode::Watching).map(Arc::as_ref)
     }
 
-    /// The chosen step, mm.
+    /// The chosen step in millimetres, mm.
     pub fn step_mm(&self) -> f64 {
         STEPS[self.step]
+    }
+
+    /// Whether steps are quarters of a diamond.
+    pub const fn counts_diamonds(&self) -> bool {
+        self.quarters
+    }
+
+    /// How far a key moves a ball, in words.
+    pub fn step_words(&self) -> String {
+        if self.quarters { "1/4 diamond".to_owned() } else { step_words(self.step_mm()) }
     }
 
     /// Number of the spinner's picture, while the coach thinks.

@@ -29,7 +29,13 @@ impl Page for CoachPage {
     }
 
     fn input(&mut self, typed: Typed) -> bool {
-        let taken = self.saving.field_mut().is_some_and(|field| field.take(typed));
+        let field = self.typed.as_mut().or_else(|| self.saving.field_mut());
+        let taken = field.is_some_and(|field| field.take(typed));
+        if let (Typed::Paste(text), None) = (typed, self.question()) {
+            // What is pasted over the table says where the balls lie.
+            self.paste(text);
+            return true;
+        }
         if taken {
             self.message = None;
         }

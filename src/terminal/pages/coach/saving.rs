@@ -6,7 +6,7 @@ use crate::{
     learning::policy::kept::is_name,
     terminal::{
         DrillTask, Effect,
-        pages::coach::{CoachPage, keys::SavingContext},
+        pages::coach::{CoachPage, keys::QuestionContext},
         ui::{Message, TextField},
     },
 };
@@ -35,10 +35,10 @@ enum Question {
 
 impl Saving {
     /// The key context; `None` where nothing is asked.
-    pub const fn context(&self) -> Option<SavingContext> {
+    pub const fn context(&self) -> Option<QuestionContext> {
         match &self.question {
-            Some(Question::Title(..)) => Some(SavingContext::Title),
-            Some(Question::Replace(_)) => Some(SavingContext::Replace),
+            Some(Question::Title(..)) => Some(QuestionContext::Title),
+            Some(Question::Replace(_)) => Some(QuestionContext::Replace),
             None => None,
         }
     }

@@ -13,7 +13,7 @@ use crate::{
         pages::coach::CoachPage,
         shot::Spin,
         ui::{Theme, Ui, draw_title, write_right},
-        words::{fixed, millimetres, step_words},
+        words::{fixed, in_diamonds, millimetres},
     },
 };
 
@@ -22,11 +22,19 @@ const X_END: u16 = 17;
 const Y_END: u16 = 24;
 const SPEED_END: u16 = 30;
 const MOTION: u16 = 31;
+/// The same of the places in diamonds, while no shot is watched.
+const X_DIAMONDS_END: u16 = 31;
+const Y_DIAMONDS_END: u16 = 37;
 
 /// Draws the panel; below the balls, if there is room, more about the layout or the shot.
 pub fn draw_balls(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("Balls", area, ui);
-    for (end, label) in [(X_END, " x mm "), (Y_END, " y mm "), (SPEED_END, " m/s ")] {
+    let other: &[_] = if coach.watched().is_some() {
+        &[(SPEED_END, " m/s ")]
+    } else {
+        &[(X_DIAMONDS_END, " x d "), (Y_DIAMONDS_END, " y d ")]
+    };
+    for &(end, label) in [(X_END, " x mm "), (Y_END, " y mm ")].iter().chain(other) {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, label, ui.theme.faint());
     }
     for (ball, row) in (0..BALLS).zip(inner.y..inner.bottom()) {
@@ -63,6 +71,10 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
     write_right(ui.buffer, area.x, area.x + Y_END, area.y, &millimetres(place.y), style);
     if let Some(speed) = speed {
         write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(speed, 2), style);
+    } else {
+        let diamonds = in_diamonds(coach.table(), place);
+        write_right(ui.buffer, area.x, area.x + X_DIAMONDS_END, area.y, &fixed(diamonds.x, 2), style);
+        write_right(ui.buffer, area.x, area.x + Y_DIAMONDS_END, area.y, &fixed(diamonds.y, 2), style);
     }
     ui.buffer.set_stringn(
         area.x + MOTION,
@@ -78,11 +90,7 @@ fn more(coach: &CoachPage, theme: &Theme) -> Vec<Line<'static>> {
     let value = |text: String| Span::styled(text, theme.text());
     let mut lines = Vec::new();
     if coach.mode == Mode::Placing {
-        lines.push(Line::from(vec![
-            label("step "),
-            value(step_words(coach.step_mm())),
-            label(" (Shift x10, Ctrl x0.1)"),
-        ]));
+        lines.push(Line::from(vec![label("step "), value(coach.step_words()), label(" (Shift x10, Ctrl x0.1)")]));
         let mut gaps = vec![label("gap")];
         for other in (0..BALLS).filter(|&other| other != coach.selected) {
             let balls = coach.layout().balls;

@@ -3,6 +3,7 @@
 mod balls;
 mod chances;
 mod header;
+mod lesson;
 mod maps;
 mod margins;
 mod panes;
@@ -24,6 +25,7 @@ use crate::{
                     balls::draw_balls,
                     chances::{choice_at, draw_chances},
                     header::draw_header,
+                    lesson::{draw_lesson, draw_numbers, lesson_spots, system_words},
                     maps::{draw_aim_map, draw_legend, draw_tip_map},
                     margins::draw_margins,
                     panes::Panes,
@@ -37,7 +39,7 @@ use crate::{
             Message, TableView, Ui, draw_events, draw_question, draw_sight, draw_spin, draw_status, draw_table,
             draw_tip,
         },
-        words::{event_words, fixed, millimetres, percent, rail_word, step_words},
+        words::{event_words, fixed, in_diamonds, millimetres, percent, rail_word},
     },
 };
 
@@ -47,24 +49,32 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     draw_header(coach, area.header, ui);
     let choice = coach.shown().map(AdviceState::choice);
     let planned = choice.filter(|_| coach.view == View::Plan);
-    let spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
+    let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
+    let lesson = coach.lesson();
+    if let Some(lesson) = lesson {
+        spots = lesson_spots(lesson, ui.theme);
+    }
     let view = TableView {
-        shot: coach.shot().map(AsRef::as_ref),
+        // An example is not of these balls.
+        shot: coach.shot().map(AsRef::as_ref).filter(|_| lesson.is_none_or(|lesson| lesson.is_of_shot)),
         time: coach.playback.time,
         is_moving: coach.mode == Mode::Watching,
         front: coach.selected,
         // While the coach thinks each better shot would move them all.
-        is_lean: planned.is_some() || coach.spinner().is_some(),
+        is_lean: planned.is_some() || lesson.is_some() || coach.spinner().is_some(),
         spots: &spots,
         ..TableView::new(coach.table(), coach.layout(), ui)
     };
     draw_table(&view, panes.table, ui);
+    if let Some(lesson) = lesson {
+        draw_numbers(lesson, coach.table(), &table_mapping(coach, area.screen), ui);
+    }
     draw_panels(coach, &panes, ui);
     let caps = ui.caps;
     let message = coach.message.clone();
-    if let Some(question) = coach.saving.text() {
+    if let Some((question, field)) = coach.asked() {
         let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
-        return draw_question(&Message::plain(before + &question), coach.saving.field(), area.status, ui);
+        return draw_question(&Message::plain(before + &question), field, area.status, ui);
     }
     let standing = || Message::plain(standing(coach, caps));
     draw_status(&message.unwrap_or_else(standing), area.status, ui)
@@ -76,7 +86,10 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
     let chosen = coach.view;
     for (view, area) in views(chosen, panes) {
-        draw_info(coach, view, area, ui);
+        match coach.lesson().filter(|_| view == chosen) {
+            Some(lesson) => draw_lesson(lesson, area, ui),
+            None => draw_info(coach, view, area, ui),
+        }
     }
     let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
     if let (View::Margins, Some(study), Some(shot)) = (chosen, study, shot) {
@@ -110,7 +123,7 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
 
 /// What the mouse points at; nothing while something is asked.
 pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
-    if coach.saving().is_some() {
+    if coach.question().is_some() {
         return None;
     }
     let area = area.screen;
@@ -171,7 +184,8 @@ fn aim_words(coach: &CoachPage, shot: &Shot) -> String {
     let hit = shot.contact_words(coach.cue_ball()).unwrap_or_else(|| "hits no ball".to_owned());
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
     let [ahead, behind] = line_of_aim(coach.table(), coach.layout(), shot.cue.phi).map(mark);
-    format!("{hit}; aim from {behind} to {ahead} diamonds")
+    let system = system_words(coach).map_or(String::new(), |words| format!(". {words}"));
+    format!("{hit}; aim from {behind} to {ahead} diamonds{system}")
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.
@@ -181,6 +195,11 @@ fn selected_ball(coach: &CoachPage) -> String {
     let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
     let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
     let near = nearest.map_or(String::new(), |other| format!(", {} mm from {}", millimetres(gap(other)), names[other]));
-    let (x, y) = (millimetres(balls[ball].x), millimetres(balls[ball].y));
-    format!("{} at x {x} mm, y {y} mm{near}; step {}", names[ball], step_words(coach.step_mm()))
+    let place = if coach.counts_diamonds() {
+        let place = in_diamonds(coach.table(), balls[ball]);
+        format!("{}d,{}d", fixed(place.x, 2), fixed(place.y, 2))
+    } else {
+        format!("x {} mm, y {} mm", millimetres(balls[ball].x), millimetres(balls[ball].y))
+    };
+    format!("{} at {place}{near}; step {}", names[ball], coach.step_words())
 }

@@ -1,0 +1,236 @@
+//! Which system describes a shot, and what it says on the player's table.
+
+use glam::DVec2;
+use serde::Serialize;
+
+use super::{
+    leg::Leg,
+    lines::{Line, Mirror, behind_at, metres},
+    shift::Shift,
+    system::{Numbers, System},
+};
+use crate::{simulation::Recording, table::Table};
+
+/// Least side at the first cushion that is running side, `R w / v`; where a system supposes none it is less.
+const RUNNING: f64 = 0.15;
+/// How far from the system's aim on the first cushion a shot's may be that it still describes, diamonds. Tables differ by
+/// half a diamond from each other.
+const NEAR: f64 = 1.0;
+/// How far along the line of the example its ball lies.
+const EXAMPLE: f64 = 0.25;
+/// Lines that are tried on the first cushion.
+const TRIED: usize = 48;
+/// Most by which the arrival changes from one of them to the next, diamonds; and the third number.
+const JUMPS: [f64; 2] = [0.7, 10.0];
+/// Halvings of the distance between two of them: to a thousandth of a diamond and further.
+const HALVINGS: u32 = 12;
+
+/// What a player counts for a shot.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Guide {
+    /// A system's numbers.
+    System(Applied),
+    /// A line beside it, where no system has it.
+    Shift(Shift),
+}
+
+/// A system for one shot.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Applied {
+    /// The system.
+    #[serde(rename = "name")]
+    pub system: System,
+    /// The numbers of the line that the system gives from where the ball comes from to where it is to arrive: where the shot
+    /// arrives on the third cushion.
+    #[serde(flatten)]
+    pub numbers: Numbers,
+    /// What the first number must be on this table for that arrival with the system's stroke; `None` where none brings it there.
+    pub table_first: Option<f64>,
+    /// Where the ball arrives on this table if it is aimed as the system says; `None` where it has no number there.
+    pub table_third: Option<f64>,
+    /// The first number at which the shot itself is aimed, with its own side and speed.
+    pub shot_first: Option<f64>,
+    /// How the table is turned over against the way in which the system is taught.
+    #[serde(skip)]
+    pub mirror: Mirror,
+    /// The system's line, as it is taught.
+    #[serde(skip)]
+    pub line: Line,
+    /// Where the shot arrives, in diamonds along the third cushion.
+    #[serde(skip)]
+    pub arrival: f64,
+}
+
+/// What a player counts for a recorded shot; `None` where it has no three cushions in a row, or no system is near.
+pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
+    let leg = Leg::of(table, recording)?;
+    let system = System::ALL.into_iter().find_map(|system| Applied::of(system, table, &leg)).map(Guide::System);
+    system.or_else(|| Shift::of(table, &leg).map(Guide::Shift))
+}
+
+impl Applied {
+    /// `system` for the three cushions of a shot; `None` where it does not describe them.
+    fn of(system: System, table: &Table, leg: &Leg) -> Option<Self> {
+        let rails = leg.rails();
+        let mirror = Mirror::ALL.into_iter().find(|mirror| rails.map(|rail| mirror.rail(rail)) == system.rails())?;
+        if (leg.english > RUNNING) != system.is_running() || leg.english < -RUNNING {
+            return None;
+        }
+        let place = |index: usize| mirror.place(leg.hits[index].1);
+        let arrival = system.arrival(table, place(1), place(2))?;
+        let applied = Self::counted(system, table, mirror, mirror.place(leg.from), arrival)?;
+        let shot = Line::between(applied.line.from, place(0));
+        let (counted, played) = (system.first_along(&applied.line)?, system.first_along(&shot)?);
+        let shot_first = system.numbers(&shot).map(|numbers| numbers.first);
+        ((counted - played).abs() <= NEAR).then_some(Self { shot_first, ..applied })
+    }
+
+    /// What `system` says of a ball whose middle is at `from` and that is to arrive at `arrival` on the third cushion, both in
+    /// diamonds and as the system is taught; `None` where it has no line for it.
+    fn counted(system: System, table: &Table, mirror: Mirror, from: DVec2, arrival: f64) -> Option<Self> {
+        let wanted = system.third_number(arrival)?;
+        let aimed = |along: f64| Line::between(from, system.first_at(along));
+        let [low, _] = system.first_ends();
+        let third_off = |along: f64| Some(system.numbers(&aimed(along))?.third - wanted);
+        let counted = solve(system, low, JUMPS[1], third_off)?;
+        let line = aimed(counted);
+        let played = |line: &Line| system.played(table, mirror, line, &system.natural());
+        let on_table = solve(system, counted, JUMPS[0], |along| Some(played(&aimed(along))? - arrival)).map(aimed);
+        Some(Self {
+            system,
+            numbers: system.numbers(&line)?,
+            table_first: on_table.and_then(|line| system.numbers(&line)).map(|numbers| numbers.first),
+            table_third: played(&line).and_then(|along| system.third_number(along)),
+            shot_first: None,
+            mirror,
+            line,
+            arrival,
+        })
+    }
+
+    /// The line that a system is taught with, on this table.
+    pub fn example(system: System, table: &Table) -> Option<Self> {
+        let line = system.example();
+        let from = line.from + EXAMPLE * line.way;
+        Self::counted(system, table, Mirror::default(), from, system.third_along(system.numbers(&line)?.third)?)
+    }
+
+    /// The way of a ball that runs as the system supposes on the system's line, as this table plays it, from the diamond behind
+    /// it to the third cushion: the middles of the ball at the cushions, m.
+    pub fn path(&self, table: &Table) -> Vec<DVec2> {
+        let Self { system, mirror, line, .. } = self;
+        let turned = |place: DVec2| metres(table, mirror.place(place));
+        let line_on_table = Line::between(mirror.place(line.from), mirror.place(line.from + line.way));
+        let hits = system.natural().run(table, &line_on_table, mirror.rail(system.rails()[0]));
+        let behind = line.behind().map(|along| turned(behind_at(along)));
+        let hits = hits.into_iter().take(3).map(|(_, place)| metres(table, place));
+        behind.into_iter().chain([turned(line.from)]).chain(hits).collect()
+    }
+}
+
+/// The place on a system's first cushion at which `error` is nought, of several the one nearest to `near`. Between two lines
+/// that are tried it changes by less than `jump`: where the course takes another cushion it leaps, and that is no solution.
+fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let [low, high] = system.first_ends();
+    let at = |step: usize| low + (high - low) * step as f64 / TRIED as f64;
+    let errors: Vec<Option<f64>> = (0..=TRIED).map(|step| error(at(step))).collect();
+    let exact = |step: usize| errors[step].filter(|error| error.abs() < EXACT).map(|_| (at(step), None));
+    let crossed = |step: usize| match (errors[step], errors.get(step + 1).copied().flatten()) {
+        (Some(one), Some(other)) if one * other < 0.0 && (one - other).abs() < jump => {
+            Some((at(step), Some(one < 0.0)))
+        }
+        _ => None,
+    };
+    let found = (0..=TRIED).filter_map(|step| exact(step).or_else(|| crossed(step)));
+    let (mut low, below) = found.min_by(|one, other| (one.0 - near).abs().total_cmp(&(other.0 - near).abs()))?;
+    let Some(below) = below else { return Some(low) };
+    let mut high = low + at(1) - at(0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if (error(middle)? < 0.0) == below {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(0.5 * (low + high))
+}
+
+/// An error that is nought but for rounding.
+const EXACT: f64 = 1e-9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{physics::CueInputs, table::Layout};
+
+    fn guided(layout: &str, cue: &str) -> Option<Guide> {
+        let table = Table::default();
+        let layout = Layout::parse(layout, &table).unwrap();
+        guide(&table, &Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap())
+    }
+
+    #[test]
+    fn every_example_is_counted_as_it_is_taught_and_corrected_by_what_the_table_plays() {
+        let table = Table::default();
+        for (system, numbers) in
+            [(System::Corner5, [50.0, 20.0, 30.0]), (System::Plus, [4.0, 3.0, 7.0]), (System::Seven, [4.0, 24.0, 6.0])]
+        {
+            let applied = Applied::example(system, &table).unwrap();
+            let Numbers { start, first, third } = applied.numbers;
+            assert!(
+                [start, first, third].iter().zip(numbers).all(|(one, other)| (one - other).abs() < 0.1),
+                "{applied:?}"
+            );
+            // Aimed at the table's own number the natural stroke does arrive there.
+            let on_table = Line::between(applied.line.from, system.first_at(first_along(system, &applied)));
+            let arrival = system.played(&table, applied.mirror, &on_table, &system.natural()).unwrap();
+            assert!((arrival - applied.arrival).abs() < 0.02, "{system}: {arrival} for {}", applied.arrival);
+            assert_eq!(applied.path(&table).len(), 5, "{system}");
+        }
+    }
+
+    /// Where the line leads that has the table's first number.
+    fn first_along(system: System, applied: &Applied) -> f64 {
+        let aimed = |along: f64| Line::between(applied.line.from, system.first_at(along));
+        let first = applied.table_first.unwrap();
+        let near = system.first_along(&applied.line).unwrap();
+        solve(system, near, 10.0, |along| Some(system.numbers(&aimed(along))?.first - first)).unwrap()
+    }
+
+    #[test]
+    fn a_bank_with_running_side_is_counted_by_corner_5_whichever_way_it_runs() {
+        // From the lower right corner to the upper long cushion, and its three mirror images.
+        let mut told = Vec::new();
+        for (layout, cue) in [
+            ("6d,1d 7d,3.5d 0.5d,0.5d", "0.4,0.3,0,133,4"),
+            ("2d,1d 1d,3.5d 7.5d,0.5d", "-0.4,0.3,0,47,4"),
+            ("6d,3d 7d,0.5d 0.5d,3.5d", "-0.4,0.3,0,227,4"),
+            ("2d,3d 1d,0.5d 7.5d,3.5d", "0.4,0.3,0,313,4"),
+        ] {
+            let Some(Guide::System(applied)) = guided(layout, cue) else {
+                panic!("{layout} {:?}", guided(layout, cue))
+            };
+            assert_eq!(applied.system, System::Corner5);
+            told.push(applied.to_string());
+        }
+        assert!(told[0].starts_with("Corner-5: ") && told.iter().all(|words| *words == told[0]), "{told:?}");
+    }
+
+    #[test]
+    fn without_running_side_or_three_cushions_no_system_is_named() {
+        assert_eq!(guided("6d,1d 7d,3.5d 0.5d,0.5d", "0,0,0,133,0.6"), None);
+        let reverse = guided("6d,1d 7d,3.5d 0.5d,0.5d", "-0.4,0.3,0,133,4");
+        assert!(!matches!(reverse, Some(Guide::System(_))), "{reverse:?}");
+    }
+
+    #[test]
+    fn a_line_that_no_system_has_is_counted_from_the_line_beside_it() {
+        // Three times across: long, the other long, the first long.
+        let Some(Guide::Shift(shift)) = guided("2.3d,1d 7d,3.5d 0.5d,0.5d", "0,0.2,0,75,4") else { panic!() };
+        assert_eq!(shift.rails, [crate::simulation::Rail::Top; 2]);
+        assert!((shift.third - shift.table_third).abs() < 0.1 && shift.by.abs() <= 0.5, "{shift:?}");
+        assert!(shift.to_string().starts_with("Parallel shift: top 3 comes to top "), "{shift}");
+    }
+}

@@ -1,0 +1,132 @@
+//! The table in diamonds, as players count: lines of aim, and where they meet the diamonds.
+//!
+//! Places are counted from the lower left corner of the noses, 8 along the length and 4 along the width.
+
+use glam::DVec2;
+
+use crate::{simulation::Rail, table::Table};
+
+/// How far behind the noses the diamonds stand, in diamonds: 80 mm on a match table.
+pub const BEHIND: f64 = 0.225;
+
+/// Diamonds along the length and along the width.
+const SIZE: DVec2 = DVec2::new(8.0, 4.0);
+
+/// A place in metres, from the middle of `table`, in diamonds.
+pub fn diamonds(table: &Table, place: DVec2) -> DVec2 {
+    (place / DVec2::new(table.length, table.width) + 0.5) * SIZE
+}
+
+/// A place in diamonds in metres, from the middle of `table`.
+pub fn metres(table: &Table, place: DVec2) -> DVec2 {
+    (place / SIZE - 0.5) * DVec2::new(table.length, table.width)
+}
+
+/// A table turned over, so that a shot runs as its system is taught.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Mirror {
+    /// Left is right.
+    pub x: bool,
+    /// Above is below.
+    pub y: bool,
+}
+
+impl Mirror {
+    /// All four.
+    pub const ALL: [Self; 4] = [
+        Self { x: false, y: false },
+        Self { x: true, y: false },
+        Self { x: false, y: true },
+        Self { x: true, y: true },
+    ];
+
+    /// A place in diamonds, turned over; twice is not at all.
+    pub fn place(self, place: DVec2) -> DVec2 {
+        DVec2::select(glam::BVec2::new(self.x, self.y), SIZE - place, place)
+    }
+
+    /// A cushion, turned over.
+    pub const fn rail(self, rail: Rail) -> Rail {
+        match rail {
+            Rail::Left if self.x => Rail::Right,
+            Rail::Right if self.x => Rail::Left,
+            Rail::Top if self.y => Rail::Bottom,
+            Rail::Bottom if self.y => Rail::Top,
+            rail => rail,
+        }
+    }
+}
+
+/// A line on which the middle of a ball runs, in diamonds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// A place on it.
+    pub from: DVec2,
+    /// Where it leads, of any length but nought.
+    pub way: DVec2,
+}
+
+impl Line {
+    /// From one place to another.
+    pub fn between(from: DVec2, to: DVec2) -> Self {
+        Self { from, way: to - from }
+    }
+
+    /// Where it meets the vertical line at `x`, as `y` there.
+    pub fn at_x(&self, x: f64) -> Option<f64> {
+        let y = self.from.y + (x - self.from.x) / self.way.x * self.way.y;
+        y.is_finite().then_some(y)
+    }
+
+    /// Where it meets the horizontal line at `y`, as `x` there.
+    pub fn at_y(&self, y: f64) -> Option<f64> {
+        let x = self.from.x + (y - self.from.y) / self.way.y * self.way.x;
+        x.is_finite().then_some(x)
+    }
+
+    /// Where a line that leads up and to the left comes from, along the diamonds of the lower cushion to the right and on up
+    /// those of the right one: their corner is at 8.225.
+    pub fn behind(&self) -> Option<f64> {
+        if self.way.x >= 0.0 || self.way.y <= 0.0 {
+            return None;
+        }
+        let corner = 8.0 + BEHIND;
+        match self.at_y(-BEHIND)? {
+            x if x <= corner => Some(x),
+            _ => Some(corner + self.at_x(corner)? + BEHIND),
+        }
+    }
+}
+
+/// The place at the diamonds of which [`Line::behind`] says how far along it is.
+pub fn behind_at(along: f64) -> DVec2 {
+    let corner = 8.0 + BEHIND;
+    if along <= corner { DVec2::new(along, -BEHIND) } else { DVec2::new(corner, along - corner - BEHIND) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_along_the_diamonds_goes_round_the_corner_and_back() {
+        for along in [0.5, 4.0, 8.0, 8.225, 8.5, 10.4] {
+            let line = Line::between(behind_at(along), DVec2::new(0.3, 4.1));
+            assert!((line.behind().unwrap() - along).abs() < 1e-12, "{along}");
+        }
+        assert_eq!(Line::between(DVec2::ZERO, DVec2::ONE).behind(), None);
+    }
+
+    #[test]
+    fn turned_over_twice_is_as_before() {
+        let table = Table::default();
+        let place = DVec2::new(1.5, 3.25);
+        for mirror in Mirror::ALL {
+            assert_eq!(mirror.place(mirror.place(place)), place);
+            for rail in Rail::ALL {
+                assert_eq!(mirror.rail(mirror.rail(rail)), rail);
+            }
+        }
+        assert!(diamonds(&table, metres(&table, place)).distance(place) < 1e-12);
+    }
+}

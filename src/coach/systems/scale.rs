@@ -1,0 +1,47 @@
+//! Numbers along a cushion.
+
+/// Numbers and their places along a cushion, in diamonds; both ascend. Between them a part of the way is the same part of the
+/// difference.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale(pub &'static [(f64, f64)]);
+
+impl Scale {
+    /// The number at a place; `None` beyond the ends.
+    pub fn number(&self, place: f64) -> Option<f64> {
+        between(self.0.iter().map(|(number, place)| (*place, *number)), place)
+    }
+
+    /// The place of a number; `None` beyond the ends.
+    pub fn place(&self, number: f64) -> Option<f64> {
+        between(self.0.iter().copied(), number)
+    }
+
+    /// The places of both ends.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.0[0].1, self.0[self.0.len() - 1].1]
+    }
+}
+
+/// What belongs to `x` between points whose first coordinates ascend.
+pub fn between(points: impl Iterator<Item = (f64, f64)> + Clone, x: f64) -> Option<f64> {
+    // What is off by rounding alone is an end.
+    const ROUNDING: f64 = 1e-9;
+    points.clone().zip(points.skip(1)).find_map(|((from, low), (to, high))| {
+        let is_there = from - ROUNDING <= x && x <= to + ROUNDING;
+        is_there.then(|| low + (x - from) / (to - from) * (high - low))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_places_are_each_others_inverse_and_end_where_the_scale_does() {
+        let scale = Scale(&[(0.0, 0.2), (10.0, 1.0), (20.0, 3.0)]);
+        for number in [0.0, 3.0, 10.0, 19.5, 20.0] {
+            assert!((scale.number(scale.place(number).unwrap()).unwrap() - number).abs() < 1e-12);
+        }
+        assert_eq!((scale.number(0.1), scale.place(20.1), scale.ends()), (None, None, [0.2, 3.0]));
+    }
+}

@@ -1,0 +1,104 @@
+//! The parallel shift: where no system has numbers for a line, a player counts from a line beside it that leads to a diamond.
+//!
+//! Where the third cushion lies along the first, a ball that is aimed so much further along the first arrives as much further
+//! along the third; further the other way where the cushion between them lies across.
+
+use serde::Serialize;
+
+use super::{
+    leg::Leg,
+    lines::{BEHIND, Line, diamonds, metres},
+    natural::hits,
+};
+use crate::{simulation::Rail, table::Table};
+
+/// How far from where the ball arrives the shift may be that it still tells, diamonds.
+const NEAR: f64 = 0.5;
+
+/// A line that leads to a diamond, and the shot's line beside it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shift {
+    /// Always `parallel-shift`.
+    name: &'static str,
+    /// The first cushion and the third.
+    pub rails: [Rail; 2],
+    /// The diamond of the first cushion to which the parallel line leads.
+    pub diamond: f64,
+    /// Where the ball arrives from there, in diamonds along the third cushion's nose.
+    pub arrival: f64,
+    /// How far the shot's line is beside it on the first cushion, diamonds.
+    pub by: f64,
+    /// Where the ball arrives by the shift, in diamonds along the third cushion.
+    pub third: f64,
+    /// Where it arrives on this table.
+    pub table_third: f64,
+}
+
+impl Shift {
+    /// The shift from the nearest line that leads to a diamond and takes the same cushions; `None` where there is none, it
+    /// is too far off, or the third cushion does not lie along the first.
+    pub(super) fn of(table: &Table, leg: &Leg) -> Option<Self> {
+        let [first, second, third] = leg.rails();
+        if is_long(first) != is_long(third) {
+            return None;
+        }
+        let aimed = aimed_at(&leg.line(), first)?;
+        let lower = aimed.floor();
+        let mut beside = [lower, lower + 1.0];
+        beside.sort_by(|one, other| (one - aimed).abs().total_cmp(&(other - aimed).abs()));
+        let turned = if is_long(first) == is_long(second) { 1.0 } else { -1.0 };
+        let table_third = along(leg.hits[2].1, third);
+        beside.into_iter().find_map(|diamond| {
+            let by = aimed - diamond;
+            let arrival = arrival(table, leg, -by)?;
+            let third = arrival + turned * by;
+            ((third - table_third).abs() <= NEAR).then_some(Self {
+                name: "parallel-shift",
+                rails: [first, leg.hits[2].0],
+                diamond,
+                arrival,
+                by,
+                third,
+                table_third,
+            })
+        })
+    }
+}
+
+/// Where the shot's ball arrives if it comes to the first cushion `by` diamonds further along it; `None` where it takes other
+/// cushions.
+fn arrival(table: &Table, leg: &Leg, by: f64) -> Option<f64> {
+    let (place, motion) = &leg.motion;
+    let first = leg.hits[0].0;
+    let further = if is_long(first) { glam::DVec2::X } else { glam::DVec2::Y } * by;
+    let place = diamonds(table, *place) + further;
+    // Just before the cushion, so that it is met.
+    let back = 0.01 * motion.velocity.normalize_or_zero();
+    let place = metres(table, place) - back;
+    let reach = table.reach();
+    if place.abs().cmpgt(reach).any() {
+        return None;
+    }
+    let hits = hits(table, place, motion);
+    let same = hits.get(..3)?.iter().zip(leg.rails()).all(|((rail, _), other)| *rail == other);
+    same.then(|| along(hits[2].1, hits[2].0))
+}
+
+/// Where a line of aim meets the diamonds of a cushion.
+fn aimed_at(line: &Line, rail: Rail) -> Option<f64> {
+    match rail {
+        Rail::Top => line.at_y(4.0 + BEHIND),
+        Rail::Bottom => line.at_y(-BEHIND),
+        Rail::Left => line.at_x(-BEHIND),
+        Rail::Right => line.at_x(8.0 + BEHIND),
+    }
+}
+
+const fn is_long(rail: Rail) -> bool {
+    matches!(rail, Rail::Top | Rail::Bottom)
+}
+
+/// How far along a cushion a place is, in diamonds.
+const fn along(place: glam::DVec2, rail: Rail) -> f64 {
+    if is_long(rail) { place.x } else { place.y }
+}

@@ -1,0 +1,414 @@
+//! The systems: their numbers at the diamonds, their cushions, and the stroke that they suppose.
+//!
+//! All are told as they are taught: the line of aim leads up and to the left. [`super::Mirror`] has the other three ways.
+
+use std::fmt;
+
+use glam::DVec2;
+use serde::{Serialize, Serializer};
+
+use super::{
+    lines::{BEHIND, Line, Mirror, behind_at},
+    natural::Natural,
+    plus,
+    scale::Scale,
+};
+use crate::{simulation::Rail, table::Table};
+
+/// A diamond system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum System {
+    /// Long, short, long with running side: first = start − third.
+    Corner5,
+    /// Short, long, long with running side: third = start + first.
+    Plus,
+    /// Short, long, short without side: first = start × third.
+    Seven,
+}
+
+/// The numbers of a line by a system.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Numbers {
+    /// Where the line comes from.
+    pub start: f64,
+    /// Where it leads on the first cushion.
+    pub first: f64,
+    /// Where the ball arrives on the third cushion.
+    pub third: f64,
+}
+
+/// Numbers and the places where they stand, in diamonds, as the system is taught.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Labels {
+    /// Where the line of aim comes from: behind the noses, at the diamonds.
+    pub start: Vec<(f64, DVec2)>,
+    /// Where it leads.
+    pub first: Vec<(f64, DVec2)>,
+    /// Where the ball arrives.
+    pub third: Vec<(f64, DVec2)>,
+}
+
+/// Starts of Corner-5, along the lower and the right diamonds.
+const CORNER_5_START: Scale = Scale(&[
+    (0.0, 0.0),
+    (13.0, 1.0),
+    (20.0, 2.0),
+    (25.0, 3.0),
+    (30.0, 4.0),
+    (35.0, 5.0),
+    (40.0, 6.0),
+    (45.0, 7.0),
+    (50.0, 8.225),
+    (60.0, 9.45),
+    (70.0, 10.45),
+    (80.0, 10.95),
+    (90.0, 11.45),
+]);
+/// Its first cushion: ten a diamond, and from 50 on twenty.
+const CORNER_5_FIRST: Scale = Scale(&[(0.0, 0.0), (50.0, 5.0), (90.0, 7.0)]);
+/// Its third cushion, at the nose.
+const CORNER_5_THIRD: Scale = Scale(&[
+    (0.0, 0.2),
+    (10.0, 1.0),
+    (20.0, 2.0),
+    (30.0, 2.9),
+    (40.0, 3.7),
+    (50.0, 4.4),
+    (60.0, 5.0),
+    (70.0, 5.5),
+    (80.0, 6.0),
+    (90.0, 6.5),
+]);
+/// Starts of Plus: the diamond, and 8 in the corner.
+const PLUS_START: Scale = Scale(&[(2.0, 2.0), (7.0, 7.0), (8.0, 8.225)]);
+/// Starts of Seven: from the third diamond on, half a number each.
+const SEVEN_START: Scale = Scale(&[(2.5, 3.0), (4.5, 7.0), (5.0, 8.225), (6.0, 9.45)]);
+/// Its first cushion: ten a diamond.
+const SEVEN_FIRST: Scale = Scale(&[(0.0, 0.0), (40.0, 4.0)]);
+/// Its third cushion, from above down, counted from the top: see [`System::third_number`].
+const SEVEN_THIRD: Scale =
+    Scale(&[(4.0, 0.0), (5.0, 0.67), (6.0, 1.33), (7.0, 2.0), (8.0, 2.67), (9.0, 3.33), (10.0, 4.0)]);
+
+impl System {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Corner5, Self::Plus, Self::Seven];
+
+    /// The name by which players call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Corner5 => "Corner-5",
+            Self::Plus => "Plus",
+            Self::Seven => "Seven",
+        }
+    }
+
+    /// The name in files and in JSON.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Corner5 => "corner5",
+            Self::Plus => "plus",
+            Self::Seven => "seven",
+        }
+    }
+
+    /// Its arithmetic in words.
+    pub const fn rule(self) -> &'static str {
+        match self {
+            Self::Corner5 => "first = start - third",
+            Self::Plus => "first = third - start",
+            Self::Seven => "first = start x third",
+        }
+    }
+
+    /// The cushions, in order.
+    pub const fn rails(self) -> [Rail; 3] {
+        match self {
+            Self::Corner5 => [Rail::Top, Rail::Left, Rail::Bottom],
+            Self::Plus => [Rail::Left, Rail::Top, Rail::Bottom],
+            Self::Seven => [Rail::Left, Rail::Top, Rail::Right],
+        }
+    }
+
+    /// What its rails are, in order, in words.
+    pub const fn track(self) -> &'static str {
+        match self {
+            Self::Corner5 => "long, short, long",
+            Self::Plus => "short, long, long",
+            Self::Seven => "short, long, short",
+        }
+    }
+
+    /// Whether it supposes running side; else none.
+    pub const fn is_running(self) -> bool {
+        !matches!(self, Self::Seven)
+    }
+
+    /// The stroke that it supposes: one for all its lines, that with which its arrivals are nearest to those on the `match`
+    /// table, found by `study::filmed`.
+    pub const fn natural(self) -> Natural {
+        match self {
+            Self::Corner5 => Natural { side: 0.99, roll: 1.27, speed: 3.0 },
+            Self::Plus => Natural { side: 0.66, roll: 1.06, speed: 4.5 },
+            Self::Seven => Natural { side: -0.13, roll: 1.48, speed: 2.7 },
+        }
+    }
+
+    /// The numbers of a line that leads up and to the left; `None` where its ends, or the arrival, have none.
+    pub fn numbers(self, line: &Line) -> Option<Numbers> {
+        let start = self.start_scale().number(line.behind()?)?;
+        let place = self.first_along(line)?;
+        Some(match self {
+            Self::Corner5 => {
+                let first = CORNER_5_FIRST.number(place)?;
+                let third = start - first;
+                CORNER_5_THIRD.place(third)?;
+                Numbers { start, first, third }
+            }
+            Self::Plus => {
+                let third = plus::third(start, place)?;
+                Numbers { start, first: third - start, third }
+            }
+            Self::Seven => {
+                let first = SEVEN_FIRST.number(place)?;
+                let third = first / start;
+                SEVEN_THIRD.place(third)?;
+                Numbers { start, first, third }
+            }
+        })
+    }
+
+    const fn start_scale(self) -> Scale {
+        match self {
+            Self::Corner5 => CORNER_5_START,
+            Self::Plus => PLUS_START,
+            Self::Seven => SEVEN_START,
+        }
+    }
+
+    /// Where a line leads along the diamonds of the first cushion.
+    pub fn first_along(self, line: &Line) -> Option<f64> {
+        match self {
+            Self::Corner5 => line.at_y(4.0 + BEHIND),
+            Self::Plus | Self::Seven => line.at_x(-BEHIND),
+        }
+    }
+
+    /// The place of a point of the first cushion's diamonds.
+    pub const fn first_at(self, along: f64) -> DVec2 {
+        match self {
+            Self::Corner5 => DVec2::new(along, 4.0 + BEHIND),
+            Self::Plus | Self::Seven => DVec2::new(-BEHIND, along),
+        }
+    }
+
+    /// Where lines may lead along the diamonds of the first cushion: from and to.
+    pub fn first_ends(self) -> [f64; 2] {
+        match self {
+            Self::Corner5 => CORNER_5_FIRST.ends(),
+            Self::Plus => plus::ENDS,
+            Self::Seven => SEVEN_FIRST.ends(),
+        }
+    }
+
+    /// Where a ball arrives on the third cushion, in diamonds along it, whose way there leads from the middle `before` to the
+    /// middle `place`: at the nose, or at the diamonds through which it would run on, as the system counts. `None` where it
+    /// does not go there.
+    pub fn arrival(self, table: &Table, before: DVec2, place: DVec2) -> Option<f64> {
+        let leg = Line::between(before, place);
+        let radius = 4.0 * table.radius / table.width;
+        match self {
+            Self::Corner5 => leg.at_y(radius).filter(|_| leg.way.y < 0.0),
+            Self::Plus => leg.at_y(-BEHIND).filter(|_| leg.way.y < 0.0),
+            Self::Seven => leg.at_x(8.0 + BEHIND).filter(|_| leg.way.x > 0.0),
+        }
+    }
+
+    /// The number of an arrival, which is in diamonds along the third cushion; `None` beyond the scale.
+    pub fn third_number(self, along: f64) -> Option<f64> {
+        match self {
+            Self::Corner5 => CORNER_5_THIRD.number(along),
+            Self::Plus => (0.0..=8.0 + BEHIND).contains(&along).then_some(along),
+            Self::Seven => SEVEN_THIRD.number(4.0 - along),
+        }
+    }
+
+    /// The arrival of a number, in diamonds along the third cushion.
+    pub fn third_along(self, number: f64) -> Option<f64> {
+        match self {
+            Self::Corner5 => CORNER_5_THIRD.place(number),
+            Self::Plus => (0.0..=8.0 + BEHIND).contains(&number).then_some(number),
+            Self::Seven => SEVEN_THIRD.place(number).map(|down| 4.0 - down),
+        }
+    }
+
+    /// The place of an arrival.
+    pub const fn third_at(self, along: f64) -> DVec2 {
+        match self {
+            Self::Corner5 => DVec2::new(along, 0.0),
+            Self::Plus => DVec2::new(along, -BEHIND),
+            Self::Seven => DVec2::new(8.0 + BEHIND, along),
+        }
+    }
+
+    /// Where a ball that is played in its way arrives if it runs on `line`, in diamonds along the third cushion, on a table
+    /// that is turned over by `mirror`; `None` where it does not come there.
+    pub fn played(self, table: &Table, mirror: Mirror, line: &Line, stroke: &Natural) -> Option<f64> {
+        let [first, _, third] = self.rails();
+        let turned = Line::between(mirror.place(line.from), mirror.place(line.from + line.way));
+        let hits = stroke.run(table, &turned, mirror.rail(first));
+        let hit = |index: usize| hits.get(index).map(|(rail, place)| (mirror.rail(*rail), mirror.place(*place)));
+        // Past a corner the third cushion may be met before the second.
+        let index = if hit(1)?.0 == third { 1 } else { 2 };
+        self.arrival(table, hit(index - 1)?.1, hit(index)?.1)
+    }
+
+    /// The line with which it is taught.
+    pub fn example(self) -> Line {
+        match self {
+            Self::Corner5 => Line::between(behind_at(8.0 + BEHIND), self.first_at(2.0)),
+            Self::Plus => Line::between(behind_at(4.0), self.first_at(3.0)),
+            Self::Seven => Line::between(behind_at(6.0), self.first_at(2.4)),
+        }
+    }
+
+    /// The numbers that stand at the rails.
+    pub fn labels(self) -> Labels {
+        let scale = self.start_scale();
+        let numbers: &[f64] = match self {
+            Self::Corner5 => &[20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0],
+            Self::Plus => &[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
+            Self::Seven => &[2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0],
+        };
+        let start = numbers.iter().filter_map(|&number| Some((number, behind_at(scale.place(number)?))));
+        let first: Vec<(f64, f64)> = match self {
+            Self::Corner5 => [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0]
+                .iter()
+                .filter_map(|&number| Some((number, CORNER_5_FIRST.place(number)?)))
+                .collect(),
+            Self::Plus => vec![(5.0, 2.0), (4.0, 2.5), (3.0, 3.0), (2.0, 3.5)],
+            Self::Seven => {
+                [10.0, 20.0, 30.0].iter().filter_map(|&number| Some((number, SEVEN_FIRST.place(number)?))).collect()
+            }
+        };
+        let thirds: &[f64] = match self {
+            Self::Corner5 => &[10.0, 20.0, 30.0, 40.0],
+            Self::Plus => &[4.0, 5.0, 6.0, 7.0, 8.0],
+            Self::Seven => &[4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+        };
+        let third = thirds.iter().filter_map(|&number| Some((number, self.third_at(self.third_along(number)?))));
+        Labels {
+            start: start.collect(),
+            first: first.into_iter().map(|(number, along)| (number, self.first_at(along))).collect(),
+            third: third.collect(),
+        }
+    }
+}
+
+impl fmt::Display for System {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl Serialize for System {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.id())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    use super::*;
+
+    const FILE: &str = include_str!("../../../tests/data/filmed/systems.json");
+
+    #[derive(Deserialize)]
+    struct File {
+        systems: Vec<Told>,
+    }
+
+    #[derive(Deserialize)]
+    struct Told {
+        id: String,
+        cases: Vec<Case>,
+    }
+
+    #[derive(Deserialize)]
+    struct Case {
+        start: Option<f64>,
+        first: Option<f64>,
+        third: Option<f64>,
+        cue_line: [[f64; 2]; 2],
+        arrival_nose_x: Option<f64>,
+        arrival_frame_x: Option<f64>,
+        arrival_frame_right_y: Option<f64>,
+    }
+
+    #[test]
+    fn every_number_of_the_file_agrees_to_a_tenth() {
+        let mut counts = Vec::new();
+        for told in serde_json::from_str::<File>(FILE).unwrap().systems {
+            let system = System::ALL.into_iter().find(|system| system.id() == told.id).unwrap();
+            for case in &told.cases {
+                let [from, to] = case.cue_line.map(DVec2::from_array);
+                let line = Line::between(from, to);
+                let numbers = system.numbers(&line).unwrap_or_else(|| panic!("{system} {:?}", case.cue_line));
+                for (ours, theirs) in
+                    [(numbers.start, case.start), (numbers.first, case.first), (numbers.third, case.third)]
+                {
+                    assert!(theirs.is_none_or(|theirs| (ours - theirs).abs() <= 0.1), "{system} {line:?}: {numbers:?}");
+                }
+                let arrival = system.third_along(numbers.third).unwrap();
+                let wanted = case.arrival_nose_x.or(case.arrival_frame_x).or(case.arrival_frame_right_y).unwrap();
+                assert!((arrival - wanted).abs() <= 0.1, "{system} {line:?}: {arrival} for {wanted}");
+                assert!((system.third_number(arrival).unwrap() - numbers.third).abs() < 1e-9);
+            }
+            counts.push((told.id, told.cases.len()));
+        }
+        assert_eq!(counts, [("corner5".to_owned(), 42), ("plus".to_owned(), 23), ("seven".to_owned(), 35)]);
+    }
+
+    #[test]
+    fn a_line_that_no_system_has_has_no_numbers() {
+        let line = |from: [f64; 2], to: [f64; 2]| Line::between(DVec2::from(from), DVec2::from(to));
+        let steep = line([0.5, 0.5], [0.45, 3.0]);
+        assert_eq!(System::Seven.numbers(&steep), None);
+        assert_eq!(System::Corner5.numbers(&line([1.0, 1.0], [2.0, 3.0])), None, "it leads to the right");
+        assert_eq!(System::Plus.numbers(&line([8.225, 1.0], [-0.225, 3.5])), None);
+    }
+
+    #[test]
+    fn a_turned_table_is_played_as_the_one_that_is_taught() {
+        let table = Table::default();
+        let line = Line::between(DVec2::new(5.0, 0.6), DVec2::new(2.0, 4.225));
+        let played = |mirror| System::Corner5.played(&table, mirror, &line, &System::Corner5.natural()).unwrap();
+        for mirror in Mirror::ALL {
+            assert!((played(mirror) - played(Mirror::default())).abs() < 1e-6, "{mirror:?}");
+        }
+    }
+
+    #[test]
+    fn labels_stand_where_the_numbers_are() {
+        for system in System::ALL {
+            let labels = system.labels();
+            let mut counted = 0;
+            for (start, from) in &labels.start {
+                for (first, to) in &labels.first {
+                    if let Some(numbers) = system.numbers(&Line::between(*from, *to)) {
+                        counted += 1;
+                        assert!((numbers.start - start).abs() < 1e-9, "{system}");
+                        // From 6 on Plus has other numbers on the first cushion.
+                        assert!(
+                            system == System::Plus && *start > 5.0 || (numbers.first - first).abs() < 1e-9,
+                            "{system}"
+                        );
+                    }
+                }
+            }
+            assert!(counted > 10, "{system}: {counted}");
+            assert!(labels.third.len() >= 4);
+        }
+    }
+}

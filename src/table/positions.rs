@@ -1,0 +1,115 @@
+//! Positions as they are typed: one ball or several, by colour or not.
+
+use glam::DVec2;
+
+use super::{CueBall, Layout, LayoutError, Table, layout::place};
+
+/// Why what was typed cannot be taken.
+#[derive(Debug, thiserror::Error, PartialEq)]
+pub enum PositionsError {
+    /// A word is neither a position nor a ball.
+    #[error(
+        "\"{0}\" is no position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in metres from the middle, \
+         with a colour before it or not"
+    )]
+    Word(String),
+    /// A ball is named and nothing follows.
+    #[error("where is {0}? write {0} and x,y after it, like \"{0} 2d,0.5d\"")]
+    Missing(&'static str),
+    /// Two positions for no ball in particular.
+    #[error("{0} positions without a colour; write one, for the selected ball, or three: cue ball, the other, red")]
+    Count(usize),
+    /// Some have a colour and some have none.
+    #[error("some positions have a colour and some have none; write one before each, or before none")]
+    Mixed,
+    /// The balls cannot lie so.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+}
+
+impl Layout {
+    /// The balls as `text` puts them: `2d,0.5d` the ball `selected`, `2d,0.5d 6d,2d 4d,3.5d` the cue ball, the other and red,
+    /// `red 4d,3.5d` the one of that colour for who plays with `cue_ball`. All others stay.
+    ///
+    /// # Errors
+    /// [`PositionsError`], also where the balls could not lie so on `table`.
+    pub fn with_positions(
+        &self,
+        text: &str,
+        table: &Table,
+        cue_ball: CueBall,
+        selected: usize,
+    ) -> Result<Self, PositionsError> {
+        let names = cue_ball.names();
+        let mut words = text.split([' ', '\t', '\n', '\r', ';']).filter(|word| !word.is_empty());
+        let (mut named, mut bare) = (Vec::new(), Vec::new());
+        while let Some(word) = words.next() {
+            let position = |word: &str| place(word, table).ok_or_else(|| PositionsError::Word(word.to_owned()));
+            match names.iter().position(|name| is_called(name, word)) {
+                Some(ball) => named.push((ball, position(words.next().ok_or(PositionsError::Missing(names[ball]))?)?)),
+                None => bare.push(position(word)?),
+            }
+        }
+        let places: Vec<(usize, DVec2)> = match (named.len(), bare.len()) {
+            (0, 1) => vec![(selected, bare[0])],
+            (0, 3) => bare.into_iter().enumerate().collect(),
+            (_, 0) if !named.is_empty() => named,
+            (0, count) => return Err(PositionsError::Count(count)),
+            _ => return Err(PositionsError::Mixed),
+        };
+        let mut layout = *self;
+        for (ball, place) in places {
+            layout.balls[ball] = place;
+        }
+        layout.validate(table)?;
+        Ok(layout)
+    }
+}
+
+/// Whether `word` is the name of a ball or its first letter, in capitals or not, with a colon or not.
+fn is_called(name: &str, word: &str) -> bool {
+    let word = word.trim_end_matches([':', '=']);
+    word.eq_ignore_ascii_case(name) || word.eq_ignore_ascii_case(&name[..1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn typed(text: &str) -> Result<Layout, String> {
+        let table = Table::default();
+        Layout::opening(&table).with_positions(text, &table, CueBall::Yellow, 2).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn one_ball_some_or_all_are_put_where_they_are_typed() {
+        let table = Table::default();
+        let opening = Layout::opening(&table);
+        let all = Layout::parse("2d,0.5d 6d,2d 4d,3.5d", &table).unwrap();
+        assert_eq!(typed("2d,0.5d 6d,2d 4d,3.5d"), Ok(all));
+        assert_eq!(typed(" 2d,0.5d\n6d,2d;4d,3.5d "), Ok(all), "as it is pasted");
+        let [_, _, red] = all.balls;
+        assert_eq!(typed("4d,3.5d").unwrap().balls, [opening.balls[0], opening.balls[1], red]);
+        assert_eq!(typed("4d,3.5d"), typed("Red: 4d,3.5d"));
+        // Yellow is the cue ball here.
+        assert_eq!(typed("w 6d,2d y 2d,0.5d red 4d,3.5d"), Ok(all));
+        assert_eq!(typed("-0.71,-0.5325").unwrap().balls[2], all.balls[0]);
+    }
+
+    #[test]
+    fn what_cannot_be_taken_is_named_with_what_would_be() {
+        for (text, part) in [
+            ("", "0 positions"),
+            ("2d,1d 3d,1d", "2 positions"),
+            ("blue 2d,1d", "\"blue\""),
+            ("2d;1d", "\"2d\""),
+            ("red", "where is red?"),
+            ("red 2d,1d 3d,3d", "some have none"),
+            ("9d,1d", "outside the table"),
+            ("nan,1d", "finite"),
+        ] {
+            let error = typed(text).unwrap_err();
+            assert!(error.contains(part), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Typing where the balls lie, and pasting it: one ball or all of them, in diamonds or metres, or a share code.
+
+use crate::{
+    drills::{decode, is_code},
+    terminal::{
+        pages::coach::CoachPage,
+        ui::{Message, TextField},
+    },
+};
+
+/// Longest text that is typed or pasted, bytes: a share code with room to spare.
+const LONGEST: usize = 600;
+
+impl CoachPage {
+    /// Asks where the balls are to lie.
+    pub(super) fn ask_positions(&mut self) {
+        self.playback.pause();
+        self.typed = Some(TextField::new(LONGEST));
+    }
+
+    /// Puts the balls where it was typed; what cannot be taken stays, to be mended.
+    pub(super) fn take_positions(&mut self) {
+        let Some(field) = self.typed.take() else { return };
+        if let Err(sentence) = self.take_typed(field.text()) {
+            self.typed = Some(field);
+            self.message = Some(Message::warning(sentence));
+        }
+    }
+
+    /// Puts the balls where the pasted text says.
+    pub(super) fn paste(&mut self, text: &str) {
+        if let Err(sentence) = self.take_typed(text) {
+            // Whoever pastes by accident is not asked to mend it.
+            self.message = Some(Message::warning(format!("nothing is taken of what was pasted: {sentence}")));
+        }
+    }
+
+    fn take_typed(&mut self, text: &str) -> Result<(), String> {
+        // What is longer is neither, and no sentence is to repeat it all.
+        let text = text.get(..LONGEST).unwrap_or(text).trim();
+        if is_code(text) {
+            let exercise = decode(text).map_err(|error| error.to_string())?;
+            let table = exercise.table().map_err(|error| error.to_string())?;
+            self.take_position(&table, exercise.layout, exercise.rule);
+            self.message = Some(Message::good(format!("the balls of \"{}\"; Enter asks the coach", exercise.title)));
+            return Ok(());
+        }
+        let layout = self
+            .layout()
+            .with_positions(text, self.table(), self.cue_ball(), self.selected)
+            .map_err(|error| error.to_string())?;
+        self.cancel();
+        self.place(layout);
+        self.message = Some(Message::good("the balls lie where it was typed; Enter asks the coach"));
+        Ok(())
+    }
+
+    /// What is asked over the table, and the text that is typed there.
+    pub(super) fn asked(&self) -> Option<(String, Option<&TextField>)> {
+        if let Some(field) = &self.typed {
+            let names = self.cue_ball().names();
+            let one = names[self.selected];
+            let words = format!(
+                "where? 2d,0.5d for {one}, three for {}, {}, red; \"red 4d,3.5d\"; a share code: ",
+                names[0], names[1]
+            );
+            return Some((words, Some(field)));
+        }
+        Some((self.saving.text()?, self.saving.field()))
+    }
+}

@@ -1,0 +1,150 @@
+//! The lesson on a diamond system: its numbers at the rails of the table, the ball's way, and the arithmetic.
+
+use glam::DVec2;
+use ratatui::{
+    layout::Rect,
+    style::Modifier,
+    text::{Line, Span},
+};
+
+use crate::{
+    coach::systems::{BEHIND, metres, number},
+    table::Table,
+    terminal::{
+        Glyphs, Mapping,
+        pages::coach::{CoachPage, lesson::Lesson},
+        ui::{Spot, Theme, Ui, columns, draw_title, wrap},
+    },
+};
+
+/// Distance of the dots of the way, m.
+const DOTS: f64 = 0.05;
+
+/// The ball's way as dots, from the diamond that it comes from.
+pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
+    let dot = |place: DVec2| Spot { place, is_ball: false, color: theme.accent, letter: '.' };
+    let legs = lesson.path.windows(2).flat_map(|leg| {
+        let way = leg[1] - leg[0];
+        let count = (way.length() / DOTS).ceil().max(1.0) as u32;
+        let from = leg[0];
+        (0..count).map(move |step| from + f64::from(step) / f64::from(count) * way)
+    });
+    legs.chain(lesson.path.last().copied()).map(dot).collect()
+}
+
+/// Writes the system's numbers: starts and first cushion on the rails, the third cushion on the cloth before it.
+pub fn draw_numbers(lesson: &Lesson, table: &Table, mapping: &Mapping, ui: &mut Ui) {
+    let (system, labels) = (lesson.applied.system, lesson.applied.system.labels());
+    let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
+    let on_rail = ui.theme.text().bg(back).add_modifier(Modifier::BOLD);
+    let on_cloth = ui.theme.accent().bg(ui.theme.cloth).add_modifier(Modifier::BOLD);
+    let on_cloth = if ui.caps.glyphs == Glyphs::Letters { ui.theme.accent() } else { on_cloth };
+    for (value, place) in labels.start.iter().chain(&labels.first) {
+        write_at(&number(system, *value), lesson.applied.mirror.place(*place), false, table, mapping, on_rail, ui);
+    }
+    for (value, place) in &labels.third {
+        write_at(&number(system, *value), lesson.applied.mirror.place(*place), true, table, mapping, on_cloth, ui);
+    }
+}
+
+/// Writes a number at a place on the edge, in diamonds: on the rail, or on the cloth before it.
+fn write_at(
+    text: &str,
+    place: DVec2,
+    is_inside: bool,
+    table: &Table,
+    mapping: &Mapping,
+    style: ratatui::style::Style,
+    ui: &mut Ui,
+) {
+    let (bed, width) = (mapping.bed, columns(text) as u16);
+    let inside = place.clamp(DVec2::ZERO, DVec2::new(8.0, 4.0));
+    let (column, row) = mapping.to_cell(metres(table, inside));
+    let is_above = place.y > 4.0 - 0.5 * BEHIND;
+    let is_below = place.y < 0.5 * BEHIND;
+    let is_left = place.x < 0.5 * BEHIND;
+    let outer = mapping.outer();
+    let (x, y) = if (is_above || is_below) && (0.0..=8.0).contains(&place.x) {
+        let y = match (is_above, is_inside) {
+            (true, true) => bed.y,
+            (true, false) => bed.y - 1,
+            (false, true) => bed.bottom() - 1,
+            (false, false) => bed.bottom(),
+        };
+        (column.saturating_sub(width / 2).clamp(bed.x, bed.right().saturating_sub(width)), y)
+    } else {
+        // In the corner the number stands where both rails meet.
+        let y = match () {
+            () if is_below && !is_inside => bed.bottom(),
+            () if is_above && !is_inside => bed.y - 1,
+            () => row,
+        };
+        let x = match (is_left, is_inside) {
+            (true, true) => bed.x,
+            (true, false) => outer.x,
+            (false, true) => bed.right().saturating_sub(width),
+            (false, false) => outer.right().saturating_sub(width.max(2)),
+        };
+        (x, y)
+    };
+    ui.buffer.set_string(x, y, text, style);
+}
+
+/// Draws the panel: the arithmetic, then what the system is, as far as there is room.
+pub fn draw_lesson(lesson: &Lesson, area: Rect, ui: &mut Ui) {
+    let system = lesson.applied.system;
+    let dash = ui.caps.pick(" · ", " - ");
+    let title = vec![
+        Span::styled("System", ui.theme.text()),
+        Span::styled(dash, ui.theme.faint()),
+        Span::styled(system.name(), ui.theme.good()),
+        Span::styled(if lesson.is_of_shot { " for this shot" } else { " example" }, ui.theme.faint()),
+    ];
+    let inner = draw_title(title, area, ui);
+    let width = usize::from(inner.width.saturating_sub(2));
+    let side = if system.is_running() { "running side" } else { "no side" };
+    let own =
+        lesson.applied.shot_first.map(|first| format!("the shot itself, with its side, at {}", number(system, first)));
+    let sentences = [
+        (format!("{}: aim at {}", lesson.applied.arithmetic(), lesson.applied.aim()), true),
+        (lesson.applied.correction(), true),
+        (own.unwrap_or_default(), true),
+        (format!("{}; {side}", system.track()), false),
+        (system.rule().to_owned(), false),
+        (
+            "On the rails: where the line comes from and the first cushion; aim through the diamond on the wood."
+                .to_owned(),
+            false,
+        ),
+        ("On the cloth: where the ball comes to the third cushion.".to_owned(), false),
+    ];
+    let lines = sentences.into_iter().filter(|(words, _)| !words.is_empty()).flat_map(|(words, is_main)| {
+        let style = if is_main { ui.theme.text() } else { ui.theme.faint() };
+        wrap(&words, width).into_iter().map(move |words| Line::styled(format!(" {words}"), style))
+    });
+    for (line, row) in lines.collect::<Vec<_>>().into_iter().zip(inner.y..inner.bottom()) {
+        ui.buffer.set_line(inner.x, row, &line, inner.width);
+    }
+}
+
+/// What a player counts for the shot that is shown, in a line; `None` where no system applies.
+pub fn system_words(coach: &CoachPage) -> Option<String> {
+    coach.guide().map(ToString::to_string)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::systems::{System, diamonds};
+
+    #[test]
+    fn the_way_begins_at_the_diamond_behind_and_ends_at_the_third_cushion() {
+        let table = Table::default();
+        let applied = crate::coach::systems::Applied::example(System::Corner5, &table).unwrap();
+        let lesson = Lesson { path: applied.path(&table), applied, is_of_shot: false };
+        let spots = lesson_spots(&lesson, &Theme::new(crate::terminal::Depth::Mono));
+        let [first, last] = [spots[0].place, spots[spots.len() - 1].place].map(|place| diamonds(&table, place));
+        assert!(first.distance(DVec2::new(8.225, -0.225)) < 0.01, "{first}");
+        assert!(last.y < 0.2 && (last.x - 2.9).abs() < 0.5, "{last}");
+    }
+}

@@ -1,0 +1,54 @@
+//! Diamond systems on the coach's table.
+
+use carom::{
+    drills::Library,
+    terminal::{Advice, CoachNews},
+};
+
+use super::player::{ASCII, Player, proposal};
+
+/// A player whose coach has answered with the shot of a bundled exercise on its own balls.
+fn advised(player: Player, name: &str) -> Player {
+    let library = Library::bundled().unwrap();
+    let exercise = library.get(name).unwrap();
+    let mut player = player.press("p");
+    let [white, yellow, red] = exercise.layout.balls;
+    player.app.paste(&format!("{},{} {},{} {},{}", white.x, white.y, yellow.x, yellow.y, red.x, red.y));
+    let mut player = player.press("Enter R R Enter");
+    let job = player.asked.take().expect("the coach was asked");
+    let cue = exercise.shot.unwrap();
+    let words = format!("{},{},{},{},{}", cue.a, cue.b, cue.theta.to_degrees(), cue.phi.to_degrees(), cue.speed);
+    let best = proposal(&job.table, &job.layout, &words, carom::coach::Way::AroundTheTable, 900);
+    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], effort: None })).studied()
+}
+
+#[test]
+fn the_systems_are_gone_through_with_their_numbers_at_the_rails() {
+    let player = Player::new().press("y");
+    player.shows(&["Corner-5", "50 - 30 = 20: aim at 20", "on your table"]);
+    for size in [(80, 24), (120, 40)] {
+        let text = player.text(size.0, size.1);
+        for number in ["20", "30", "40", "50", "60", "10"] {
+            assert!(text.contains(number), "{number}\n{text}");
+        }
+    }
+    let player = player.press("y");
+    player.shows(&["Plus", "7 - 4 = 3: aim at 3"]);
+    let player = player.press("y");
+    player.shows(&["Seven", "4 x 6 = 24: aim at 24"]);
+    player.press("y").is_silent_on("aim at");
+}
+
+#[test]
+fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
+    for (name, system) in
+        [("corner-5-from-the-corner", "Corner-5"), ("plus-from-three", "Plus"), ("seven-from-four", "Seven")]
+    {
+        let player = advised(Player::with(ASCII), name).press("Esc");
+        let player = player.press("y");
+        player.shows(&[&format!("System - {system} for this shot")]);
+        // Where the shot is gone, its numbers go too.
+        let player = player.press("1 S-Up");
+        player.shows(&[&format!("System - {system} example")]);
+    }
+}
