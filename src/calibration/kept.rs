@@ -45,8 +45,7 @@ pub enum KeptError {
 /// # Errors
 /// Where it cannot be read, or holds something else.
 pub fn entries_of(path: &Path) -> Result<Entries, KeptError> {
-    let text =
-        storage::read_text(path, storage::SMALL).map_err(|error| KeptError::Unread(path.to_owned(), error))?;
+    let text = storage::read_text(path, storage::SMALL).map_err(|error| KeptError::Unread(path.to_owned(), error))?;
     Entries::parse(&text).map_err(|error| KeptError::Wrong(path.to_owned(), error))
 }
 

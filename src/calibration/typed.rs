@@ -48,7 +48,8 @@ impl Entry {
 impl Test {
     /// The names of all that is asked for: the marks, then [`RAILS`] where a lone ball is marked where it stops.
     pub fn asked(&self) -> impl Iterator<Item = &'static str> {
-        let counts = self.balls.len() == 1 && self.marks.iter().any(|mark| matches!(mark.quantity, Quantity::StopAlong(_)));
+        let counts =
+            self.balls.len() == 1 && self.marks.iter().any(|mark| matches!(mark.quantity, Quantity::StopAlong(_)));
         self.marks.iter().map(|mark| mark.name).chain(counts.then_some(RAILS))
     }
 }

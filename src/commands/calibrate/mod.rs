@@ -13,9 +13,7 @@ use super::{
     output::{line, tell},
 };
 use crate::{
-    calibration::{
-        Calibration, Entries, KeptError, Play, calibrate, entries_of, overnight, prior, save_table,
-    },
+    calibration::{Calibration, Entries, KeptError, Play, calibrate, entries_of, overnight, prior, save_table},
     table::{Table, TableDoubt},
 };
 use report::Report;
