@@ -14,9 +14,8 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Distance of two places of a way, m, and the time between two looks at it, s.
-const SPACING: f64 = 0.03;
-const LOOK: f64 = 0.004;
+/// Time between two looks at a way, s.
+const LOOK: f64 = 0.002;
 
 /// A test on a table. What it shows is what the table's constants let expect.
 #[derive(Clone, Debug)]
@@ -32,6 +31,9 @@ pub struct Sketch {
 }
 
 impl Sketch {
+    /// Distance of two places of a way, m.
+    pub const SPACING: f64 = 0.02;
+
     /// That of `test` on `table`.
     pub fn of(table: &Table, test: &Test) -> Self {
         let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
@@ -70,7 +72,7 @@ impl Observer for Seen {
         let way = &mut self.ways[ball];
         for look in 1..=((end - segment.start) / LOOK) as u32 {
             let place = segment.position_after(LOOK * f64::from(look));
-            if way.last().is_none_or(|last| last.distance(place) >= SPACING) {
+            if way.last().is_none_or(|last| last.distance(place) >= Sketch::SPACING) {
                 way.push(place);
             }
         }
@@ -95,7 +97,7 @@ mod tests {
             }
             assert!(sketch.ways[0].len() > 10, "{}", test.name);
             let gaps = sketch.ways[0].windows(2).map(|pair| pair[0].distance(pair[1]));
-            assert!(gaps.fold(0.0, f64::max) < 0.08, "{}", test.name);
+            assert!(gaps.fold(0.0, f64::max) < 0.05, "{}", test.name);
         }
     }
 }

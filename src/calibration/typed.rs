@@ -12,7 +12,7 @@ pub const RAILS: &str = "rails";
 pub const TAPED: &str = "5 mm";
 
 impl Entry {
-    /// Takes the mark `name`, or the number of [`RAILS`], as it is typed: `5.3`, `725 mm`, `5.3 ± 0.2`; nothing or `-` where it
+    /// Takes the mark `name`, or the number of [`RAILS`], as it is typed: `5.3`, `725 mm`, `5.3 ~ 0.2`; nothing or `-` where it
     /// is not known.
     ///
     /// # Errors
@@ -40,7 +40,7 @@ impl Entry {
             return self.rails.map_or_else(String::new, |rails| rails.to_string());
         }
         let Some(value) = self.marks.get(name) else { return String::new() };
-        let sure = self.sure.get(name).map_or_else(String::new, |sure| format!(" ± {}", plain(sure)));
+        let sure = self.sure.get(name).map_or_else(String::new, |sure| format!(" ~ {}", plain(sure)));
         plain(value) + &sure
     }
 }
@@ -83,7 +83,7 @@ mod tests {
         let typed = [("time", "9,6"), ("stop", "725 mm ± 3 mm"), ("drift", "-"), ("rails", "1")];
         let entry = entry(&typed);
         let again: Vec<String> = Test::named("slow-roll").unwrap().asked().map(|name| entry.typed(name)).collect();
-        assert_eq!(again, ["9.6", "725 mm ± 3 mm", "", "1"]);
+        assert_eq!(again, ["9.6", "725 mm ~ 3 mm", "", "1"]);
         let table = Table::default();
         let (readings, odd) = entry.readings(&table);
         assert_eq!((readings.len(), odd.len()), (2, 0), "{odd:?}");

@@ -25,13 +25,13 @@ impl Change {
             "rail.fade.slope" => "loss of fast balls at rails",
             "mu_s" => "friction of sliding balls",
             "mu_r" => "friction of rolling balls",
-            "c1" => "its growth with speed",
+            "c1" => "its growth with speed (mu_r)",
             "mu_sp" => "how soon side is lost",
             "tilt.x" => "lean along the table, m/s²",
             "tilt.y" => "lean across it, m/s²",
             "e_ball" => "what balls give back",
             "mu_b" => "throw between balls",
-            "m_end" => "squirt: mass of the cue's end, kg",
+            "m_end" => "squirt: mass of the cue's end",
             _ => "",
         }
     }

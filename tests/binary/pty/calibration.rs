@@ -30,7 +30,7 @@ fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
     let kept = fs::read_to_string(home.path().join("data/carom/calibration.toml")).unwrap();
     assert_eq!(kept.matches("[[trial]]").count(), 1, "{kept}");
     let mut second = start();
-    second.wait_for("9.6  5.4  725 mm");
+    second.wait_for("9.6, 5.4, 725 mm");
     second.wait_for("mu_r");
     second.send("q");
     assert!(second.assert_left_without_trace().success());

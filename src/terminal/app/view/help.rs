@@ -82,7 +82,7 @@ const CALIBRATION_NOTES: [&str; 5] = [
      from the long rail on your right, below (0), to that on your left (4). The rubber's edge counts, not the wood.",
     "The dots are the way that the stroke would take on the table as it is known so far, the numbered rings where the marks are \
      expected. Yours may be elsewhere: how hard you really struck is worked out from them.",
-    "A number is a place by eye, right to 0.1 diamonds; 725 mm is one by tape, right to 5 mm; 5.3 ± 0.2 says how sure you are. \
+    "A number is a place by eye, right to 0.1 diamonds; 725 mm is one by tape, right to 5 mm; 5.3 ~ 0.2 says how sure you are. \
      Nothing, or -, stands for what you do not know.",
     "Bits are what one more stroke of a test is expected to tell of the table. Each value of the table has one standard deviation.",
     "Every entry is on the disk at once, in the file that carom calibrate goes on with as well. Both may be open at the same time.",

@@ -80,10 +80,11 @@ impl CalibrationPage {
                 return Some(Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())]));
             }
             Action::Save => {
-                let mut name = self.sheet().name(&self.table);
-                if self.is_daily {
-                    name.push_str(" today");
-                }
+                // What was saved before has its name already.
+                let saved = self.saved().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
+                let today = if self.is_daily { " today" } else { "" };
+                let name = saved
+                    .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
                 self.input = Some(Input::Name(TextField::new(LONGEST).with(&name)));
             }
             Action::Use => {
@@ -138,7 +139,10 @@ impl CalibrationPage {
     /// Goes to the next mark of the form, or keeps the stroke. What is odd stays to be mended.
     fn keep(&mut self, mut form: Form) -> Option<Effect> {
         let mut edit = None;
-        if !form.is_sent && !form.is_at_the_end() {
+        let odd = form.oddity(&self.table).filter(|_| !form.is_sent);
+        if let Some(what) = odd {
+            self.message = Some(Message::warning(format!("{}: {what}", form.test.name)));
+        } else if !form.is_sent && !form.is_at_the_end() {
             form.step(1);
         } else if !form.is_sent {
             match form.entry(&self.table) {

@@ -73,6 +73,22 @@ impl Form {
         if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
     }
 
+    /// What is odd about the field that is typed into, whatever the others say.
+    pub fn oddity(&self, table: &Table) -> Option<String> {
+        let (name, field) = &self.fields[self.field];
+        let mut entry = Entry { test: self.test.name.to_owned(), ..Entry::default() };
+        if let Err(sentence) = entry.take(name, field.text()) {
+            return Some(sentence);
+        }
+        if entry.marks.is_empty() {
+            return None;
+        }
+        // How many rails it were is asked for later.
+        entry.rails = Some(self.test.rails.unwrap_or(1));
+        let (_, odd) = entry.readings(table);
+        odd.into_iter().next()
+    }
+
     /// Says of the place that is typed that it was measured with a tape, or takes that back.
     ///
     /// # Errors
@@ -85,7 +101,7 @@ impl Form {
             return Err(format!("a tape measures places: type one first, {name} is none yet"));
         }
         let was_taped = field.text().ends_with(TAPED);
-        let text = if was_taped { value } else { format!("{value} ± {TAPED}") };
+        let text = if was_taped { value } else { format!("{value} ~ {TAPED}") };
         *field = TextField::new(LONGEST).with(&text);
         Ok(())
     }
@@ -143,7 +159,7 @@ mod tests {
     #[test]
     fn what_is_typed_becomes_a_stroke_and_the_form_of_it_is_the_same() {
         let table = Table::default();
-        let typed = ["9.6", "5.4 ± 0.2", "725 mm", ""];
+        let typed = ["9.6", "5.4 ~ 0.2", "725 mm", ""];
         let entry = form("slow-roll", &typed).entry(&table).unwrap();
         let again = Form::of(Test::named("slow-roll").unwrap(), 3, &entry);
         assert!(again.fields.iter().map(|(_, field)| field.text()).eq(typed));

@@ -251,3 +251,64 @@ impl Sheet {
         self.asked != self.answered
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sheet(is_daily: bool) -> Sheet {
+        Sheet::new("calibration.toml".into(), is_daily)
+    }
+
+    fn calibrated() -> Table {
+        let table = Table { name: "ours".into(), rolling_friction: 0.007, ..Table::default() };
+        Table { doubt: Some(prior(&table)), ..table }
+    }
+
+    #[test]
+    fn strokes_that_a_table_was_calibrated_by_do_not_count_twice() {
+        let (base, doubt) = sheet(false).base(&calibrated());
+        assert_eq!(base.name, "match");
+        assert!(!doubt.is_certain() && doubt == prior(&base));
+        let textbook = Table::preset("textbook").unwrap();
+        assert_eq!(sheet(false).base(&textbook).0, textbook);
+        let small = Table { length: 2.54, width: 1.27, ..calibrated() };
+        assert_eq!(sheet(false).base(&small).0.length, 2.54, "match is larger");
+        let (today, doubt) = sheet(true).base(&calibrated());
+        assert_eq!(today, calibrated());
+        assert!(doubt.deviations["mu_r"] > calibrated().doubt.unwrap().deviations["mu_r"], "a day later");
+    }
+
+    #[test]
+    fn after_the_last_stroke_of_a_test_the_next_that_misses_one_is_marked() {
+        let mut sheet = sheet(false);
+        let entry = Entry { test: "slow-roll".into(), ..Entry::default() };
+        let add = |sheet: &mut Sheet, count: usize| {
+            let entries = Entries { name: None, trials: vec![entry.clone(); count] };
+            sheet.take(entries, Some((Edit::TakeOut(count - 1, entry.clone()), false)));
+        };
+        sheet.take(Entries::default(), None);
+        assert!(!sheet.can_undo());
+        add(&mut sheet, 1);
+        assert_eq!((sheet.test().name, sheet.stroke()), ("slow-roll", 0));
+        sheet.move_mark(1);
+        assert!(sheet.turn_left_out());
+        sheet.move_mark(-1);
+        add(&mut sheet, 2);
+        assert_eq!(sheet.test().name, "lag", "slow-back is left out");
+        assert_eq!(sheet.count(), (2, 18));
+        assert_eq!(sheet.undo(), Some(Edit::TakeOut(1, entry.clone())));
+    }
+
+    #[test]
+    fn a_late_answer_to_an_earlier_question_is_dropped() {
+        let mut sheet = sheet(false);
+        sheet.take(Entries::default(), None);
+        let first = sheet.judge(&Table::default()).unwrap().number;
+        let second = sheet.judge(&Table::default()).unwrap().number;
+        sheet.answer(first, Err("late".into()));
+        assert!(sheet.is_asking() && sheet.unjudged.is_none());
+        sheet.answer(second, Err("now".into()));
+        assert_eq!((sheet.is_asking(), sheet.unjudged.as_deref()), (false, Some("now")));
+    }
+}

@@ -15,7 +15,7 @@ use crate::terminal::{
         PageArea, Target,
         calibration::{CalibrationPage, Input, Side},
     },
-    ui::{Message, TextField, Ui, draw_question, draw_status, shorten, write_right},
+    ui::{Message, TextField, Ui, columns, draw_question, draw_status, shorten, write_right},
 };
 
 /// Columns of the tests: at least, and where there is room.
@@ -83,11 +83,10 @@ fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let (entered, wanted) = sheet.count();
     let count = format!("{entered} of {wanted} strokes ");
     let room = usize::from(area.width).saturating_sub(count.len() + 1);
-    let what = if page.is_daily {
-        format!("today's check of {}", page.table.name)
-    } else {
-        format!("your table, from {}", sheet.base(&page.table).0.name)
-    };
+    let name = if page.is_daily { page.table.name.clone() } else { sheet.base(&page.table).0.name };
+    let [long, short] = if page.is_daily { ["today's check of", "today:"] } else { ["your table, from", "from"] };
+    let what =
+        if long.len() + columns(&name) + 2 < room { format!("{long} {name}") } else { format!("{short} {name}") };
     let line =
         Line::from(Span::styled(format!(" {}", shorten(&what, room.saturating_sub(1), ui.caps)), ui.theme.text()));
     ui.buffer.set_line(area.x, area.y, &line, room as u16);

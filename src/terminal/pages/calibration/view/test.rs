@@ -14,8 +14,8 @@ use crate::{
     },
     table::{BALLS, Table},
     terminal::{
-        Mapping,
-        pages::calibration::{CalibrationPage, Input},
+        Glyphs, Mapping,
+        pages::calibration::{CalibrationPage, Input, view::values::sentences},
         ui::{Spot, TableView, Ui, cue_sign, draw_table, draw_tip, draw_title, shorten, wrap, write_paragraphs},
         words::{across_word, fixed, height_word},
     },
@@ -28,7 +28,11 @@ const BESIDE: u16 = 46;
 const WORDS: u16 = 3;
 /// Columns of a mark's number and name, and of what is typed.
 const NAME: u16 = 10;
-const TYPED: u16 = 12;
+const TYPED: u16 = 10;
+/// Fewest rows of what the marks say.
+const SAID: u16 = 3;
+/// Columns from one dot of a way to the next.
+const DOT_COLUMNS: f64 = 2.0;
 /// Length of the cue, m, and the distance of its dots.
 const CUE: f64 = 0.3;
 const CUE_DOTS: f64 = 0.01;
@@ -60,6 +64,14 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     for ((n, name), y) in asked.iter().enumerate().zip(below..text.bottom()) {
         draw_mark(page, test, n, name, Rect { y, height: 1, ..text }, ui);
     }
+    // Where there is room, what the marks say stands here as well.
+    let end = (below + asked.len() as u16 + 1).min(inner.bottom());
+    let rest = Rect { y: end, height: inner.bottom() - end, ..inner };
+    let found = page.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
+    if let Some(found) = found.filter(|_| rest.height > SAID) {
+        let rest = draw_title("What the marks say", rest, ui);
+        write_paragraphs(&sentences(page, found, ui), rest.inner(Margin::new(1, 0)), ui);
+    }
 }
 
 /// The tip, and the stroke in numbers below it.
@@ -75,7 +87,7 @@ fn draw_stroke(table: &Table, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     if words.is_empty() {
         words.push("centre ball".to_owned());
     }
-    words.push(format!("{} m/s or so", fixed(cue.speed, 1)));
+    words.push(format!("at {} m/s", fixed(cue.speed, 1)));
     for (text, y) in words.iter().zip(area.bottom().saturating_sub(WORDS)..area.bottom()) {
         ui.buffer.set_stringn(area.x + 1, y, text, usize::from(area.width - 1), ui.theme.faint());
     }
@@ -88,11 +100,13 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
         return;
     }
     let dot = ui.caps.pick('·', '.');
+    let stride = (DOT_COLUMNS / (mapping.scale().x * Sketch::SPACING)).round().max(1.0) as usize;
     let mut spots = Vec::new();
     // The balls' own ways lie over that of the cue ball.
     for ball in 0..BALLS {
         let color = ui.theme.paths[ball];
-        spots.extend(sketch.ways[ball].iter().map(|place| Spot { place: *place, is_ball: false, color, letter: dot }));
+        let dots = sketch.ways[ball].iter().step_by(stride);
+        spots.extend(dots.map(|place| Spot { place: *place, is_ball: false, color, letter: dot }));
     }
     let ahead = DVec2::from_angle(sketch.cue.phi);
     let sign = cue_sign(ahead, ui.caps);
@@ -111,15 +125,17 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
 fn number_rails(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let bed = mapping.bed;
     let diamond = table.diamond() * mapping.scale();
-    let style = ui.theme.text().fg(ui.theme.sight).bg(ui.theme.wood);
+    let is_wood = ui.caps.glyphs != Glyphs::Letters;
+    let behind = if is_wood { ui.theme.wood } else { ui.theme.background };
+    let style = ui.theme.text().fg(ui.theme.sight).bg(behind);
+    let column = |n: u16| (f64::from(n) * diamond.x) as u16;
     for n in 0..=8_u16 {
-        let x = (bed.x + (f64::from(n) * diamond.x) as u16).min(bed.right() - 1);
+        // From both ends inwards, as the sights are.
+        let x = if n <= 4 { bed.x + column(n) } else { bed.right().saturating_sub(1 + column(8 - n)) };
         ui.buffer.set_string(x, bed.bottom(), n.to_string(), style);
     }
-    // Where rows are few, the middle alone.
-    let across: &[u16] = if diamond.y >= 1.5 { &[1, 2, 3] } else { &[2] };
-    for n in across {
-        let y = bed.bottom().saturating_sub(1 + (f64::from(*n) * diamond.y) as u16).max(bed.y);
+    for n in 1..4_u16 {
+        let y = (bed.y + (f64::from(4 - n) * diamond.y) as u16).min(bed.bottom() - 1);
         ui.buffer.set_string(bed.x - 1, y, n.to_string(), style);
     }
 }

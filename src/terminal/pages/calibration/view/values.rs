@@ -62,7 +62,7 @@ fn draw_constant(one: &Change, area: Rect, ui: &mut Ui) {
 }
 
 /// What is said of the marks.
-fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
+pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
     let mut said: Vec<(String, Style)> = Vec::new();
     let misread = found.verdicts.iter().filter(|verdict| verdict.misread);
     said.extend(misread.map(|verdict| (verdict.doubtful(), ui.theme.warning())));
