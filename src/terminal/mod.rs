@@ -63,7 +63,7 @@ pub use shot::{Shot, film::FilmScene};
 pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
-    calibration::{CalibrationReport, CalibrationTask, Judged, Judging},
+    calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
     drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
     recommender::{Answer, CoachNews, CoachWorker, Job},
     reel::{Reel, Scene},

@@ -60,11 +60,20 @@ pub struct Judged {
     pub play: Option<[Play; 2]>,
 }
 
+/// What a file of entries holds.
+#[derive(Clone, Debug)]
+pub struct KeptEntries {
+    /// All entries.
+    pub entries: Entries,
+    /// Where they were changed, the change back, and whether the change was one back itself.
+    pub back: Option<(Edit, bool)>,
+}
+
 /// What has come of a task.
 #[derive(Clone, Debug)]
 pub enum CalibrationReport {
-    /// The entries of a file, and where they were changed, the change back and whether it was one itself.
-    Entries(PathBuf, Result<(Entries, Option<(Edit, bool)>), String>),
+    /// What a file holds.
+    Entries(PathBuf, Result<Box<KeptEntries>, String>),
     /// A change of a file was not made.
     Unkept(PathBuf, String),
     /// Of [`CalibrationTask::Judge`]: whether it was a check of the day, with its number.
@@ -78,11 +87,13 @@ impl CalibrationTask {
     pub fn run(self) -> CalibrationReport {
         match self {
             Self::Read(path) => {
-                let entries = kept_entries(&path).map(|entries| (entries, None)).map_err(|error| error.to_string());
-                CalibrationReport::Entries(path, entries)
+                let kept = kept_entries(&path).map(|entries| Box::new(KeptEntries { entries, back: None }));
+                CalibrationReport::Entries(path, kept.map_err(|error| error.to_string()))
             }
             Self::Edit(path, edit, is_back) => match edit_entries(&path, &edit) {
-                Ok((entries, back)) => CalibrationReport::Entries(path, Ok((entries, Some((back, is_back))))),
+                Ok((entries, back)) => {
+                    CalibrationReport::Entries(path, Ok(Box::new(KeptEntries { entries, back: Some((back, is_back)) })))
+                }
                 Err(error) => CalibrationReport::Unkept(path, error.to_string()),
             },
             Self::Judge(judging) => {

@@ -18,7 +18,7 @@ use crate::{
     storage::Places,
     table::Table,
     terminal::{
-        CalibrationContext, CalibrationReport, CalibrationTask, Effect,
+        CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries,
         ui::{Message, TextField},
     },
 };
@@ -158,7 +158,8 @@ impl CalibrationPage {
     pub fn receive(&mut self, report: CalibrationReport) -> Vec<CalibrationTask> {
         match report {
             CalibrationReport::Entries(path, outcome) if path == self.sheet().path => match outcome {
-                Ok((entries, back)) => {
+                Ok(kept) => {
+                    let KeptEntries { entries, back } = *kept;
                     if back.is_some() && matches!(self.input, Some(Input::Marks(_))) {
                         self.input = None;
                     }
