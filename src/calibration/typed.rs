@@ -74,7 +74,9 @@ mod tests {
 
     fn entry(typed: &[(&str, &str)]) -> Entry {
         let mut entry = Entry { test: "slow-roll".into(), ..Entry::default() };
-        typed.iter().for_each(|(name, typed)| entry.take(name, typed).unwrap());
+        for (name, typed) in typed {
+            entry.take(name, typed).unwrap();
+        }
         entry
     }
 

@@ -266,7 +266,7 @@ impl App {
                     return self.open(PageId::Coach);
                 }
                 return match self.calibration.take_for_use() {
-                    Some(path) => self.use_table(path),
+                    Some(path) => Some(self.use_table(path)),
                     None => effect,
                 };
             }

@@ -33,10 +33,10 @@ impl App {
     }
 
     /// Plays on the table of this file from now on, once the settings' file was read again.
-    pub(super) fn use_table(&mut self, path: PathBuf) -> Option<Effect> {
+    pub(super) fn use_table(&mut self, path: PathBuf) -> Effect {
         self.wanted_table = Some(path);
         self.show_session();
-        Some(self.settings.open())
+        self.settings.open()
     }
 
     fn take_changes(&mut self) {

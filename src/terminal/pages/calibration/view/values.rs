@@ -77,7 +77,9 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
         said.push((words, ui.theme.text()));
     }
     if !ui.caps.unicode {
-        said.iter_mut().for_each(|(text, _)| *text = text.replace('±', "+-"));
+        for (text, _) in &mut said {
+            *text = text.replace('±', "+-");
+        }
     }
     said
 }
