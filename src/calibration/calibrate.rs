@@ -185,13 +185,38 @@ pub fn calibrate(
         let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > FAR);
         strange.extend(far.map(|(off, what)| Strange { trial: number + 1, test: trial.test.name, what, off: *off }));
     }
+    let next = next(&belief, &found.unknowns, &found.covariance);
+    Ok(Calibration { table: after, constants, verdicts, strange, next })
+}
+
+/// What is not known of a table before it is calibrated: what its file says, or as much as tables differ by. The constants of
+/// `match` are sure of the filmed table alone.
+pub fn prior(table: &Table) -> TableDoubt {
+    TableDoubt::of(&Table { name: String::new(), ..table.clone() })
+}
+
+/// All tests, the one that tells most first, before anything was played.
+///
+/// # Errors
+/// Where the table has no doubt that a test could lessen.
+pub fn prospects(table: &Table, doubt: &TableDoubt) -> Result<Vec<Next>, CalibrationError> {
+    let belief = Belief::new(table, doubt)?;
+    let count = belief.count();
+    if count == 0 {
+        return Err(CalibrationError::Certain(table.name.clone()));
+    }
+    let unit = |row: usize| (0..count).map(|column| f64::from(u8::from(row == column))).collect();
+    Ok(next(&belief, &vec![0.0; count], &(0..count).map(unit).collect::<Vec<_>>()))
+}
+
+fn next(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>]) -> Vec<Next> {
     let bits = |test: &'static Test| Next {
         test: test.name,
-        bits: information(&belief, &hand, &found.unknowns, &found.covariance, test),
+        bits: information(belief, &Hand::ASSUMED, unknowns, covariance, test),
     };
     let mut next: Vec<Next> = PROTOCOL.iter().map(bits).collect();
     next.sort_by(|one, other| other.bits.total_cmp(&one.bits));
-    Ok(Calibration { table: after, constants, verdicts, strange, next })
+    next
 }
 
 impl Calibration {

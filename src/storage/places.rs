@@ -21,6 +21,8 @@ pub struct Places {
     pub calibration: PathBuf,
     /// What was entered of a check of the day.
     pub daily_check: PathBuf,
+    /// Tables of the user's own, one file each.
+    pub tables: PathBuf,
     /// What the last session of the screen left.
     pub last: PathBuf,
     /// What happened, line by line.
@@ -54,6 +56,7 @@ impl Places {
             player: data.join("player.json"),
             calibration: data.join("calibration.toml"),
             daily_check: data.join("calibration-daily.toml"),
+            tables: data.join("tables"),
             last: state.join("last.json"),
             log: state.join("carom.log"),
             notices: state.join("notices"),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::{
     learning::run::request::Request,
-    terminal::{DrillTask, Job, Keeping, Launch, SettingsTask},
+    terminal::{CalibrationTask, DrillTask, Job, Keeping, Launch, SettingsTask},
 };
 
 /// What the program around the app has to do.
@@ -24,6 +24,8 @@ pub enum Effect {
     Drill(Vec<DrillTask>),
     /// Read or change the settings' file; what comes of it goes to [`App::receive_settings`](super::App::receive_settings).
     Settings(Box<SettingsTask>),
+    /// Do these of the calibration's page; what comes of them goes to [`App::receive_calibration`](super::App::receive_calibration).
+    Calibrate(Vec<CalibrationTask>),
     /// Put a text into the terminal's clipboard, where it allows that.
     Copy(String),
     /// Stop until the shell continues the program.
@@ -43,11 +45,13 @@ pub enum PageId {
     Training,
     /// What is set once and for all.
     Settings,
+    /// What is measured at a table, and what follows from it.
+    Calibration,
 }
 
 impl PageId {
     /// All of them, in the order of their tabs.
-    pub const ALL: [Self; 4] = [Self::Coach, Self::Drills, Self::Training, Self::Settings];
+    pub const ALL: [Self; 5] = [Self::Coach, Self::Drills, Self::Training, Self::Settings, Self::Calibration];
 
     /// What stands on its tab.
     pub const fn title(self) -> &'static str {
@@ -56,6 +60,7 @@ impl PageId {
             Self::Drills => "Drills",
             Self::Training => "Training",
             Self::Settings => "Settings",
+            Self::Calibration => "Calibration",
         }
     }
 }

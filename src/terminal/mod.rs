@@ -47,6 +47,7 @@ pub use config::{
 pub use effect::{Effect, PageId};
 pub use keymap::remap::Keys;
 pub use pages::{
+    calibration::keys::{CalibrationAction, CalibrationCondition, CalibrationContext},
     coach::{
         AdviceState, Mode, View,
         keys::{CoachAction, CoachCondition},
@@ -62,6 +63,7 @@ pub use shot::{Shot, film::FilmScene};
 pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
+    calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
     drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
     recommender::{Answer, CoachNews, CoachWorker, Job},
     reel::{Reel, Scene},

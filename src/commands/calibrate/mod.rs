@@ -13,8 +13,7 @@ use super::{
     output::{line, tell},
 };
 use crate::{
-    calibration::{Calibration, Entries, Play, calibrate, overnight},
-    storage::{self, target_of, write_atomic},
+    calibration::{Calibration, Entries, KeptError, Play, calibrate, entries_of, overnight, prior, save_table},
     table::{Table, TableDoubt},
 };
 use report::Report;
@@ -84,20 +83,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// The entries of a file.
 fn entries_in(file: &Path) -> Result<Entries, Failure> {
-    let text = storage::read_text(file, storage::SMALL)
-        .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
-    Entries::parse(&text).map_err(|error| {
-        Failure::wrong_input(format_args!(
-            "{}: {error}; carom calibrate --template prints a file of entries to begin with",
-            file.display()
-        ))
-    })
+    entries_of(file).map_err(failure)
 }
 
-/// What is not known of a table before it is calibrated. The constants of `match` are sure of the filmed table alone: of
-/// another one as little is known as tables differ.
-fn prior(table: &Table) -> TableDoubt {
-    TableDoubt::of(&Table { name: NAME.to_owned(), ..table.clone() })
+/// What is wrong inside a file is wrong input.
+fn failure(error: KeptError) -> Failure {
+    if matches!(error, KeptError::Wrong(..)) { Failure::wrong_input(error) } else { Failure::failed(error) }
 }
 
 /// What is not known of the table now: for a check of the day, what may have changed overnight too.
@@ -136,19 +127,9 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     args.out.as_ref().map_or(Ok(()), |out| write(out, &found, args.json))
 }
 
-/// Writes the table, over another table at most.
+/// Writes the table, and says so.
 fn write(path: &Path, found: &Calibration, is_json: bool) -> Result<(), Failure> {
-    let is_table = |text: String| Table::from_toml(&text).is_ok();
-    if path.exists() && !storage::read_text(path, storage::SMALL).is_ok_and(is_table) {
-        return Err(Failure::failed(format_args!(
-            "{} is there already and is no table, so it stays as it is; give another name with --out",
-            path.display()
-        )));
-    }
-    let text = toml::to_string(&found.table).map_err(Failure::failed)?;
-    let text = format!("# Written by carom calibrate; carom recommend --table {} plays on it.\n{text}", path.display());
-    write_atomic(&target_of(path), text.as_bytes())
-        .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
+    save_table(path, &found.table).map_err(Failure::failed)?;
     let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());
     if is_json {
         tell(said);

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Test, Verdict},
+    calibration::{Calibration, Change, Entries, Next, Oddity, Play, Strange, Verdict},
     commands::{
         Failure,
         output::{columns, json_line, line},
@@ -70,30 +70,19 @@ impl<'a> Report<'a> {
                 one.name.clone(),
                 format!("{:.5} ± {:.5}", one.before, one.before_deviation),
                 format!("{:.5} ± {:.5}", one.after, one.after_deviation),
-                known(one).to_owned(),
+                one.known().to_owned(),
             ]
         };
         let rows: Vec<_> = std::iter::once(heads).chain(self.constants.iter().map(row)).collect();
         columns(&rows, &[1, 2]).iter().try_for_each(line)?;
         line("")?;
-        let misread = self.found.misread();
         for verdict in self.marks.iter().filter(|verdict| verdict.misread) {
-            line(doubtful(verdict))?;
+            line(verdict.doubtful())?;
         }
-        for Strange { trial, test, what, off } in self.strange {
-            line(format_args!(
-                "trial {trial} ({test}) was struck far from what is asked for ({what}: {off:+.1} deviations), or a mark is misread"
-            ))?;
+        for strange in self.strange {
+            line(strange.words())?;
         }
-        if self.contradictory {
-            line(
-                "so many tests look misread that they contradict each other: look at the largest first, or play them again",
-            )?;
-        } else if misread.is_empty() {
-            line("all marks agree with each other")?;
-        } else {
-            line("the other marks agree with each other; those above hardly count")?;
-        }
+        line(self.found.agreement())?;
         if let Some([before, now]) = &self.play {
             return line(format_args!("today {}", now.against(before)));
         }
@@ -106,31 +95,4 @@ impl<'a> Report<'a> {
             self.next.iter().take(NEXT).map(|next| format!("{} ({:.2} bits)", next.test, next.bits)).collect();
         line(format_args!("what one more stroke would tell most: {}", told.join(", ")))
     }
-}
-
-/// In a word, how much the marks have told.
-fn known(one: &Change) -> &'static str {
-    match one.after_deviation / one.before_deviation {
-        left if left < 0.5 => "well",
-        left if left < 0.9 => "better",
-        _ => "as before",
-    }
-}
-
-/// What speaks against a mark.
-fn doubtful(verdict: &Verdict) -> String {
-    let Verdict { trial, test, mark, marked, expected, rails, .. } = verdict;
-    let unit = Test::named(test)
-        .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
-        .map_or("", |mark| mark.unit().sign());
-    let after = |rails: usize| format!(" after {rails} rails");
-    let [met, wanted] = match rails {
-        Some((met, wanted)) if met != wanted => [after(*met), after(*wanted)],
-        _ => [String::new(), String::new()],
-    };
-    let but = expected.map_or_else(
-        || "no stroke of this test comes there".to_owned(),
-        |(value, deviation)| format!("expected {value:.1} ± {deviation:.1}{wanted}"),
-    );
-    format!("trial {trial} ({test}) looks misread: you marked {mark} {marked:.1}{met} {unit}, {but}")
 }

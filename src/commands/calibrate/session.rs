@@ -5,14 +5,14 @@ use std::{
     path::PathBuf,
 };
 
-use super::{Args, entries_in, listing::words, tell_of};
+use super::{Args, failure, listing::words, tell_of};
 use crate::{
-    calibration::{DAILY, Entries, Entry, PROTOCOL, Test, Written},
+    calibration::{DAILY, Edit, Entries, Entry, PROTOCOL, RAILS, Test, edit_entries, kept_entries},
     commands::{
         Failure,
         output::{prompt, tell},
     },
-    storage::{Places, target_of, write_atomic},
+    storage::Places,
     table::{Table, TableDoubt},
 };
 
@@ -66,20 +66,11 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut marks = test.marks.iter();
     let mut words = text.split_whitespace();
     while let Some(word) = words.next() {
-        let is_name = word == "rails" || test.marks.iter().any(|mark| mark.name == word);
+        let is_name = word == RAILS || test.marks.iter().any(|mark| mark.name == word);
         let name =
             if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))?.name };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
-        if value == "-" {
-            continue;
-        }
-        if name == "rails" {
-            let rails = value.parse().map_err(|_| format!("rails {value} is no number of rails"))?;
-            entry.rails = Some(rails);
-            continue;
-        }
-        let written = value.parse().map_or_else(|_| Written::Text(value.to_owned()), Written::Number);
-        entry.marks.insert(name.to_owned(), written);
+        entry.take(name, value)?;
     }
     let (_, odd) = entry.readings(table);
     if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
@@ -94,14 +85,17 @@ struct Session {
     /// A test that is played once more.
     repeated: Option<&'static Test>,
     is_daily: bool,
+    /// Whether the file still holds an earlier day's check, which is put aside with the first entry.
+    is_over: bool,
 }
 
 impl Session {
     /// Goes on with what the file holds. A check of the day that has both its tests is an earlier day's: another one begins.
     fn open(path: PathBuf, is_daily: bool) -> Result<Self, Failure> {
-        let entries = if path.exists() { entries_in(&path)? } else { Entries::default() };
-        let mut session = Self { path, entries, skipped: Vec::new(), repeated: None, is_daily };
+        let entries = kept_entries(&path).map_err(failure)?;
+        let mut session = Self { path, entries, skipped: Vec::new(), repeated: None, is_daily, is_over: false };
         if is_daily && session.next().is_none() {
+            session.is_over = true;
             session.entries = Entries::default();
         }
         Ok(session)
@@ -126,18 +120,21 @@ impl Session {
 
     fn add(&mut self, entry: Entry) -> Result<(), Failure> {
         self.repeated = None;
-        self.entries.trials.push(entry);
-        self.keep()
+        if std::mem::take(&mut self.is_over) {
+            self.edit(&Edit::Anew(Entries::default()))?;
+        }
+        self.edit(&Edit::Add(entry))
     }
 
     fn undo(&mut self) -> Result<(), Failure> {
-        let Some(entry) = self.entries.trials.pop() else {
+        let Some(entry) = self.entries.trials.last().cloned() else {
             tell("there is nothing to take back");
             return Ok(());
         };
         self.skipped.retain(|name| *name != entry.test);
-        self.keep()?;
-        tell(format_args!("the last entry ({}) is taken back", entry.test));
+        let said = format!("the last entry ({}) is taken back", entry.test);
+        self.edit(&Edit::TakeOut(self.entries.trials.len() - 1, entry))?;
+        tell(said);
         Ok(())
     }
 
@@ -153,14 +150,9 @@ impl Session {
         }
     }
 
-    /// Writes the entries, whole or not at all.
-    fn keep(&self) -> Result<(), Failure> {
-        let text = toml::to_string(&self.entries).map_err(Failure::failed)?;
-        write_atomic(&target_of(&self.path), text.as_bytes()).map_err(|error| {
-            Failure::failed(format_args!(
-                "{} cannot be written, so this entry is not kept: {error}",
-                self.path.display()
-            ))
-        })
+    /// Makes a change of the file, and goes on with what it holds then.
+    fn edit(&mut self, edit: &Edit) -> Result<(), Failure> {
+        (self.entries, _) = edit_entries(&self.path, edit).map_err(failure)?;
+        Ok(())
     }
 }

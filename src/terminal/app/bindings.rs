@@ -7,14 +7,17 @@ use crossterm::event::{
 
 use super::palette_keys::{self, PaletteAction};
 use crate::terminal::{
-    CoachAction, CoachCondition, DrillAction, DrillCondition, KeyContext, PageId, SettingsAction, SettingsCondition,
-    TrainingAction, TrainingCondition,
+    CalibrationAction, CalibrationCondition, CoachAction, CoachCondition, DrillAction, DrillCondition, KeyContext,
+    PageId, SettingsAction, SettingsCondition, TrainingAction, TrainingCondition,
     keymap::{
         Binding, Chord, KeyEntry, KeyPage,
         Section::{self, Program},
         bind, chord_of, ctrl, key, letter,
     },
-    pages::{coach::keys as coach, drills::keys as drills, settings::keys as settings, training::keys as training},
+    pages::{
+        calibration::keys as calibration, coach::keys as coach, drills::keys as drills, settings::keys as settings,
+        training::keys as training,
+    },
 };
 
 use Action as A;
@@ -50,6 +53,8 @@ pub enum Action {
     Drill(DrillAction),
     /// Something on the settings' screen.
     Settings(SettingsAction),
+    /// Something on the calibration's page.
+    Calibration(CalibrationAction),
 }
 
 /// When a binding may be used; the app knows whether it holds, and why not.
@@ -69,6 +74,8 @@ pub enum Condition {
     Drill(DrillCondition),
     /// As the settings' screen says.
     Settings(SettingsCondition),
+    /// As the calibration's page says.
+    Calibration(CalibrationCondition),
 }
 
 /// One line of a page's table, as the app reads it.
@@ -127,6 +134,8 @@ const TABS: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Tabs, &[key(F(3), A::Open(PageId::Drills))], None, "the drills, as they were left"),
     bind(Program, Condition::Tabs, &[key(F(4), A::Open(PageId::Training))], None, "the training, as it was left"),
     bind(Program, Condition::Tabs, &[key(F(5), A::Open(PageId::Settings))], None, "the settings, and keys of your own"),
+    bind(Program, Condition::Tabs, &[key(F(7), A::Open(PageId::Calibration))], None, "measure the table that you play on")
+        .known_as("calibration calibrate tests"),
 ];
 
 /// The keys that all screens have.
@@ -168,6 +177,9 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
         KeyContext::Drill(place) => take(&mut all, place.bindings(), A::Drill, Condition::Drill, drills::words),
         KeyContext::Settings(place) => {
             take(&mut all, place.bindings(), A::Settings, Condition::Settings, settings::words);
+        }
+        KeyContext::Calibration(place) => {
+            take(&mut all, place.bindings(), A::Calibration, Condition::Calibration, calibration::words);
         }
         KeyContext::CommandPalette => program(&mut all, palette_keys::PALETTE),
     }
@@ -233,7 +245,8 @@ mod tests {
 
     use super::*;
     use crate::terminal::{
-        DrillContext, SettingsContext, TrainingContext, keymap::works_of, pages::coach::keys::QuestionContext,
+        CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::works_of,
+        pages::coach::keys::QuestionContext,
     };
 
     fn places() -> impl Iterator<Item = KeyContext> {
@@ -243,6 +256,7 @@ mod tests {
             .chain(QuestionContext::ALL.map(KeyContext::Question))
             .chain(DrillContext::ALL.map(KeyContext::Drill))
             .chain(SettingsContext::ALL.map(KeyContext::Settings))
+            .chain(CalibrationContext::ALL.map(KeyContext::Calibration))
     }
 
     #[test]
@@ -274,8 +288,8 @@ mod tests {
         let event = KeyEvent::new(Char('c'), crossterm::event::KeyModifiers::CONTROL);
         for place in places() {
             assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Quit)), "{place:?}");
-            for (number, screen) in (2..).zip(PageId::ALL) {
-                let event = KeyEvent::from(F(number));
+            for screen in PageId::ALL {
+                let event = chord_of_tab(screen).unwrap().event();
                 assert_eq!(find(&event, place, |_| None), Some(Ok(Action::Open(screen))), "{place:?}");
             }
         }

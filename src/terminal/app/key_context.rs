@@ -3,7 +3,8 @@
 use crossterm::event::KeyCode::Char;
 
 use crate::terminal::{
-    DrillContext, SettingsContext, TrainingContext, keymap::Chord, pages::coach::keys::QuestionContext, ui::is_typed,
+    CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::Chord,
+    pages::coach::keys::QuestionContext, ui::is_typed,
 };
 
 /// What is on the screen: each has its own keys.
@@ -19,13 +20,15 @@ pub enum KeyContext {
     Drill(DrillContext),
     /// One of the settings' pages, or what is asked there.
     Settings(SettingsContext),
+    /// The calibration's page, or what is typed or asked there.
+    Calibration(CalibrationContext),
     /// The command palette, over any of them.
     CommandPalette,
 }
 
 impl KeyContext {
     /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 14] = [
+    pub const PAGES: [(Self, &'static str); 15] = [
         (Self::Coach, "Coach"),
         (Self::Drill(DrillContext::Library), "Drills: library"),
         (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
@@ -40,6 +43,7 @@ impl KeyContext {
         (Self::Training(TrainingContext::Compare), "Training: compare"),
         (Self::Settings(SettingsContext::Values), "Settings"),
         (Self::Settings(SettingsContext::Keys), "Settings: keys"),
+        (Self::Calibration(CalibrationContext::Tests), "Calibration"),
     ];
 
     /// Whether letters are typed there, or answers.
@@ -49,6 +53,7 @@ impl KeyContext {
             Self::Training(place) => place.takes_letters(),
             Self::Drill(place) => place.takes_letters(),
             Self::Settings(place) => place.takes_letters(),
+            Self::Calibration(place) => place.takes_letters(),
             Self::Question(_) | Self::CommandPalette => true,
         }
     }
@@ -61,7 +66,8 @@ impl KeyContext {
             | Self::Question(QuestionContext::Title | QuestionContext::Positions)
             | Self::CommandPalette
             | Self::Drill(DrillContext::Search | DrillContext::Text)
-            | Self::Settings(SettingsContext::Typing) => is_typed(&event),
+            | Self::Settings(SettingsContext::Typing)
+            | Self::Calibration(CalibrationContext::Marks | CalibrationContext::Name) => is_typed(&event),
             Self::Training(TrainingContext::Form) => {
                 matches!(event.code, Char('0'..='9')) && event.modifiers.is_empty()
             }

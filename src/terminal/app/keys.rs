@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
 use crate::terminal::{
-    Action, App, Condition, Effect, KeyContext, PageId,
+    Action, App, CalibrationContext, Condition, Effect, KeyContext, PageId,
     app::{bindings, view},
     pages::settings::Input,
     ui::Typed,
@@ -100,6 +100,7 @@ impl App {
             Condition::Training(when) => self.training.disabled_reason(when),
             Condition::Drill(when) => self.drills.disabled_reason(when),
             Condition::Settings(when) => self.settings.disabled_reason(when),
+            Condition::Calibration(when) => self.calibration.disabled_reason(when),
         }
     }
 
@@ -119,6 +120,8 @@ impl App {
             PageId::Drills => KeyContext::Drill(self.drills.place()),
             PageId::Settings if self.help.is_some() => KeyContext::Settings(self.settings.page_place()),
             PageId::Settings => KeyContext::Settings(self.settings.place()),
+            PageId::Calibration if self.help.is_some() => KeyContext::Calibration(CalibrationContext::Tests),
+            PageId::Calibration => KeyContext::Calibration(self.calibration.place()),
         }
     }
 }

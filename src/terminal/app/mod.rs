@@ -31,6 +31,7 @@ use crate::{
         Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, PageId, Palette, SavedSession,
         SessionParts, Settings, SettingsPage, Subscriptions, Toasts,
         pages::{
+            calibration::CalibrationPage,
             coach::CoachPage,
             drills::{Balls, DrillsPage},
             training::TrainingPage,
@@ -56,6 +57,9 @@ pub struct App {
     training: TrainingPage,
     drills: DrillsPage,
     settings: SettingsPage,
+    calibration: CalibrationPage,
+    /// The file of a table that is to be played on as soon as the settings' file was read.
+    wanted_table: Option<PathBuf>,
     /// The settings that hold.
     in_force: Settings,
     /// The screen before the settings.
@@ -94,6 +98,8 @@ impl App {
             training: TrainingPage::new(Places::of_this_user()),
             drills: DrillsPage::new(Places::of_this_user(), seed),
             settings: SettingsPage::new(Settings::path(), bindings::key_pages()),
+            calibration: CalibrationPage::new(Places::of_this_user()),
+            wanted_table: None,
             in_force: Settings::default(),
             before: PageId::Coach,
             help: None,
@@ -130,6 +136,7 @@ impl App {
     pub fn with_places(mut self, places: Places) -> Self {
         self.training.folder.clone_from(&places.runs);
         self.drills.places = places.clone();
+        self.calibration = CalibrationPage::new(places.clone());
         self.training.places = places;
         self
     }
@@ -252,6 +259,16 @@ impl App {
                     return self.leave_training();
                 }
                 return effect;
+            }
+            Action::Calibration(action) => {
+                let effect = self.calibration.update(action);
+                if self.calibration.is_left() {
+                    return self.open(PageId::Coach);
+                }
+                return match self.calibration.take_for_use() {
+                    Some(path) => Some(self.use_table(path)),
+                    None => effect,
+                };
             }
             Action::Settings(action) => {
                 let effect = self.settings.update(action);

@@ -3,8 +3,9 @@
 use crossterm::event::{MouseButton::Left, MouseEvent, MouseEventKind as Kind};
 
 use crate::terminal::{
-    Action, App, CoachAction, CoachCondition, Condition, DrillAction, DrillCondition, DrillContext, Effect, KeyContext,
-    Mapping, PaletteAction, SettingsAction, SettingsCondition, TrainingAction, TrainingCondition,
+    Action, App, CalibrationAction, CalibrationCondition, CoachAction, CoachCondition, Condition, DrillAction,
+    DrillCondition, DrillContext, Effect, KeyContext, Mapping, PaletteAction, SettingsAction, SettingsCondition,
+    TrainingAction, TrainingCondition,
     app::view::{Pointed, pointed_at},
     pages::{Target, coach::view::table_mapping},
     ui::ball_at,
@@ -103,6 +104,10 @@ impl App {
                 (Condition::Drill(DrillCondition::Here), Action::Drill(DrillAction::Line(lines)))
             }
             KeyContext::Drill(_) => (Condition::Drill(DrillCondition::Marked), Action::Drill(DrillAction::Line(lines))),
+            KeyContext::Calibration(_) => (
+                Condition::Calibration(CalibrationCondition::Here),
+                Action::Calibration(CalibrationAction::Line(lines)),
+            ),
             KeyContext::Settings(_) => {
                 (Condition::Settings(SettingsCondition::Here), Action::Settings(SettingsAction::Line(lines)))
             }

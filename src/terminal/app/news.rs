@@ -1,6 +1,6 @@
 //! Reports from the background, and their messages: sentences on the status line, refusals and failures as toasts.
 
-use crate::terminal::{Answer, App, DrillReport, DrillTask, Effect, PageId, Report, Toasts};
+use crate::terminal::{Answer, App, CalibrationReport, DrillReport, DrillTask, Effect, PageId, Report, Toasts};
 
 impl App {
     /// The coach has something to say. Late answers to cancelled questions are dropped.
@@ -49,10 +49,24 @@ impl App {
         tasks
     }
 
+    /// Something has come of a task of the calibration's page.
+    pub fn receive_calibration(&mut self, report: CalibrationReport) -> Option<Effect> {
+        let tasks = self.calibration.receive(report);
+        self.gather(false);
+        (!tasks.is_empty()).then_some(Effect::Calibrate(tasks))
+    }
+
     /// Makes toasts of what is refused or has failed since: the answer to a key, or something that came by itself.
     pub(super) fn gather(&mut self, is_answer: bool) {
-        let Self { coach, training, drills, settings, toasts, .. } = self;
-        for message in [&mut coach.message, &mut training.message, &mut drills.message, &mut settings.message] {
+        let Self { coach, training, drills, settings, calibration, toasts, .. } = self;
+        let messages = [
+            &mut coach.message,
+            &mut training.message,
+            &mut drills.message,
+            &mut settings.message,
+            &mut calibration.message,
+        ];
+        for message in messages {
             if let Some(message) = message.take_if(|message| message.is_warning()) {
                 toasts.push(message.text, is_answer);
             }

@@ -1,5 +1,7 @@
 //! What is set holds at once; what keys change for the session alone is shown among the settings.
 
+use std::path::PathBuf;
+
 use crate::{
     table::{CueBall, PRESETS, Table},
     terminal::{
@@ -16,10 +18,25 @@ impl App {
     }
 
     /// Something has come of what the settings' screen wanted of the file.
-    pub fn receive_settings(&mut self, report: SettingsReport) {
+    pub fn receive_settings(&mut self, report: SettingsReport) -> Option<Effect> {
         let troubles = self.settings.receive(report);
         self.toasts.push_first(&troubles);
         self.take_changes();
+        let path = self.wanted_table.take()?;
+        let effect = self.settings.choose("table", &path.to_string_lossy());
+        let effect = self.set(effect);
+        if effect.is_some() {
+            self.calibration.play_on(self.coach.table());
+        }
+        self.gather(false);
+        effect
+    }
+
+    /// Plays on the table of this file from now on, once the settings' file was read again.
+    pub(super) fn use_table(&mut self, path: PathBuf) -> Effect {
+        self.wanted_table = Some(path);
+        self.show_session();
+        self.settings.open()
     }
 
     fn take_changes(&mut self) {

@@ -6,7 +6,7 @@ use crate::{
     table::{CueBall, Layout, Table},
     terminal::{
         App, Capabilities, CommandPalette, Keys, Mode, Overlay, PageId, SettingsPage, Shot,
-        pages::{Page, coach::CoachPage, drills::DrillsPage, training::TrainingPage},
+        pages::{Page, calibration::CalibrationPage, coach::CoachPage, drills::DrillsPage, training::TrainingPage},
         shot::Playback,
         ui::{Message, Theme},
     },
@@ -36,6 +36,11 @@ impl App {
     /// The settings' screen.
     pub const fn settings(&self) -> &SettingsPage {
         &self.settings
+    }
+
+    /// The calibration's page.
+    pub const fn calibration(&self) -> &CalibrationPage {
+        &self.calibration
     }
 
     /// The table that is played on.
@@ -90,6 +95,7 @@ impl App {
             PageId::Training => &self.training,
             PageId::Drills => &self.drills,
             PageId::Settings => &self.settings,
+            PageId::Calibration => &self.calibration,
         }
     }
 
@@ -99,6 +105,7 @@ impl App {
             PageId::Training => &mut self.training,
             PageId::Drills => &mut self.drills,
             PageId::Settings => &mut self.settings,
+            PageId::Calibration => &mut self.calibration,
         }
     }
 

@@ -27,6 +27,7 @@ impl App {
                 self.training.open();
                 None
             }
+            PageId::Calibration => Some(self.calibration.open(self.coach.table())),
             PageId::Settings => {
                 self.before = before;
                 self.show_session();

@@ -97,7 +97,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         group: "Game",
         key: "table",
-        about: "The table that is played on.",
+        about: "The table that is played on; F7 measures one of your own.",
         accepted: "\"match\", \"textbook\", \"thesis\" or the path of a TOML file that is there",
         choices: || PRESETS.map(quoted).to_vec(),
         get: |settings| quoted(&*settings.table),

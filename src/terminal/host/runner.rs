@@ -209,10 +209,8 @@ impl Runner {
                 self.app.receive_report(report);
                 None
             }
-            Event::Settings(report) => {
-                self.app.receive_settings(report);
-                None
-            }
+            Event::Settings(report) => self.app.receive_settings(report),
+            Event::Calibration(report) => self.app.receive_calibration(report),
             Event::Drill(report) => Some(Effect::Drill(self.app.receive_drill(report))),
         };
         match effect {
@@ -225,6 +223,7 @@ impl Runner {
             Some(Effect::LoadPolicy(folder)) => self.tasks.load_policy(folder)?,
             Some(Effect::Drill(tasks)) => self.tasks.practise(tasks)?,
             Some(Effect::Settings(task)) => self.tasks.set(*task)?,
+            Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks)?,
             Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}
         }

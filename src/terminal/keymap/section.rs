@@ -33,13 +33,17 @@ pub enum Section {
     Settings,
     /// Keys of the page of keys.
     OwnKeys,
+    /// Keys of the tests at a table.
+    Calibration,
+    /// Keys of the form for a stroke.
+    Marks,
     /// All others.
     Program,
 }
 
 impl Section {
     /// All headings, in the help's order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Balls,
         Self::Shot,
         Self::List,
@@ -55,6 +59,8 @@ impl Section {
         Self::Film,
         Self::Settings,
         Self::OwnKeys,
+        Self::Calibration,
+        Self::Marks,
         Self::Program,
     ];
 
@@ -76,6 +82,8 @@ impl Section {
             Self::Film => "Filmed shots",
             Self::Settings => "The settings",
             Self::OwnKeys => "The keys",
+            Self::Calibration => "Measuring a table",
+            Self::Marks => "What was marked",
             Self::Program => "The program",
         }
     }

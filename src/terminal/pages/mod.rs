@@ -3,6 +3,7 @@
 //! A page sees itself and a drawing context, never the app. What it wants done outside it says as an
 //! [`Effect`](super::effect::Effect).
 
+pub mod calibration;
 pub mod coach;
 pub mod drills;
 pub mod settings;

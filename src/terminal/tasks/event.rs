@@ -2,7 +2,7 @@
 
 use crossterm::event::Event as TerminalEvent;
 
-use crate::terminal::{Answer, DrillReport, Report, SettingsReport};
+use crate::terminal::{Answer, CalibrationReport, DrillReport, Report, SettingsReport};
 
 /// Something that the screen has to deal with.
 #[derive(Debug)]
@@ -21,4 +21,6 @@ pub enum Event {
     Drill(DrillReport),
     /// Something has come of a task of the settings.
     Settings(SettingsReport),
+    /// Something has come of a task of the calibration's page.
+    Calibration(CalibrationReport),
 }

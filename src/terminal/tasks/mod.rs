@@ -1,6 +1,7 @@
 //! What the training screen and the drill screens want done outside: each on a thread of its own, so that the screen never waits.
 
 pub mod advice;
+pub mod calibration;
 pub mod drills;
 pub mod event;
 mod policies;
@@ -34,7 +35,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        CoachWorker, DrillTask, Job, Keeping, Launch, Reel, Report, SettingsFile, SettingsTask, Slot, Subscriptions,
+        CalibrationTask, CoachWorker, DrillTask, Job, Keeping, Launch, Reel, Report, SettingsFile, SettingsTask, Slot,
+        Subscriptions,
         tasks::{event::Event, polling::Poll, worker::Worker},
     },
 };
@@ -59,6 +61,9 @@ pub struct Tasks {
     practice: Option<Worker<DrillTask>>,
     /// The thread of the settings' file.
     settings: Option<Worker<SettingsTask>>,
+    /// The thread that keeps what is measured at a table, and that of what follows from it.
+    kept: Option<Worker<CalibrationTask>>,
+    judged: Option<Worker<CalibrationTask>>,
     /// Set when answers are no longer wanted.
     is_closing: Arc<AtomicBool>,
 }
@@ -74,6 +79,8 @@ impl Tasks {
             coach: None,
             practice: None,
             settings: None,
+            kept: None,
+            judged: None,
             is_closing: Arc::default(),
         }
     }
@@ -173,11 +180,36 @@ impl Tasks {
         Ok(())
     }
 
+    /// Does tasks of the calibration's page. What is found out of the newest entries keeps no others waiting.
+    ///
+    /// # Errors
+    /// As [`Tasks::train`].
+    pub fn calibrate(&mut self, tasks: Vec<CalibrationTask>) -> io::Result<()> {
+        for task in tasks {
+            let to_screen = self.to_screen.clone();
+            // A screen that is gone needs no answer.
+            let work = move |task: CalibrationTask| drop(to_screen.send(Event::Calibration(task.run())));
+            if task.writes() {
+                started(&mut self.kept, "calibration", work)?.give(task);
+                continue;
+            }
+            let known = match self.judged.take() {
+                Some(known) => known,
+                None => Worker::of_the_newest("calibrate", work)?,
+            };
+            self.judged.insert(known).give(task);
+        }
+        Ok(())
+    }
+
     /// Waits until what the player has noted is on the disk: the screen may close before.
     pub fn finish(self) {
         self.is_closing.store(true, Ordering::Relaxed);
         if let Some(practice) = self.practice {
             practice.finish();
+        }
+        if let Some(kept) = self.kept {
+            kept.finish();
         }
     }
 

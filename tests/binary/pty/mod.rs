@@ -1,5 +1,6 @@
 //! The real binary in a pseudo-terminal: a session from start to end, every way of leaving, and lines that are slow or cut.
 
+mod calibration;
 mod leaving;
 mod line;
 

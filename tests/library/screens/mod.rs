@@ -1,6 +1,7 @@
 //! What is seen: keys, the mouse and news go through the real app, and what it shows is looked at.
 
 mod advice;
+mod calibration;
 mod coach;
 mod drills;
 mod edges;

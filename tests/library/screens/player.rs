@@ -214,7 +214,16 @@ impl Player {
             Effect::Settings(mut task) => {
                 task.path = self.path("config.toml");
                 let report = self.settings.run(&task);
-                self.app.receive_settings(report);
+                if let Some(effect) = self.app.receive_settings(report) {
+                    self.take(effect);
+                }
+            }
+            Effect::Calibrate(tasks) => {
+                for task in tasks {
+                    if let Some(effect) = self.app.receive_calibration(task.run()) {
+                        self.take(effect);
+                    }
+                }
             }
             other => self.effects.push(other),
         }

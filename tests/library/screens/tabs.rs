@@ -29,7 +29,9 @@ fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
 #[test]
 fn the_open_tab_is_told_without_colours_too() {
     for caps in [TRUE_COLOUR, NO_COLOUR] {
-        for (keys, screen) in [("F2", "Coach"), ("F3", "Drills"), ("F4", "Training"), ("F5", "Settings")] {
+        for (keys, screen) in
+            [("F2", "Coach"), ("F3", "Drills"), ("F4", "Training"), ("F5", "Settings"), ("F7", "Calibration")]
+        {
             for width in [80, 100] {
                 let picture = Player::with(caps).press(keys).picture(width, 30);
                 let reversed = |x: &u16| picture[(*x, 0)].modifier.contains(Modifier::REVERSED);

@@ -77,12 +77,24 @@ const FILM_NOTES: [&str; 3] = [
      shows. The tip is where a level cue would have met the ball to give it what was fitted.",
 ];
 
+const CALIBRATION_NOTES: [&str; 5] = [
+    "You stand on the left. Places are in diamonds: along the table from your own short rail (0) to the far one (8), across it \
+     from the long rail on your right, below (0), to that on your left (4). The rubber's edge counts, not the wood.",
+    "The dots are the way that the stroke would take on the table as it is known so far, the numbered rings where the marks are \
+     expected. Yours may be elsewhere: how hard you really struck is worked out from them.",
+    "A number is a place by eye, right to 0.1 diamonds; 725 mm is one by tape, right to 5 mm; 5.3 ~ 0.2 says how sure you are. \
+     Nothing, or -, stands for what you do not know.",
+    "Bits are what one more stroke of a test is expected to tell of the table. Each value of the table has one standard deviation.",
+    "Every entry is on the disk at once, in the file that carom calibrate goes on with as well. Both may be open at the same time.",
+];
+
 /// What the help says of the picture at `place`.
 fn notes(place: KeyContext) -> Vec<String> {
     match place {
         KeyContext::Coach => return COACH_NOTES.map(str::to_owned).to_vec(),
         KeyContext::Drill(DrillContext::Films | DrillContext::Film) => return FILM_NOTES.map(str::to_owned).to_vec(),
         KeyContext::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
+        KeyContext::Calibration(_) => return CALIBRATION_NOTES.map(str::to_owned).to_vec(),
         KeyContext::Settings(_) => return SETTINGS_NOTES.map(str::to_owned).to_vec(),
         _ => {}
     }

@@ -8,6 +8,8 @@ use crate::terminal::{App, PageId, app::bindings::chord_of_tab, keymap::keys_tex
 /// from which on each tab has its key.
 const LOOSE: u16 = 100;
 const WIDE: u16 = 120;
+/// Columns from which on the calibration has its tab although it is not open: it is not needed every day.
+const ROOMY: u16 = 140;
 /// The program's name, where there are no tabs.
 const NAME: &str = " carom ";
 
@@ -18,7 +20,8 @@ pub fn tabs(app: &App, area: Rect) -> Vec<(PageId, Rect, String)> {
     }
     let mut x = area.x;
     let mut tabs = Vec::new();
-    for screen in PageId::ALL {
+    let has_tab = |screen: &PageId| *screen != PageId::Calibration || app.screen() == *screen || area.width >= ROOMY;
+    for screen in PageId::ALL.into_iter().filter(has_tab) {
         let key = chord_of_tab(screen).filter(|_| area.width >= WIDE);
         let key = keys_text(key.into_iter().flat_map(|chord| app.keys().for_work_of(chord).take(1)), app.caps());
         let gap = u16::from(!key.is_empty());

@@ -4,7 +4,7 @@ use crossterm::event::KeyEvent;
 
 use crate::terminal::{
     Change, Effect, Settings, SettingsAction as Action, SettingsCondition,
-    config::ENTRIES,
+    config::{ENTRIES, Entry},
     keymap::Chord,
     pages::settings::{Input, LONGEST, Screen, SettingsPage},
     ui::{Message, TextField},
@@ -39,7 +39,7 @@ impl SettingsPage {
             Action::Default => {
                 let entry = self.marked();
                 let default = (entry.get)(&Settings::default());
-                return self.take(&default, Change::Default(entry.key, default.clone()));
+                return self.take(entry, &default, Change::Default(entry.key, default.clone()));
             }
             Action::No => self.input = None,
             Action::Yes => return self.yes(),
@@ -91,11 +91,19 @@ impl SettingsPage {
 
     /// Gives the marked setting a value that was chosen or typed.
     fn set(&mut self, typed: &str) -> Option<Effect> {
-        let entry = self.marked();
+        self.give_value(self.marked(), typed)
+    }
+
+    /// Gives the setting `key` a value that was chosen elsewhere.
+    pub fn choose(&mut self, key: &str, typed: &str) -> Option<Effect> {
+        self.give_value(ENTRIES.iter().find(|entry| entry.key == key)?, typed)
+    }
+
+    fn give_value(&mut self, entry: &Entry, typed: &str) -> Option<Effect> {
         match self.settings.with(entry, typed) {
             Ok(settings) => {
                 let value = (entry.get)(&settings);
-                self.take(&value.clone(), Change::Value(entry.key, value))
+                self.take(entry, &value.clone(), Change::Value(entry.key, value))
             }
             Err(sentence) => {
                 self.message = Some(Message::warning(sentence));
@@ -105,8 +113,8 @@ impl SettingsPage {
     }
 
     /// Takes a value that is accepted.
-    fn take(&mut self, value: &str, change: Change) -> Option<Effect> {
-        match self.settings.with(self.marked(), value) {
+    fn take(&mut self, entry: &Entry, value: &str, change: Change) -> Option<Effect> {
+        match self.settings.with(entry, value) {
             Ok(settings) => self.before = std::mem::replace(&mut self.settings, settings),
             Err(sentence) => {
                 self.message = Some(Message::warning(sentence));

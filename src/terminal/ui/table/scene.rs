@@ -128,10 +128,12 @@ impl Scene<'_> {
         places.for_each(|place| draw(place, sign));
     }
 
-    /// The balls, the selected one last, so that it lies on top.
-    pub fn order(&self) -> [usize; BALLS] {
+    /// The balls, the selected one last, so that it lies on top. One that takes no part lies far beyond the table, and not just
+    /// beside it, as an enlarged picture may.
+    pub fn order(&self) -> impl Iterator<Item = usize> {
         let selected = self.view.front;
-        [(selected + 1) % BALLS, (selected + 2) % BALLS, selected]
+        let all = [(selected + 1) % BALLS, (selected + 2) % BALLS, selected];
+        all.into_iter().filter(|ball| self.mapping.is_on_bed(0.5 * self.balls[*ball]))
     }
 }
 

@@ -1,0 +1,110 @@
+//! Marks as a player types them: a number, with its unit and how sure it is where that is not what is usual.
+
+use super::{
+    entries::{Entry, Written},
+    protocol::{Quantity, Test},
+};
+
+/// How many short rails a ball has met, among the names of a test's marks.
+pub const RAILS: &str = "rails";
+
+/// How sure a place is that was measured with a tape, as it is written down.
+pub const TAPED: &str = "5 mm";
+
+impl Entry {
+    /// Takes the mark `name`, or the number of [`RAILS`], as it is typed: `5.3`, `725 mm`, `5.3 ~ 0.2`; nothing or `-` where it
+    /// is not known.
+    ///
+    /// # Errors
+    /// A sentence where the number of rails is none.
+    pub fn take(&mut self, name: &str, typed: &str) -> Result<(), String> {
+        let typed = typed.trim();
+        if typed.is_empty() || typed == "-" {
+            return Ok(());
+        }
+        if name == RAILS {
+            self.rails = Some(typed.parse().map_err(|_| format!("rails {typed} is no number of rails"))?);
+            return Ok(());
+        }
+        let (value, sure) = typed.split_once(['±', '~']).map_or((typed, None), |(value, sure)| (value, Some(sure)));
+        self.marks.insert(name.to_owned(), written(value));
+        if let Some(sure) = sure {
+            self.sure.insert(name.to_owned(), written(sure));
+        }
+        Ok(())
+    }
+
+    /// The mark as it could be typed; nothing where it is not known.
+    pub fn typed(&self, name: &str) -> String {
+        if name == RAILS {
+            return self.rails.map_or_else(String::new, |rails| rails.to_string());
+        }
+        let Some(value) = self.marks.get(name) else { return String::new() };
+        let sure = self.sure.get(name).map_or_else(String::new, |sure| format!(" ~ {}", plain(sure)));
+        plain(value) + &sure
+    }
+}
+
+impl Test {
+    /// The names of all that is asked for: the marks, then [`RAILS`] where a lone ball is marked where it stops.
+    pub fn asked(&self) -> impl Iterator<Item = &'static str> {
+        let counts =
+            self.balls.len() == 1 && self.marks.iter().any(|mark| matches!(mark.quantity, Quantity::StopAlong(_)));
+        self.marks.iter().map(|mark| mark.name).chain(counts.then_some(RAILS))
+    }
+}
+
+/// What is no number is kept as it was typed, to be named.
+fn written(typed: &str) -> Written {
+    let typed = typed.trim();
+    typed.replace(',', ".").parse().map_or_else(|_| Written::Text(typed.to_owned()), Written::Number)
+}
+
+fn plain(written: &Written) -> String {
+    match written {
+        Written::Number(number) => number.to_string(),
+        Written::Text(text) => text.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::Table;
+
+    fn entry(typed: &[(&str, &str)]) -> Entry {
+        let mut entry = Entry { test: "slow-roll".into(), ..Entry::default() };
+        for (name, typed) in typed {
+            entry.take(name, typed).unwrap();
+        }
+        entry
+    }
+
+    #[test]
+    fn what_is_typed_is_read_and_can_be_typed_again() {
+        let typed = [("time", "9,6"), ("stop", "725 mm ± 3 mm"), ("drift", "-"), ("rails", "1")];
+        let entry = entry(&typed);
+        let again: Vec<String> = Test::named("slow-roll").unwrap().asked().map(|name| entry.typed(name)).collect();
+        assert_eq!(again, ["9.6", "725 mm ~ 3 mm", "", "1"]);
+        let table = Table::default();
+        let (readings, odd) = entry.readings(&table);
+        assert_eq!((readings.len(), odd.len()), (2, 0), "{odd:?}");
+        assert!((readings[1].sure - 0.003 / table.diamond()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_tape_is_as_sure_whether_it_is_said_or_seen_from_the_unit() {
+        let table = Table::default();
+        let sure = |typed: &str| entry(&[("stop", typed)]).readings(&table).0[0].sure;
+        assert!((sure("725 mm") - sure(&format!("2.04 ± {TAPED}"))).abs() < 1e-3);
+        assert!(sure("2.04") > 5.0 * sure("725 mm"));
+    }
+
+    #[test]
+    fn letters_are_kept_to_be_named() {
+        let said = entry(&[("stop", "far")]).readings(&Table::default()).1;
+        assert!(said[0].contains("stop = \"far\" is no diamonds"), "{said:?}");
+        let mut entry = Entry::default();
+        assert!(entry.take(RAILS, "two").unwrap_err().contains("rails two is no number"));
+    }
+}

@@ -1,0 +1,81 @@
+//! What a calibration has found, in a player's words.
+
+use super::{
+    calibrate::{Calibration, Change, Strange, Verdict},
+    protocol::Test,
+};
+
+impl Change {
+    /// In a word, how much the marks have told.
+    pub fn known(&self) -> &'static str {
+        match self.after_deviation / self.before_deviation {
+            left if left < 0.5 => "well",
+            left if left < 0.9 => "better",
+            _ => "as before",
+        }
+    }
+
+    /// What the constant is.
+    pub fn words(&self) -> &'static str {
+        match self.name.as_str() {
+            "e_rail" => "what rails give back",
+            "mu_rail" => "grip of the rails",
+            "rail.height" => "height of the rubber, m",
+            "rail.kappa" => "how the rubber yields",
+            "rail.fade.slope" => "loss of fast balls at rails",
+            "mu_s" => "friction of sliding balls",
+            "mu_r" => "friction of rolling balls",
+            "c1" => "its growth with speed (mu_r)",
+            "mu_sp" => "how soon side is lost",
+            "tilt.x" => "lean along the table, m/s²",
+            "tilt.y" => "lean across it, m/s²",
+            "e_ball" => "what balls give back",
+            "mu_b" => "throw between balls",
+            "m_end" => "squirt: mass of the cue's end",
+            _ => "",
+        }
+    }
+}
+
+impl Verdict {
+    /// What speaks against a mark that looks misread.
+    pub fn doubtful(&self) -> String {
+        let Self { trial, test, mark, marked, expected, rails, .. } = self;
+        let unit = Test::named(test)
+            .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
+            .map_or("", |mark| mark.unit().sign());
+        let after = |rails: usize| format!(" after {rails} rails");
+        let [met, wanted] = match rails {
+            Some((met, wanted)) if met != wanted => [after(*met), after(*wanted)],
+            _ => [String::new(), String::new()],
+        };
+        let but = expected.map_or_else(
+            || "no stroke of this test comes there".to_owned(),
+            |(value, deviation)| format!("expected {value:.1} ± {deviation:.1}{wanted}"),
+        );
+        format!("trial {trial} ({test}) looks misread: you marked {mark} {marked:.1}{met} {unit}, {but}")
+    }
+}
+
+impl Strange {
+    /// How the stroke was different.
+    pub fn words(&self) -> String {
+        let Self { trial, test, what, off } = self;
+        format!(
+            "trial {trial} ({test}) was struck far from what is asked for ({what}: {off:+.1} deviations), or a mark is misread"
+        )
+    }
+}
+
+impl Calibration {
+    /// Whether the marks agree.
+    pub fn agreement(&self) -> &'static str {
+        if self.is_contradictory() {
+            "so many tests look misread that they contradict each other: look at the largest first, or play them again"
+        } else if self.misread().is_empty() {
+            "all marks agree with each other"
+        } else {
+            "the other marks agree with each other; those above hardly count"
+        }
+    }
+}

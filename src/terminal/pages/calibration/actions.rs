@@ -1,0 +1,186 @@
+//! What each key of the calibration's page does, and why it may not be used now.
+
+use crate::{
+    calibration::{Edit, Entries},
+    terminal::{
+        CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
+        pages::calibration::{CalibrationPage, Input, Side, form::Form},
+        ui::{Message, TextField},
+    },
+};
+
+/// Longest name of a table, bytes.
+const LONGEST: usize = 60;
+
+impl CalibrationPage {
+    /// Why a binding may not be used now; `None` where it may.
+    pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
+        let sheet = self.sheet();
+        let found = || sheet.judged.as_ref().and_then(|judged| judged.found.as_ref());
+        let (can, reason) = match when {
+            Condition::Here => (true, ""),
+            Condition::Known => {
+                (sheet.entries.is_some(), "the file of entries was not read yet, or cannot be: mend it first")
+            }
+            Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
+            Condition::Entered => (sheet.count().0 > 0, "nothing is entered yet"),
+            Condition::Undo => (sheet.can_undo(), "there is nothing to take back"),
+            Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
+            Condition::Found if !sheet.odd(&self.table).is_empty() => {
+                (false, "an entry is odd, as the values say: amend it or take it out first")
+            }
+            Condition::Found => (found().is_some(), "nothing is entered yet that a table could follow from"),
+            Condition::Saved => (self.saved().is_some(), "save the table first: s"),
+            Condition::Daily => (
+                self.table.doubt.is_some(),
+                "a check of the day needs a table that was calibrated before: save one and play on it",
+            ),
+        };
+        (!can).then_some(reason)
+    }
+
+    /// Does what an enabled binding asks for.
+    pub fn update(&mut self, action: Action) -> Option<Effect> {
+        match action {
+            Action::Back => self.is_left = true,
+            Action::Line(lines) => self.sheet_mut().move_mark(lines),
+            Action::Best => self.mark_best(),
+            Action::LeaveOut => {
+                let is_out = self.sheet_mut().turn_left_out();
+                let test = self.sheet().test().name;
+                let said = if is_out { "is left out, until the program ends" } else { "is asked for again" };
+                self.message = Some(Message::plain(format!("{test} {said}")));
+            }
+            Action::Stroke(by) => self.sheet_mut().move_stroke(by),
+            Action::Enter => {
+                self.side = Side::Test;
+                self.input = Some(Input::Marks(Form::new(self.sheet().test())));
+            }
+            Action::Amend => {
+                let sheet = self.sheet();
+                let (place, entry) = sheet.marked_stroke()?;
+                self.input = Some(Input::Marks(Form::of(sheet.test(), place, entry)));
+                self.side = Side::Test;
+            }
+            Action::TakeOut => {
+                let (place, entry) = self.sheet().marked_stroke()?;
+                let edit = Edit::TakeOut(place, entry.clone());
+                self.message =
+                    Some(Message::plain(format!("a stroke of {} is taken out; u takes it back", entry.test)));
+                return Some(self.edit(edit, false));
+            }
+            Action::Undo => {
+                let edit = self.sheet_mut().undo()?;
+                self.message = Some(Message::plain("the last change is taken back"));
+                return Some(self.edit(edit, true));
+            }
+            Action::Turn => self.side = if self.side == Side::Test { Side::Values } else { Side::Test },
+            Action::Daily => {
+                self.is_daily = !self.is_daily;
+                return Some(Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())]));
+            }
+            Action::Save => {
+                // What was saved before has its name already.
+                let saved = self.saved().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
+                let today = if self.is_daily { " today" } else { "" };
+                let name = saved
+                    .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
+                self.input = Some(Input::Name(TextField::new(LONGEST).with(&name)));
+            }
+            Action::Use => {
+                let path = self.saved()?.clone();
+                let said = format!("{} is played on from now on, and at every start", path.display());
+                self.message = Some(Message::good(said));
+                self.for_use = Some(path);
+            }
+            Action::Anew => self.input = Some(Input::Anew),
+            Action::Field(_) | Action::Tape => self.change_form(action),
+            Action::No => self.input = None,
+            Action::Yes => return self.yes(),
+        }
+        None
+    }
+
+    fn change_form(&mut self, action: Action) {
+        let Some(Input::Marks(form)) = &mut self.input else { return };
+        match action {
+            Action::Field(by) => form.step(by),
+            _ => {
+                if let Err(sentence) = form.turn_tape() {
+                    self.message = Some(Message::warning(sentence));
+                }
+            }
+        }
+    }
+
+    fn mark_best(&mut self) {
+        self.message = Some(if self.sheet_mut().mark_best() {
+            let test = self.sheet().test().name;
+            Message::plain(format!("one more stroke of {test} would tell most"))
+        } else {
+            Message::plain("nothing more is asked for")
+        });
+    }
+
+    fn yes(&mut self) -> Option<Effect> {
+        match self.input.take()? {
+            Input::Marks(form) => self.keep(form),
+            Input::Name(typed) => self.save(typed.text().trim(), false),
+            Input::Replace(name) => self.save(&name, true),
+            Input::Anew => {
+                let count = self.sheet().count().0;
+                let said = format!("{count} entries are kept as {}; u takes this back", self.beside().display());
+                self.message = Some(Message::plain(said));
+                Some(self.edit(Edit::Anew(Entries::default()), false))
+            }
+        }
+    }
+
+    /// Goes to the next mark of the form, or keeps the stroke. What is odd stays to be mended.
+    fn keep(&mut self, mut form: Form) -> Option<Effect> {
+        let mut edit = None;
+        let odd = form.oddity(&self.table).filter(|_| !form.is_sent);
+        if let Some(what) = odd {
+            self.message = Some(Message::warning(format!("{}: {what}", form.test.name)));
+        } else if !form.is_sent && !form.is_at_the_end() {
+            form.step(1);
+        } else if !form.is_sent {
+            match form.entry(&self.table) {
+                Ok(entry) => {
+                    form.is_sent = true;
+                    edit = Some(match &form.amends {
+                        Some((place, before)) => Edit::Amend(*place, before.clone(), entry),
+                        None => Edit::Add(entry),
+                    });
+                }
+                Err(what) => {
+                    let said = format!("{}: {what}; nothing was kept yet", form.test.name);
+                    self.message = Some(Message::warning(said));
+                }
+            }
+        }
+        self.input = Some(Input::Marks(form));
+        edit.map(|edit| self.edit(edit, false))
+    }
+
+    /// Saves the table that was found under a name.
+    fn save(&mut self, name: &str, replaces: bool) -> Option<Effect> {
+        let found = self.sheet().judged.as_ref()?.found.as_ref()?;
+        let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
+        if name.is_empty() || !name.chars().all(is_plain) {
+            self.input = Some(Input::Name(TextField::new(LONGEST).with(name)));
+            self.message = Some(Message::warning(format!(
+                "\"{name}\" is no name of a table; accepted are letters, digits, blanks, - and _"
+            )));
+            return None;
+        }
+        let mut table = found.table.clone();
+        name.clone_into(&mut table.name);
+        let path = self.places.tables.join(format!("{name}.toml"));
+        Some(Effect::Calibrate(vec![CalibrationTask::Save(path, Box::new(table), replaces)]))
+    }
+
+    fn edit(&self, edit: Edit, is_back: bool) -> Effect {
+        Effect::Calibrate(vec![CalibrationTask::Edit(self.sheet().path.clone(), edit, is_back)])
+    }
+}

@@ -1,0 +1,168 @@
+//! The keys of the calibration's page, and of what is typed or asked there.
+
+use crossterm::event::KeyCode::{
+    BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
+};
+
+use crate::terminal::keymap::{
+    Binding,
+    Section::{self, Calibration, Marks, Program},
+    bind, ctrl, key, letter, mark,
+};
+
+use CalibrationAction as A;
+use CalibrationCondition as W;
+
+/// What a key does on the calibration's page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CalibrationAction {
+    /// Goes back to the coach.
+    Back,
+    /// Moves the mark by tests, down where positive.
+    Line(isize),
+    /// Marks the test of which one more stroke tells most.
+    Best,
+    /// Leaves a test out, or takes it in again.
+    LeaveOut,
+    /// Marks another stroke of the test, a later one where positive.
+    Stroke(isize),
+    /// Enters a stroke of the test.
+    Enter,
+    /// Changes what was entered of the marked stroke.
+    Amend,
+    /// Takes the marked stroke out.
+    TakeOut,
+    /// Takes the last change back.
+    Undo,
+    /// Shows the test, or what was found.
+    Turn,
+    /// Goes to the check of the day, or back.
+    Daily,
+    /// Asks for the table's name, to save it.
+    Save,
+    /// Plays on the saved table.
+    Use,
+    /// Asks whether to begin anew.
+    Anew,
+    /// Goes to another field of the form, down where positive.
+    Field(isize),
+    /// A place was measured with a tape, or not.
+    Tape,
+    /// Takes what was typed, or says yes.
+    Yes,
+    /// Leaves all as it is.
+    No,
+}
+
+/// When a binding of the calibration's page may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CalibrationCondition {
+    /// Whatever is shown.
+    Here,
+    /// Where the file of entries was read.
+    Known,
+    /// Where a stroke of the test is entered.
+    Stroke,
+    /// Where anything is entered.
+    Entered,
+    /// Where there is something to take back.
+    Undo,
+    /// Where a table was found, and no entry is odd.
+    Found,
+    /// Where a table was saved.
+    Saved,
+    /// Where the table that is played on was calibrated.
+    Daily,
+}
+
+/// What is on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CalibrationContext {
+    /// The tests.
+    Tests,
+    /// The marks of a stroke, which are typed.
+    Marks,
+    /// The table's name, which is typed.
+    Name,
+    /// A question.
+    Question,
+}
+
+impl CalibrationContext {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Tests, Self::Marks, Self::Name, Self::Question];
+
+    /// Its keys.
+    pub const fn bindings(self) -> &'static [Binding<A, W>] {
+        match self {
+            Self::Tests => TESTS,
+            Self::Marks => FORM,
+            Self::Name => NAME,
+            Self::Question => QUESTION,
+        }
+    }
+
+    /// Whether letters are typed there, or answers.
+    pub const fn takes_letters(self) -> bool {
+        !matches!(self, Self::Tests)
+    }
+}
+
+/// The tests.
+#[rustfmt::skip]
+pub const TESTS: &[Binding<A, W>] = &[
+    bind(Calibration, W::Known, &[key(Enter, A::Enter)], Some(("enter a stroke", 1)), "enter what was marked of a stroke of the test"),
+    bind(Calibration, W::Here, &[
+        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
+        key(PageDown, A::Line(10)), key(PageUp, A::Line(-10)), key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
+        ], Some(("test", 2)), "mark another test"),
+    bind(Calibration, W::Here, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
+    bind(Calibration, W::Here, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
+    bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
+    bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("amend", 1)), "change what was entered of the marked stroke"),
+    bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
+        Some(("stroke", 2)), "mark another stroke of the test"),
+    bind(Calibration, W::Stroke, &[key(Delete, A::TakeOut), key(Backspace, A::TakeOut)], Some(("take out", 1)), "take the marked stroke out"),
+    bind(Calibration, W::Here, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out, take it in again"),
+    bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
+    bind(Calibration, W::Saved, &[letter('p', A::Use)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
+    bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that say how the table plays today; back to all tests"),
+    bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "begin anew; what was entered is kept beside the file"),
+    bind(Program, W::Here, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
+];
+
+/// The form of a stroke.
+#[rustfmt::skip]
+pub const FORM: &[Binding<A, W>] = &[
+    bind(Marks, W::Here, &[key(Enter, A::Yes)], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
+    bind(Marks, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
+        Some(("mark", 2)), "type another mark"),
+    bind(Marks, W::Here, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
+    bind(Marks, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave the form; nothing of it is kept"),
+];
+
+/// The table's name.
+#[rustfmt::skip]
+pub const NAME: &[Binding<A, W>] = &[
+    bind(Calibration, W::Here, &[key(Enter, A::Yes)], Some(("save", 1)), "save the table under the name that is typed"),
+    bind(Calibration, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "save nothing"),
+];
+
+/// A question.
+#[rustfmt::skip]
+pub const QUESTION: &[Binding<A, W>] = &[
+    bind(Calibration, W::Here, &[letter('y', A::Yes)], Some(("yes", 1)), "yes"),
+    bind(Calibration, W::Here, &[letter('n', A::No), key(Esc, A::No), letter('q', A::No)], Some(("no", 1)), "no"),
+];
+
+/// The words of `action` by itself, where its binding does several things.
+pub const fn words(action: CalibrationAction, _: Section) -> Option<&'static str> {
+    Some(match action {
+        A::Line(lines) => return mark!(lines, "test"),
+        A::Stroke(1) => "mark the next stroke of the test",
+        A::Stroke(-1) => "mark the stroke of the test before",
+        A::Field(1) => "type the next mark",
+        A::Field(-1) => "type the mark before",
+        _ => return None,
+    })
+}

@@ -1,0 +1,207 @@
+//! The state of the calibration's page: the tests, what was entered of them, and the table that follows.
+//!
+//! Files are read and written, and entries judged, elsewhere ([`CalibrationTask`]); what comes of it is a
+//! [`CalibrationReport`]. [`actions`] is what each key does.
+
+mod actions;
+pub mod form;
+pub mod keys;
+mod page;
+pub mod sheet;
+mod view;
+
+use std::path::PathBuf;
+
+use self::{form::Form, sheet::Sheet};
+use crate::{
+    calibration::beside,
+    storage::Places,
+    table::Table,
+    terminal::{
+        CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries,
+        ui::{Message, TextField},
+    },
+};
+
+/// What is typed or asked.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Input {
+    /// The marks of a stroke.
+    Marks(Form),
+    /// The table's name.
+    Name(TextField),
+    /// Whether the table of this name may be replaced.
+    Replace(String),
+    /// Whether to begin anew.
+    Anew,
+}
+
+impl Input {
+    /// The text that is typed, where some is.
+    fn field_mut(&mut self) -> Option<&mut TextField> {
+        match self {
+            // What is on its way to the disk stays as it is.
+            Self::Marks(form) if form.is_sent => None,
+            Self::Marks(form) => Some(form.typed_mut()),
+            Self::Name(field) => Some(field),
+            _ => None,
+        }
+    }
+}
+
+/// What is shown beside the list of tests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The marked test on the table.
+    Test,
+    /// The table's values.
+    Values,
+}
+
+/// The state of the page.
+#[derive(Debug)]
+pub struct CalibrationPage {
+    /// Where entries and tables are.
+    places: Places,
+    /// The table that is played on.
+    pub table: Table,
+    /// What is typed or asked.
+    pub input: Option<Input>,
+    /// What is shown beside the list of tests.
+    pub side: Side,
+    /// What the status line says.
+    pub message: Option<Message>,
+    all: Sheet,
+    daily: Sheet,
+    is_daily: bool,
+    /// The file of the table that was saved last.
+    saved: Option<PathBuf>,
+    for_use: Option<PathBuf>,
+    is_left: bool,
+}
+
+impl CalibrationPage {
+    /// The page before it is opened.
+    pub fn new(places: Places) -> Self {
+        let all = Sheet::new(places.calibration.clone(), false);
+        let daily = Sheet::new(places.daily_check.clone(), true);
+        Self {
+            places,
+            table: Table::default(),
+            input: None,
+            side: Side::Test,
+            message: None,
+            all,
+            daily,
+            is_daily: false,
+            saved: None,
+            for_use: None,
+            is_left: false,
+        }
+    }
+
+    /// Opens it as it was left, for who plays on `table`; the entries are read again.
+    pub fn open(&mut self, table: &Table) -> Effect {
+        self.message = None;
+        self.is_left = false;
+        self.play_on(table);
+        Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())])
+    }
+
+    /// The table that is played on from now on.
+    pub fn play_on(&mut self, table: &Table) {
+        self.table.clone_from(table);
+        self.is_daily &= table.doubt.is_some();
+    }
+
+    /// What is entered now.
+    pub const fn sheet(&self) -> &Sheet {
+        if self.is_daily { &self.daily } else { &self.all }
+    }
+
+    const fn sheet_mut(&mut self) -> &mut Sheet {
+        if self.is_daily { &mut self.daily } else { &mut self.all }
+    }
+
+    /// Whether one has gone back.
+    pub const fn is_left(&self) -> bool {
+        self.is_left
+    }
+
+    /// The file of a table that is to be played on; asked once.
+    pub const fn take_for_use(&mut self) -> Option<PathBuf> {
+        self.for_use.take()
+    }
+
+    /// The file of the table that was saved last.
+    pub const fn saved(&self) -> Option<&PathBuf> {
+        self.saved.as_ref()
+    }
+
+    /// The key context.
+    pub const fn place(&self) -> CalibrationContext {
+        match &self.input {
+            None => CalibrationContext::Tests,
+            Some(Input::Marks(_)) => CalibrationContext::Marks,
+            Some(Input::Name(_)) => CalibrationContext::Name,
+            Some(Input::Replace(_) | Input::Anew) => CalibrationContext::Question,
+        }
+    }
+
+    /// Asks what the entries say.
+    fn judge(&mut self) -> Vec<CalibrationTask> {
+        let table = self.table.clone();
+        self.sheet_mut().judge(&table).map(|judging| CalibrationTask::Judge(Box::new(judging))).into_iter().collect()
+    }
+
+    /// Takes what has come of a task; gives what is to be done next.
+    pub fn receive(&mut self, report: CalibrationReport) -> Vec<CalibrationTask> {
+        match report {
+            CalibrationReport::Entries(path, outcome) if path == self.sheet().path => match outcome {
+                Ok(kept) => {
+                    let KeptEntries { entries, back } = *kept;
+                    if back.is_some() && matches!(self.input, Some(Input::Marks(_))) {
+                        self.input = None;
+                    }
+                    self.sheet_mut().take(entries, back);
+                    return self.judge();
+                }
+                Err(sentence) => {
+                    let sheet = self.sheet_mut();
+                    (sheet.entries, sheet.trouble) = (None, Some(sentence.clone()));
+                    self.message = Some(Message::warning(sentence));
+                }
+            },
+            CalibrationReport::Unkept(path, sentence) => {
+                if let Some(Input::Marks(form)) = &mut self.input {
+                    // What could not be kept stays in the form.
+                    form.is_sent = false;
+                }
+                self.message = Some(Message::warning(sentence));
+                // What another program has changed is seen.
+                return vec![CalibrationTask::Read(path)];
+            }
+            CalibrationReport::Entries(..) => {}
+            CalibrationReport::Judged(is_daily, number, outcome) => {
+                let sheet = if is_daily { &mut self.daily } else { &mut self.all };
+                sheet.answer(number, outcome);
+            }
+            CalibrationReport::Saved(path, Ok(true)) => {
+                let said = format!("saved as {}; p plays on it from now on", path.display());
+                self.message = Some(Message::good(said));
+                self.saved = Some(path);
+            }
+            CalibrationReport::Saved(path, Ok(false)) => {
+                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                self.input = Some(Input::Replace(name));
+            }
+            CalibrationReport::Saved(_, Err(sentence)) => self.message = Some(Message::warning(sentence)),
+        }
+        Vec::new()
+    }
+
+    /// Where entries are kept that are put aside.
+    fn beside(&self) -> PathBuf {
+        beside(&self.sheet().path)
+    }
+}

@@ -1,0 +1,137 @@
+//! The left of the page: the tests with what is entered of each, the strokes of the marked one, and the values so far.
+
+use ratatui::layout::Rect;
+
+use crate::{
+    calibration::{Calibration, Change, Entry, Test},
+    terminal::{
+        pages::calibration::CalibrationPage,
+        ui::{Ui, draw_title, list, shorten, write_right},
+    },
+};
+
+/// Columns, from the right, at which the strokes and the bits of a test end.
+const STROKES_END: u16 = 8;
+const BITS_END: u16 = 1;
+/// Columns of a constant's name.
+const NAME: usize = 10;
+
+/// Draws it.
+pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
+    let below = draw_tests(page, area, ui);
+    let below = draw_strokes(page, below, ui);
+    draw_values(page, below, ui);
+}
+
+/// What is left of `area` below its first `rows`.
+fn rest(area: Rect, rows: u16) -> Rect {
+    let rows = rows.min(area.height);
+    Rect { y: area.y + rows, height: area.height - rows, ..area }
+}
+
+fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
+    let sheet = page.sheet();
+    let inner = draw_title("Tests", area, ui);
+    for (end, label) in [(STROKES_END, " strokes "), (BITS_END, " bits ")] {
+        write_right(ui.buffer, area.x, (area.right() + 1).saturating_sub(end), area.y, label, ui.theme.faint());
+    }
+    let best = sheet.best().map(|next| next.test);
+    for ((n, test), y) in sheet.tests().enumerate().zip(inner.y..inner.bottom()) {
+        let is_marked = n == sheet.mark();
+        let (entered, times) = (sheet.strokes(test).len(), sheet.times(test));
+        let is_out = sheet.is_left_out(test);
+        let style = match () {
+            () if is_marked => ui.theme.accent(),
+            () if is_out || entered >= times => ui.theme.faint(),
+            () => ui.theme.text(),
+        };
+        if is_marked {
+            ui.buffer.set_string(area.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+        }
+        ui.buffer.set_stringn(area.x + 2, y, test.name, usize::from(area.width - 2), style);
+        if is_odd(page, test) {
+            ui.buffer.set_string(area.x + 14, y, "!", ui.theme.warning());
+        }
+        let strokes = if is_out { "out".to_owned() } else { format!("{entered}/{times}") };
+        write_right(ui.buffer, area.x, area.right() - STROKES_END, y, &strokes, style);
+        if let Some(bits) = sheet.bits(test) {
+            let is_best = best == Some(test.name);
+            let sign = if is_best { ui.caps.pick("◂", "<") } else { " " };
+            let style = if is_best { ui.theme.good() } else { ui.theme.faint() };
+            write_right(ui.buffer, area.x, area.right() - BITS_END + 1, y, &format!("{bits:.1}{sign}"), style);
+        }
+    }
+    rest(area, 1 + sheet.tests().count() as u16)
+}
+
+/// Whether a stroke of a test is odd or a mark of it looks misread.
+fn is_odd(page: &CalibrationPage, test: &Test) -> bool {
+    page.sheet().strokes(test).into_iter().any(|(place, entry)| is_doubtful(page, place, entry))
+}
+
+/// The same of the stroke at `place` among all entries.
+fn is_doubtful(page: &CalibrationPage, place: usize, entry: &Entry) -> bool {
+    let Some(found) = found(page) else { return !entry.readings(&page.table).1.is_empty() };
+    !entry.readings(&page.table).1.is_empty()
+        || found.misread().contains(&(place + 1))
+        || found.strange.iter().any(|strange| strange.trial == place + 1)
+}
+
+/// What the marks say, where there are any.
+fn found(page: &CalibrationPage) -> Option<&Calibration> {
+    page.sheet().judged.as_ref()?.found.as_ref()
+}
+
+fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
+    let sheet = page.sheet();
+    let test = sheet.test();
+    let strokes = sheet.strokes(test);
+    let most = strokes.len().clamp(1, 4);
+    let inner = draw_title(format!("Strokes of {}", test.name), area, ui);
+    let inner = Rect { height: inner.height.min(most as u16), ..inner };
+    if strokes.is_empty() {
+        ui.buffer.set_stringn(inner.x + 2, inner.y, "none yet", usize::from(inner.width), ui.theme.faint());
+    }
+    for (n, y) in list::in_view(sheet.stroke(), strokes.len(), usize::from(inner.height)).zip(inner.y..) {
+        let (place, entry) = strokes[n];
+        let is_marked = n == sheet.stroke();
+        let is_doubtful = is_doubtful(page, place, entry);
+        let style = match () {
+            () if is_doubtful => ui.theme.warning(),
+            () if is_marked => ui.theme.accent(),
+            () => ui.theme.text(),
+        };
+        if is_marked {
+            ui.buffer.set_string(inner.x, y, ui.caps.pick("▸", ">"), ui.theme.accent());
+        }
+        let marks = test.asked().map(|name| entry.typed(name));
+        let marks: Vec<String> = marks.map(|mark| if mark.is_empty() { "-".to_owned() } else { mark }).collect();
+        let sign = if is_doubtful { "! " } else { "" };
+        let text = shorten(&format!("{sign}{}", marks.join(", ")), usize::from(inner.width - 3), ui.caps);
+        ui.buffer.set_string(inner.x + 2, y, text, style);
+    }
+    rest(area, 1 + most as u16)
+}
+
+/// The values of which most is known, as many as there is room for.
+fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
+    if area.height < 3 {
+        return;
+    }
+    let inner = draw_title("Best known so far", area, ui);
+    let Some(found) = found(page) else {
+        ui.buffer.set_stringn(inner.x + 2, inner.y, "nothing yet", usize::from(inner.width), ui.theme.faint());
+        return;
+    };
+    let left = |one: &Change| one.after_deviation / one.before_deviation;
+    let mut constants: Vec<&Change> = found.constants.iter().collect();
+    constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
+    for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
+        let name = shorten(&one.name, NAME.max(usize::from(inner.width).saturating_sub(22)), ui.caps);
+        let style = if one.known() == "as before" { ui.theme.faint() } else { ui.theme.text() };
+        ui.buffer.set_string(inner.x + 2, y, name, style);
+        let sign = ui.caps.pick("±", "+-");
+        let value = format!("{:.4} {sign} {:.4}", one.after, one.after_deviation);
+        write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
+    }
+}

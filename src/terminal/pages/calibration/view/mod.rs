@@ -1,0 +1,111 @@
+//! The calibration's page: the tests, the strokes and the values on the left; the marked test, or all that was found, beside
+//! them.
+
+mod list;
+mod test;
+mod values;
+
+use ratatui::{
+    layout::{Position, Rect},
+    text::{Line, Span},
+};
+
+use crate::terminal::{
+    pages::{
+        PageArea, Target,
+        calibration::{CalibrationPage, Input, Side},
+    },
+    ui::{Message, TextField, Ui, columns, draw_question, draw_status, shorten, write_right},
+};
+
+/// Columns of the tests: at least, and where there is room.
+const LIST: u16 = 31;
+const LIST_WIDE: u16 = 41;
+/// Columns of the screen from which on there is.
+const WIDE: u16 = 110;
+
+/// Draws the page; gives the first row of what stands below it.
+pub fn draw(page: &CalibrationPage, area: &PageArea, ui: &mut Ui) -> u16 {
+    draw_header(page, area.header, ui);
+    let [left, right] = halves(area.body);
+    list::draw(page, left, ui);
+    match page.side {
+        Side::Test => test::draw(page, right, ui),
+        Side::Values => values::draw(page, right, ui),
+    }
+    let message = page.message.clone();
+    let Some((question, field)) = question(page) else {
+        return draw_status(&message.unwrap_or_else(|| standing(page)), area.status, ui);
+    };
+    draw_question(&Message::plain(question), field, area.status, ui)
+}
+
+/// What is asked, and what is typed behind it.
+fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
+    Some(match page.input.as_ref()? {
+        Input::Marks(form) => (form.question(&page.table), Some(form.typed())),
+        Input::Name(field) => ("the table's name = ".to_owned(), Some(field)),
+        Input::Replace(name) => (format!("there is a table called {name} already; replace it? y/n"), None),
+        Input::Anew => ("begin anew? What is entered is kept beside the file. y/n".to_owned(), None),
+    })
+}
+
+/// What the status line says while there is no news.
+fn standing(page: &CalibrationPage) -> Message {
+    let sheet = page.sheet();
+    if let Some(sentence) = sheet.trouble.as_ref().or(sheet.unjudged.as_ref()) {
+        return Message::warning(sentence.clone());
+    }
+    if sheet.entries.is_none() {
+        return Message::plain("reading what was entered so far");
+    }
+    let (entered, wanted) = sheet.count();
+    match sheet.best() {
+        _ if sheet.is_asking() => Message::plain("working out what the marks say"),
+        Some(best) if entered == 0 => {
+            Message::plain(format!("play a test, then Enter; {} tells most ({:.1} bits)", best.test, best.bits))
+        }
+        Some(best) if entered < wanted => {
+            Message::plain(format!("one more stroke of {} would tell most ({:.1} bits)", best.test, best.bits))
+        }
+        Some(best) => Message::good(format!(
+            "all is entered: s saves the table; {} would still tell most ({:.1} bits)",
+            best.test, best.bits
+        )),
+        None if page.is_daily => Message::good("both strokes are entered; N begins another day's check"),
+        None => Message::plain("choose a test, play it, and enter what was marked"),
+    }
+}
+
+/// The first row behind the tabs: what is measured, from what on, and how much of it is entered.
+fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
+    let sheet = page.sheet();
+    let (entered, wanted) = sheet.count();
+    let count = format!("{entered} of {wanted} strokes ");
+    let room = usize::from(area.width).saturating_sub(count.len() + 1);
+    let name = if page.is_daily { page.table.name.clone() } else { sheet.base(&page.table).0.name };
+    let [long, short] = if page.is_daily { ["today's check of", "today:"] } else { ["your table, from", "from"] };
+    let what =
+        if long.len() + columns(&name) + 2 < room { format!("{long} {name}") } else { format!("{short} {name}") };
+    let line =
+        Line::from(Span::styled(format!(" {}", shorten(&what, room.saturating_sub(1), ui.caps)), ui.theme.text()));
+    ui.buffer.set_line(area.x, area.y, &line, room as u16);
+    write_right(ui.buffer, area.x, area.right(), area.y, &count, ui.theme.faint());
+}
+
+/// The part of the tests, and that beside them.
+fn halves(area: Rect) -> [Rect; 2] {
+    let list = Rect { width: if area.width >= WIDE { LIST_WIDE } else { LIST }, ..area };
+    [list, Rect { x: list.right() + 1, width: area.width.saturating_sub(list.width + 1), ..area }]
+}
+
+/// What the mouse points at.
+pub fn target(page: &CalibrationPage, area: &PageArea, at: Position) -> Option<Target> {
+    let [left, _] = halves(area.body);
+    let sheet = page.sheet();
+    let rows = sheet.tests().count() as u16;
+    let list = Rect { height: left.height.min(rows + 1), ..left };
+    // The first row is the title's.
+    let line = at.y.checked_sub(left.y + 1).map(usize::from);
+    (page.input.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark()))
+}

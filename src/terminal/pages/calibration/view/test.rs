@@ -1,0 +1,195 @@
+//! The marked test: the table with its balls, the stroke's way and the places to mark, and what to do in words.
+
+use glam::DVec2;
+use ratatui::{
+    layout::{Margin, Rect},
+    style::Modifier,
+};
+
+use crate::{
+    calibration::{
+        Mark,
+        Quantity::{RailAcross, RailAlong},
+        RAILS, Sketch, Test, Unit,
+    },
+    table::{BALLS, Table},
+    terminal::{
+        Glyphs, Mapping,
+        pages::calibration::{CalibrationPage, Input, view::values::sentences},
+        ui::{Spot, TableView, Ui, cue_sign, draw_table, draw_tip, draw_title, shorten, wrap, write_paragraphs},
+        words::{across_word, fixed, height_word},
+    },
+};
+
+/// Columns of the tip beside the table, and columns from which on it has room there.
+const TIP: u16 = 13;
+const BESIDE: u16 = 46;
+/// Rows of the tip's words.
+const WORDS: u16 = 3;
+/// Columns of a mark's number and name, and of what is typed.
+const NAME: u16 = 10;
+const TYPED: u16 = 10;
+/// Fewest rows of what the marks say.
+const SAID: u16 = 3;
+/// Columns from one dot of a way to the next.
+const DOT_COLUMNS: f64 = 2.0;
+/// Length of the cue, m, and the distance of its dots.
+const CUE: f64 = 0.3;
+const CUE_DOTS: f64 = 0.01;
+
+/// Draws it.
+pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
+    let test = page.sheet().test();
+    let room = usize::from(area.width.saturating_sub(4));
+    let inner = draw_title(shorten(test.title, room, ui.caps), area, ui);
+    let width = inner.width.saturating_sub(2);
+    let words = [("put", test.place), ("strike", test.strike)].map(|(what, words)| format!("{what}: {words}"));
+    let lines: usize = words.iter().map(|words| wrap(words, usize::from(width)).len()).sum();
+    let asked: Vec<&str> = test.asked().collect();
+    let rows = (lines + asked.len()) as u16;
+    let picture = Rect { height: inner.height.saturating_sub(rows), ..inner };
+    let has_tip = inner.width >= BESIDE && picture.height > WORDS + 3;
+    let table = Rect { width: picture.width.saturating_sub(if has_tip { TIP } else { 0 }), ..picture };
+    let sketch = Sketch::of(&page.table, test);
+    draw_picture(&page.table, test, &sketch, table, ui);
+    let bottom = Mapping::fit(&page.table, table).outer().bottom();
+    if has_tip {
+        let left = Rect { x: table.right(), width: TIP, height: bottom - picture.y, ..picture };
+        draw_stroke(&page.table, &sketch, left, ui);
+    }
+    let style = ui.theme.text();
+    let text = Rect { y: bottom, height: inner.bottom() - bottom, ..inner }.inner(Margin::new(1, 0));
+    let [place, strike] = words;
+    let below = write_paragraphs(&[(place, style), (strike, style)], text, ui);
+    for ((n, name), y) in asked.iter().enumerate().zip(below..text.bottom()) {
+        draw_mark(page, test, n, name, Rect { y, height: 1, ..text }, ui);
+    }
+    // Where there is room, what the marks say stands here as well.
+    let end = (below + asked.len() as u16 + 1).min(inner.bottom());
+    let rest = Rect { y: end, height: inner.bottom() - end, ..inner };
+    let found = page.sheet().judged.as_ref().and_then(|judged| judged.found.as_ref());
+    if let Some(found) = found.filter(|_| rest.height > SAID) {
+        let rest = draw_title("What the marks say", rest, ui);
+        write_paragraphs(&sentences(page, found, ui), rest.inner(Margin::new(1, 0)), ui);
+    }
+}
+
+/// The tip, and the stroke in numbers below it.
+fn draw_stroke(table: &Table, sketch: &Sketch, area: Rect, ui: &mut Ui) {
+    let cue = &sketch.cue;
+    draw_tip(Some(cue), table, Rect { height: area.height.saturating_sub(WORDS), ..area }, ui);
+    let offset = |value: f64, word: &str| match word {
+        "mid" => None,
+        word => Some(format!("{}R {word}", fixed(value.abs(), 1))),
+    };
+    let parts = [offset(cue.a, across_word(cue.a)), offset(cue.b, height_word(cue.b))];
+    let mut words: Vec<String> = parts.into_iter().flatten().collect();
+    if words.is_empty() {
+        words.push("centre ball".to_owned());
+    }
+    words.push(format!("at {} m/s", fixed(cue.speed, 1)));
+    for (text, y) in words.iter().zip(area.bottom().saturating_sub(WORDS)..area.bottom()) {
+        ui.buffer.set_stringn(area.x + 1, y, text, usize::from(area.width - 1), ui.theme.faint());
+    }
+}
+
+/// The table with the balls, the way of the stroke, and the numbers of the marks where they are expected.
+fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mut Ui) {
+    let mapping = Mapping::fit(table, area);
+    if mapping.bed.is_empty() {
+        return;
+    }
+    let dot = ui.caps.pick('·', '.');
+    let stride = (DOT_COLUMNS / (mapping.scale().x * Sketch::SPACING)).round().max(1.0) as usize;
+    let mut spots = Vec::new();
+    // The balls' own ways lie over that of the cue ball.
+    for ball in 0..BALLS {
+        let color = ui.theme.paths[ball];
+        let dots = sketch.ways[ball].iter().step_by(stride);
+        spots.extend(dots.map(|place| Spot { place: *place, is_ball: false, color, letter: dot }));
+    }
+    let ahead = DVec2::from_angle(sketch.cue.phi);
+    let sign = cue_sign(ahead, ui.caps);
+    let behind = (0..=(CUE / CUE_DOTS) as u32).map(|n| 1.5 * table.radius + f64::from(n) * CUE_DOTS);
+    let cue = behind.map(|back| sketch.layout.balls[0] - ahead * back).filter(|place| mapping.is_on_bed(*place));
+    spots.extend(cue.map(|place| Spot { place, is_ball: false, color: ui.theme.cue, letter: sign }));
+    let marks = sketch.places.iter().flatten();
+    spots.extend(marks.map(|place| Spot { place: *place, is_ball: true, color: ui.theme.mark, letter: 'o' }));
+    let view = TableView { spots: &spots, ..TableView::new(table, &sketch.layout, ui) };
+    draw_table(&view, area, ui);
+    number_rails(table, &mapping, ui);
+    number_marks(test, sketch, &mapping, ui);
+}
+
+/// The numbers of the diamonds: along the table on the rail below, across it on the left.
+fn number_rails(table: &Table, mapping: &Mapping, ui: &mut Ui) {
+    let bed = mapping.bed;
+    let diamond = table.diamond() * mapping.scale();
+    let is_wood = ui.caps.glyphs != Glyphs::Letters;
+    let behind = if is_wood { ui.theme.wood } else { ui.theme.background };
+    let style = ui.theme.text().fg(ui.theme.sight).bg(behind);
+    let column = |n: u16| (f64::from(n) * diamond.x) as u16;
+    for n in 0..=8_u16 {
+        // From both ends inwards, as the sights are.
+        let x = if n <= 4 { bed.x + column(n) } else { bed.right().saturating_sub(1 + column(8 - n)) };
+        ui.buffer.set_string(x, bed.bottom(), n.to_string(), style);
+    }
+    for n in 1..4_u16 {
+        let y = (bed.y + (f64::from(4 - n) * diamond.y) as u16).min(bed.bottom() - 1);
+        ui.buffer.set_string(bed.x - 1, y, n.to_string(), style);
+    }
+}
+
+/// The numbers of the marks beside the places where they are expected: on the rail, or to the right of a ball that has stopped.
+fn number_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
+    let bed = mapping.bed;
+    let half = 0.5 * f64::from(bed.height);
+    let style = ui.theme.accent().add_modifier(Modifier::REVERSED);
+    let mut taken: Vec<DVec2> = Vec::new();
+    for (n, place) in sketch.places.iter().enumerate() {
+        let Some(place) = *place else { continue };
+        // What one ball is marked for twice has its numbers side by side.
+        let beside = taken.iter().filter(|other| **other == place).count() as u16;
+        taken.push(place);
+        let (x, y) = mapping.to_cell(place);
+        let at = mapping.to_cells(place);
+        let (x, y) = match test.marks[n].quantity {
+            RailAlong(..) if at.y < half => (x, bed.y - 1),
+            RailAlong(..) => (x, bed.bottom()),
+            RailAcross(..) if at.x < half * 2.0 => (bed.x - 1, y),
+            RailAcross(..) => (bed.right(), y),
+            _ => (x + 2 + beside, y),
+        };
+        ui.buffer.set_stringn(x.min(bed.right() + 1), y, (n + 1).to_string(), 1, style);
+    }
+}
+
+/// A mark with its number, what is typed of it, and its words.
+fn draw_mark(page: &CalibrationPage, test: &Test, n: usize, name: &str, area: Rect, ui: &mut Ui) {
+    let form = page.input.as_ref().and_then(|input| if let Input::Marks(form) = input { Some(form) } else { None });
+    let is_typed = form.is_some_and(|form| form.field == n);
+    let style = if is_typed { ui.theme.accent() } else { ui.theme.text() };
+    let sign = if is_typed { ui.caps.pick("▸", ">") } else { " " };
+    ui.buffer.set_stringn(area.x, area.y, format!("{sign}{} {name}", n + 1), usize::from(NAME), style);
+    let mark = test.marks.iter().find(|mark| mark.name == name);
+    let unit = match mark.map(Mark::unit) {
+        Some(Unit::Seconds) => "s",
+        _ => "",
+    };
+    let typed = match form {
+        Some(form) => form.fields[n].1.text().to_owned(),
+        None => page.sheet().marked_stroke().map_or_else(String::new, |(_, entry)| entry.typed(name)),
+    };
+    let typed = if typed.is_empty() { "-".to_owned() } else { format!("{typed} {unit}") };
+    let typed = if ui.caps.unicode { typed } else { typed.replace('±', "~") };
+    let value = if form.is_some() { ui.theme.text() } else { ui.theme.faint() };
+    ui.buffer.set_string(area.x + NAME, area.y, shorten(&typed, usize::from(TYPED - 1), ui.caps), value);
+    let usual = test.rails.map_or_else(String::new, |rails| format!(", if not {rails}"));
+    let words = match mark {
+        Some(mark) => mark.words.to_owned(),
+        None if name == RAILS => format!("how many short rails it has met{usual}"),
+        None => String::new(),
+    };
+    let room = usize::from(area.width.saturating_sub(NAME + TYPED));
+    ui.buffer.set_string(area.x + NAME + TYPED, area.y, shorten(&words, room, ui.caps), ui.theme.faint());
+}

@@ -1,0 +1,43 @@
+//! A table is measured in the program: every stroke outlives whatever ends it, and the command goes on with it.
+
+use std::fs;
+
+use crate::{
+    program::asked,
+    terminal::{OPENING, Session, carom},
+};
+
+#[test]
+fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
+    let home = tempfile::tempdir().unwrap();
+    let start = || {
+        let mut session = Session::start_at(home.path(), carom(), 80, 24);
+        session.wait_for(OPENING);
+        session.send("\x1b[18~");
+        session.wait_for("Strokes of slow-roll");
+        session
+    };
+    let mut first = start();
+    first.wait_for("bits)");
+    first.send("\r9.6\r5.4\r725 mm\r\r");
+    first.wait_for("1/2");
+    first.wait_for("mu_r");
+    // Typed, and not kept yet.
+    first.send("\r8.8\r");
+    first.wait_for("8.8");
+    first.signal("KILL");
+    first.child.wait().unwrap();
+    let kept = fs::read_to_string(home.path().join("data/carom/calibration.toml")).unwrap();
+    assert_eq!(kept.matches("[[trial]]").count(), 1, "{kept}");
+    let mut second = start();
+    second.wait_for("9.6, 5.4, 725 mm");
+    second.wait_for("mu_r");
+    second.send("q");
+    assert!(second.assert_left_without_trace().success());
+    let mut command = asked(&["calibrate"]);
+    command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path().join("data"));
+    let said = command.write_stdin("9.4 5.3\ndone\n").output().unwrap();
+    assert!(String::from_utf8_lossy(&said.stdout).contains("slow-back (2)"), "{said:?}");
+    let kept = fs::read_to_string(home.path().join("data/carom/calibration.toml")).unwrap();
+    assert_eq!(kept.matches("[[trial]]").count(), 2, "{kept}");
+}

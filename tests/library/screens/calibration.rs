@@ -1,0 +1,166 @@
+//! The calibration's page through the real app: strokes are entered, kept, amended and judged, and the table is played on.
+
+use std::fs;
+
+use carom::{
+    calibration::{Edit, Entries, Entry, edit_entries},
+    terminal::{CalibrationContext, KeyContext, PageId},
+};
+
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at};
+
+/// The marks of a slow roll and of a lag as `match` plays, in the order of their forms.
+const ROLL: [&str; 4] = ["9.6", "5.4", "725 mm", ""];
+const LAG: [&str; 4] = ["4.4", "8", "3.5", ""];
+
+fn new() -> Player {
+    Player::with(TRUE_COLOUR).press("F7")
+}
+
+/// Types marks into the form of the marked test, field by field.
+fn enter(player: Player, marks: &[&str]) -> Player {
+    let player = player.press("Enter");
+    marks.iter().fold(player, |player, mark| player.type_in(mark).press("Enter"))
+}
+
+/// What the file of entries holds.
+fn kept(player: &Player) -> Entries {
+    Entries::parse(&fs::read_to_string(player.path("calibration.toml")).unwrap_or_default()).unwrap()
+}
+
+/// With a slow roll and a lag entered.
+fn measured() -> Player {
+    let player = enter(new(), &ROLL).press("Down Down");
+    enter(player, &LAG)
+}
+
+#[test]
+fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
+    let player = new();
+    assert_eq!(player.app.screen(), PageId::Calibration);
+    player.shows(&["slow-roll", "0/2", "put: any ball in the middle of your end", "strike: straight", "time", "bits"]);
+    player.says("0 of 20 strokes");
+    let corner = player.press("Down Down Down Down");
+    corner.shows(&["Corner-5 from 50 to 20", "0.3R right", "first", "third", "fourth"]);
+    let best = corner.press("n");
+    best.says("would tell most");
+    let out = best.press("Home x");
+    out.says("slow-roll is left out").says("0 of 18 strokes");
+    assert!(out.press("x").text(120, 40).contains("0 of 20 strokes"));
+    for keys in ["", "Tab", "Enter", "? "] {
+        Player::with(NO_COLOUR).press("F7").press(keys).is_plain();
+        Player::with(ASCII).press("F7").press(keys).is_plain();
+    }
+}
+
+#[test]
+fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
+    let player = enter(new(), &ROLL);
+    assert_eq!(kept(&player).trials.len(), 1);
+    player.shows(&["1/2", "9.6, 5.4, 725 mm", "mu_r"]);
+    let values = player.press("Tab");
+    values.shows(&["mu_r", "well", "as before", "all marks agree with each other", "would tell most"]);
+    let again = enter(values, &["9.3", "5.1 ~ 0.2", "2", ""]);
+    assert_eq!(kept(&again).trials[1].typed("stop"), "5.1 ~ 0.2");
+    // Both strokes are there: the next test is marked.
+    again.shows(&["2/2", "Strokes of slow-back"]);
+    let rolled = again.press("Home");
+    check_at(&[(80, 24)], "entered", &rolled);
+    rolled.press("Enter").shows(&["time: seconds from the stroke until the ball stops"]);
+}
+
+#[test]
+fn odd_marks_are_named_and_what_is_typed_stays() {
+    let player = new().press("Enter").type_in("9.6").press("Enter").type_in("99").press("Enter");
+    player.warns("slow-roll: stop = 99: no ball can be there; accepted is 0 to 8 diamonds");
+    assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    assert!(kept(&player).trials.is_empty());
+    let player = player.press("Backspace Backspace").type_in("5.4").press("Enter Enter Enter");
+    assert_eq!(kept(&player).trials[0].typed("stop"), "5.4");
+    for (marks, says) in [
+        (["240", "", "", ""], "was the stopwatch left running?"),
+        (["abc", "", "", ""], "time = \"abc\" is no s; accepted is a number of seconds"),
+        (["", "", "", ""], "nothing is marked yet"),
+        (["9", "5", "", "two"], "rails two is no number of rails"),
+    ] {
+        enter(new(), &marks).warns(says);
+    }
+    let taped = new().press("Enter Down").type_in("5.4").press("C-t");
+    taped.says("by tape, right to 5 mm");
+    let taped = taped.press("Enter Enter Enter");
+    assert_eq!(kept(&taped).trials[0].typed("stop"), "5.4 ~ 5 mm");
+    let left = new().press("Enter").type_in("9").press("Esc");
+    assert_eq!(
+        (left.app.place(), kept(&left)),
+        (KeyContext::Calibration(CalibrationContext::Tests), Entries::default())
+    );
+}
+
+#[test]
+fn strokes_are_amended_taken_out_and_come_back() {
+    let player = measured().press("Home");
+    let amended = player.press("e Down Backspace").type_in("5").press("Enter Enter Enter");
+    assert_eq!(kept(&amended).trials[0].typed("stop"), "5.5");
+    let out = amended.press("Home Delete");
+    assert_eq!(kept(&out).trials.len(), 1);
+    let back = out.press("u");
+    assert_eq!(kept(&back).trials[0].typed("stop"), "5.5");
+    let back = back.press("u");
+    assert_eq!(kept(&back).trials[0].typed("stop"), "5.4");
+    let none = back.press("u u");
+    assert!(kept(&none).trials.is_empty());
+    none.press("u").warns("there is nothing to take back");
+    let anew = measured().press("N y");
+    anew.says("u takes this back");
+    assert!(kept(&anew).trials.is_empty() && anew.path("calibration.before.toml").exists());
+    assert_eq!(kept(&anew.press("u")).trials.len(), 2);
+}
+
+#[test]
+fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_written_over() {
+    let player = enter(new(), &ROLL);
+    let path = player.path("calibration.toml");
+    let mut other = Entry { test: "lag".into(), ..Entry::default() };
+    other.take("lap", "4.4").unwrap();
+    edit_entries(&path, &Edit::Add(other.clone())).unwrap();
+    let player = enter(player, &ROLL);
+    assert_eq!((kept(&player).trials.len(), &kept(&player).trials[1]), (3, &other));
+    fs::write(&path, "[[trial]]\ntest = \"lag\"\nrest = 240\n").unwrap();
+    let odd = player.press("F2 F7 Tab");
+    odd.says("trial 1 (lag): rest = 240: no ball rolls that long");
+    odd.press("s").warns("an entry is odd");
+    let broken = Player::with(TRUE_COLOUR);
+    fs::write(broken.path("calibration.toml"), "broken").unwrap();
+    let broken = broken.press("F7");
+    broken.warns("line 1");
+    broken.press("Enter").warns("the file of entries was not read yet, or cannot be");
+}
+
+#[test]
+fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
+    let player = measured();
+    player.press("p").warns("save the table first");
+    let player = measured().press("s");
+    player.says("the table's name = ");
+    let player = player.press("C-u").type_in("our club/2").press("Enter");
+    player.warns("is no name of a table");
+    let player = player.press("C-u").type_in("our club 2").press("Enter");
+    let file = player.path("tables/our club 2.toml");
+    assert!(file.exists(), "{}", player.text(120, 40));
+    let player = player.press("p");
+    assert_eq!(player.app.table().name, "our club 2");
+    assert!(player.app.table().doubt.is_some());
+    assert!(player.settings_text().contains("our club 2.toml"), "{}", player.settings_text());
+    // Another one of the same name only where that is wanted.
+    let player = player.press("s C-u").type_in("our club 2").press("Enter");
+    player.says("there is a table called our club 2 already; replace it? y/n");
+    let player = player.press("y");
+    player.says("saved as");
+    let player = player.press("d");
+    player.shows(&["lag", "corner-five", "0/1"]).is_silent_on("slow-roll");
+    let checked = enter(player, &["4.6", "7.4", "3.2", ""]).press("Tab");
+    checked.says("today a lag rolls");
+    assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
+    checked.press("d").shows(&["slow-roll"]);
+    Player::new().press("F7 d").warns("a check of the day needs a table that was calibrated before");
+}
