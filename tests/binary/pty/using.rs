@@ -124,8 +124,8 @@ fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
     session.wait_for(OPENING);
     session.send("\x1b[15~");
     session.wait_for("what is set holds at once");
-    // The last setting is the mouse.
-    session.send("\x1b[F\x1b[C");
+    // Behind the mouse there are three units.
+    session.send("\x1b[F\x1b[A\x1b[A\x1b[A\x1b[C");
     session.wait_until("the mouse is left to the terminal", |screen| {
         screen.mouse_protocol_mode() == vt100::MouseProtocolMode::None
     });
@@ -195,7 +195,7 @@ fn what_comes_at_once_is_all_taken_without_another_key() {
     session.wait_for("yellow at x");
     session.send(":");
     session.wait_for(" of ");
-    session.send(&format!("\x1b[200~{}\x1b[201~", "paste ".repeat(1000)));
+    session.send(&format!("\x1b[200~{}\x1b[201~", "nosuch ".repeat(1000)));
     session.wait_for("no matching command");
     session.send("\x1b");
     session.wait_for("yellow at x");

@@ -173,7 +173,7 @@ fn without_colours_letters_tell_everything() {
         let plan = player.press("v");
         plan.is_plain().shows(&[
             "now  94 % yellow, 1-2 rails, hard",
-            "stop white 92, yellow 26, red 154 cm",
+            "stop white 74, yellow 25, red 145 cm",
             "next 100 % yellow",
         ]);
         if caps == ASCII {
