@@ -26,7 +26,7 @@ const KNOWN: [&str; 3] = ["exactly", "calibrated", "not at all"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = env::args().skip(1);
-    let mut count = || words.next().map_or(Err("say how many tables and layouts, like: calibrated 40 5"), Ok);
+    let mut count = || words.next().ok_or("say how many tables and layouts, like: calibrated 40 5");
     let (tables, layouts): (u64, usize) = (count()?.parse()?, count()?.parse()?);
     let skill: Skill = words.next().map_or(Ok(Skill::CLUB), |word| word.parse())?;
     let rule = Rule::ThreeCushion;
