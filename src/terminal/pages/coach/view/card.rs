@@ -126,10 +126,8 @@ fn cue_degrees(proposal: &Proposal) -> Option<String> {
 
 fn side_words(proposal: &Proposal, coach: &CoachPage) -> String {
     let tips = proposal.shot.words.tips_right;
-    offset(tips, proposal.shot.cue.a, coach).map_or_else(
-        || "no side".to_owned(),
-        |text| format!("{text} {}", if tips > 0.0 { "right" } else { "left" }),
-    )
+    offset(tips, proposal.shot.cue.a, coach)
+        .map_or_else(|| "no side".to_owned(), |text| format!("{text} {}", if tips > 0.0 { "right" } else { "left" }))
 }
 
 fn height_words(proposal: &Proposal, coach: &CoachPage) -> String {
@@ -170,6 +168,9 @@ mod tests {
 
     #[test]
     fn thickness_is_told_in_the_shortest_fraction() {
-        assert_eq!([0.01, 0.0625, 0.25, 0.51, 0.69, 0.99].map(fraction), ["graze", "1/16", "1/4", "1/2", "11/16", "full"]);
+        assert_eq!(
+            [0.01, 0.0625, 0.25, 0.51, 0.69, 0.99].map(fraction),
+            ["graze", "1/16", "1/4", "1/2", "11/16", "full"]
+        );
     }
 }

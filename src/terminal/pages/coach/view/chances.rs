@@ -3,7 +3,7 @@
 use ratatui::{layout::Rect, text::Span};
 
 use crate::{
-    coach::{Units, words::pace_word},
+    coach::words::pace_word,
     terminal::{
         AdviceState, Proposal,
         ui::{Ui, columns, cut, draw_nothing, draw_title, list, spell, wrap, write_right},
@@ -21,7 +21,7 @@ const THICK: f64 = 0.6;
 const FULL: f64 = 0.85;
 
 /// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`.
-pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, units: Units, area: Rect, ui: &mut Ui) {
+pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Chances", ui.theme.text())];
     if let Some(advised) = advised {
         title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
@@ -60,45 +60,33 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, units: Units, ar
         row += 1;
     }
     let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
-    write_why(advised, units, rest, ui);
+    if let Some(words) = why_words(advised, ui) {
+        write_lines(&words, rest, ui);
+    }
 }
 
 /// Draws a panel of why the first shot leads; `false` where that is not known.
-pub fn draw_why(advised: &AdviceState, units: Units, area: Rect, ui: &mut Ui) -> bool {
-    if advised.why.is_none() {
-        return false;
-    }
-    let inner = draw_title(Span::styled("Why", ui.theme.text()), area, ui);
-    write_why(advised, units, inner, ui);
+pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
+    let Some(why) = &advised.why else { return false };
+    let inner = draw_title(Span::styled("Why shot 1 leads", ui.theme.text()), area, ui);
+    write_lines(&spell(&why.brief(ui.theme.cue_ball), ui.caps), inner, ui);
     true
 }
 
-/// Writes why the first shot leads, as far as there is room.
-fn write_why(advised: &AdviceState, units: Units, area: Rect, ui: &mut Ui) {
-    let Some(words) = why_words(advised, units, ui).filter(|_| !area.is_empty()) else { return };
+/// Writes as much as there is room for.
+fn write_lines(words: &str, area: Rect, ui: &mut Ui) {
     let width = usize::from(area.width.saturating_sub(2));
-    let lines = cut(wrap(&words, width), usize::from(area.height), width, ui.caps);
+    let lines =
+        if area.is_empty() { Vec::new() } else { cut(wrap(words, width), usize::from(area.height), width, ui.caps) };
     for (line, row) in lines.iter().zip(area.y..) {
         ui.buffer.set_stringn(area.x + 1, row, line, width, ui.theme.faint());
     }
 }
 
 /// Why the first shot leads, once that is known.
-pub fn why_words(advised: &AdviceState, units: Units, ui: &Ui) -> Option<String> {
-    let words = spell(&advised.why.as_ref()?.words(ui.theme.cue_ball, units), ui.caps);
+pub fn why_words(advised: &AdviceState, ui: &Ui) -> Option<String> {
+    let words = spell(&advised.why.as_ref()?.brief(ui.theme.cue_ball), ui.caps);
     Some(if advised.chosen() == 0 { format!("Why: {words}") } else { format!("Why shot 1 leads: {words}") })
-}
-
-/// The place of the shot that the panel in `area` tells in this row of the screen.
-pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
-    // The first row is the title's.
-    let inner = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-    in_view(advised, inner).find(|(_, y)| *y == row).map(|(n, _)| n)
-}
-
-/// The shots that have a row, and their rows.
-fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u16)> {
-    list::in_view(advised.chosen(), advised.choices().len(), usize::from(inner.height)).zip(inner.y..)
 }
 
 /// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,

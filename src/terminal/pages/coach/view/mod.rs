@@ -39,8 +39,8 @@ use crate::{
         },
         shot::playback::passed,
         ui::{
-            Message, TableView, Ui, draw_events, draw_question, draw_sight, draw_spin, draw_status, draw_table,
-            columns, draw_tip, spell,
+            Message, TableView, Ui, columns, draw_events, draw_question, draw_sight, draw_spin, draw_status,
+            draw_table, draw_tip, shorten, spell,
         },
         words::{event_words, fixed, in_diamonds, millimetres, percent},
     },
@@ -107,12 +107,12 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     // Before the stroke words have the room of what only tells later, or tells the same.
     let is_wide = !is_beside && !coach.is_in_numbers;
     if let Some(told) = told {
-        let more = match () {
-            () if is_beside => panes.events,
-            () if is_wide => panes.shot,
-            () => Rect::ZERO,
+        let area = match () {
+            () if is_beside => panes.info.union(panes.events),
+            () if is_wide => panes.info.union(panes.shot),
+            () => panes.info,
         };
-        draw_told(coach, told, panes.info.union(if more.is_empty() { panes.info } else { more }), ui);
+        draw_told(coach, told, area, ui);
     }
     match coach.proposal() {
         Some(_) if told.is_some() && is_wide => {}
@@ -127,7 +127,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         None => draw_sight(shot.map(Shot::meeting), panes.sight, ui),
     }
     let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
-    if told.is_some() && is_beside || explained.is_some_and(|advised| draw_why(advised, coach.units, panes.events, ui)) {
+    if told.is_some() && is_beside || explained.is_some_and(|advised| draw_why(advised, panes.events, ui)) {
         return;
     }
     let events = shot.map(|shot| coach.events(shot));
@@ -173,7 +173,7 @@ fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
     };
     match view {
         View::Shot => draw_balls(coach, area, ui),
-        View::Chances => draw_chances(advised, empty, coach.units, area, ui),
+        View::Chances => draw_chances(advised, empty, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
             draw_margins(study, empty, area, ui);
@@ -210,12 +210,16 @@ fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
 }
 
 /// The line of aim, and what a system counts for the shot; the system alone where a row has no room for both, since the line
-/// is told above as well.
+/// is told above as well, and no more than a row of it where words stand there.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
     let Some(system) = system_words(coach) else { return aim };
     let both = format!("{aim} {system}");
-    if columns(&both) <= room { both } else { system }
+    match columns(&both) <= room {
+        true => both,
+        false if coach.view == View::Shot => shorten(&system, room, ui.caps),
+        false => system,
+    }
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.

@@ -30,15 +30,22 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     ];
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
     let (mut lines, count) = lay_out(&parts, width, rows);
-    let why = coach.shown().and_then(|advised: &AdviceState| why_words(advised, units, ui));
+    let why = coach.shown().and_then(|advised: &AdviceState| why_words(advised, ui));
     if let Some(why) = why.filter(|_| count == parts.len() && lines.len() < rows) {
         let lines_of_why = cut(wrap(&why, width), rows - lines.len(), width, ui.caps);
         lines.extend(lines_of_why.into_iter().map(|line| Line::styled(line, ui.theme.faint())));
     }
     let mut title = title(proposal, ui);
     if count < parts.len() {
-        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
-        title.push(Span::styled(format!("aim {}", aim_words(coach, proposal, 2, ui)), ui.theme.text()));
+        let aim = [
+            Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()),
+            Span::styled(format!("aim {}", aim_words(coach, proposal, ui)), ui.theme.text()),
+        ];
+        let wide: usize = title.iter().chain(&aim).map(Span::width).sum();
+        // Half of it would mislead; the shot's numbers beside this panel have it too.
+        if wide < width {
+            title.extend(aim);
+        }
     }
     let inner = draw_title(title, area, ui);
     for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
@@ -47,11 +54,11 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
 }
 
 /// The line of aim in few words: where the cue comes from and where it points, as diamonds or millimetres along the rails.
-pub fn aim_words(coach: &CoachPage, proposal: &Proposal, decimals: usize, ui: &Ui) -> String {
+fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> String {
     let words = &proposal.shot.words;
     let mark = |mark: Mark| {
         let place = match coach.units.place {
-            PlaceUnit::Diamonds => fixed(mark.diamond, decimals),
+            PlaceUnit::Diamonds => fixed(mark.diamond, 2),
             PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * mark.diamond, 0)),
         };
         format!("{} {place}", rail_word(mark.rail))
