@@ -158,7 +158,9 @@ impl CoachWorker {
             let Job { table, layout, query, .. } = job;
             let why = why(query.shooter(), query.rule, table, layout, found, job.seed);
             // A reason that cannot be found is left out.
-            why.into_iter().for_each(|why| tell(CoachNews::Why(Box::new(why))));
+            if let Ok(why) = why {
+                tell(CoachNews::Why(Box::new(why)));
+            }
         }
         let study = Arc::new(study(job, cue)?);
         tell(CoachNews::Study(Arc::clone(&study)));

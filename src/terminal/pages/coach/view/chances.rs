@@ -89,6 +89,18 @@ pub fn why_words(advised: &AdviceState, ui: &Ui) -> Option<String> {
     Some(if advised.chosen() == 0 { format!("Why: {words}") } else { format!("Why shot 1 leads: {words}") })
 }
 
+/// The place of the shot that the panel in `area` tells in this row of the screen.
+pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
+    // The first row is the title's.
+    let inner = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+    in_view(advised, inner).find(|(_, y)| *y == row).map(|(n, _)| n)
+}
+
+/// The shots that have a row, and their rows.
+fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u16)> {
+    list::in_view(advised.chosen(), advised.choices().len(), usize::from(inner.height)).zip(inner.y..)
+}
+
 /// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,
 /// the last two as far as `room` columns hold them.
 pub fn sort_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
