@@ -84,7 +84,7 @@ fn a_shot_is_recommended() {
 fn the_cushions_of_the_cue_ball_are_numbered_on_the_rails() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let player = Player::with(caps);
-        let bottom = |player: &Player| player.text(80, 24).lines().nth(18).unwrap().to_owned();
+        let bottom = |player: &Player| player.text(80, 24).lines().nth(17).unwrap().to_owned();
         assert!(!bottom(&player).contains('1'));
         let player = player.press("Enter").answer();
         assert!(bottom(&player).contains('1'), "{}", player.text(80, 24));
