@@ -253,6 +253,32 @@ impl Why {
     }
 }
 
+impl Why {
+    /// The same in few words, for who plays with `cue_ball`: the next shot's numbers stand in brackets.
+    pub fn brief(&self, cue_ball: CueBall) -> String {
+        let names = cue_ball.names();
+        let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+        let beside =
+            |own: String, other: Option<String>| other.map_or_else(|| own.clone(), |other| format!("{own} ({other})"));
+        let degrees = |width: f64| format!("{}\u{b0}", short(width, 2));
+        let second = self.second.as_ref();
+        let mut parts = Vec::new();
+        parts.extend(self.make_probability.map(|rate| {
+            let other = second.and_then(|second| second.make_probability);
+            beside(format!("made {}", percent(rate)), other.map(|rate| format!("next shot {}", percent(rate))))
+        }));
+        parts.extend(self.aim_deg.map(|width| {
+            beside(format!("aim {} wide", degrees(width)), second.and_then(|second| second.aim_deg).map(degrees))
+        }));
+        parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
+            format!("{} and {} kiss in {}", names[one], names[other], percent(share))
+        }));
+        parts.extend(self.next_probability.map(|next| format!("leaves {}", percent(next))));
+        parts.push(second.map_or_else(|| "nothing else makes the point".to_owned(), |second| second.words(names)));
+        format!("{}.", parts.join("; "))
+    }
+}
+
 impl Difference {
     fn words(&self, names: [&'static str; 3]) -> String {
         let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
@@ -294,6 +320,8 @@ mod tests {
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
         assert_eq!(why.second.is_some(), !advice.alternatives.is_empty());
+        let brief = why.brief(CueBall::White);
+        assert!(brief.starts_with("made ") && brief.contains("\u{b0} wide") && brief.len() < 160, "{brief}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains(if why.second.is_some() { "the next" } else { "." }), "{said}");
     }

@@ -4,11 +4,11 @@ use glam::DVec2;
 use indicatif::HumanCount;
 
 use crate::{
-    coach::{Kind, Skill, Way},
+    coach::Skill,
     game::Rule,
     learning::evaluation::SuccessRate,
     simulation::{EventKind, Rail},
-    table::{BALLS, CueBall, Table},
+    table::{CueBall, Table},
 };
 
 /// The cushion's name as it lies on the screen.
@@ -42,18 +42,6 @@ pub const fn rail_word(rail: Rail) -> &'static str {
         Rail::Bottom => "bottom",
         Rail::Top => "top",
     }
-}
-
-/// What sort of shot it is: the first object ball, the cushions on the way to the second, and how hard. A bank shot comes
-/// off a cushion to the first ball.
-pub fn kind_words(kind: Kind, cue_ball: CueBall) -> String {
-    let bank = if kind.cushion_first { "bank " } else { "" };
-    let way = match kind.way {
-        Way::Direct => "direct",
-        Way::OffCushion => "1-2 rails",
-        Way::AroundTheTable => "3+ rails",
-    };
-    format!("{bank}{}, {way}, {}", cue_ball.names()[kind.first_ball.min(BALLS - 1)], kind.pace)
 }
 
 /// The rule's name where there is little room.

@@ -11,7 +11,7 @@ use glam::DVec2;
 pub use self::{history::History, playback::Playback, spin::Spin};
 
 use crate::{
-    coach::{Hit, first_hit},
+    coach::{Hit, Pattern, ShotWords, Technique},
     physics::{CueInputs, Impulse},
     simulation::{EventKind, Rail, Recording, ShotError},
     table::{BALLS, CueBall, Layout, Table},
@@ -74,6 +74,10 @@ pub struct Shot {
     pub contact: Option<Hit>,
     /// Its first contact with each object ball that it meets.
     pub contacts: Vec<Contact>,
+    /// What a player calls it.
+    pub words: ShotWords,
+    /// The sort of shot that it is; `None` where no ball is met.
+    pub pattern: Option<&'static Pattern>,
 }
 
 impl Shot {
@@ -93,14 +97,18 @@ impl Shot {
 
     /// The shot that was recorded; `cue` is the stroke to show with it.
     pub fn of(table: &Table, recording: Recording, cue: CueInputs, solved: bool, source: impl Into<String>) -> Self {
+        let technique = Technique::of_recorded(table, &recording);
+        let layout = Layout::new(recording.positions(0.0));
         Self {
             cue,
             impulse: *recording.impulse(),
             solved,
             source: source.into(),
             paths: std::array::from_fn(|ball| dots(&recording, ball)),
-            contact: first_hit(table, &recording),
+            contact: technique.first,
             contacts: (1..BALLS).filter_map(|ball| first_contact(&recording, ball)).collect(),
+            words: ShotWords::of_technique(table, &layout, &cue, &technique),
+            pattern: Pattern::of(&technique),
             recording,
         }
     }

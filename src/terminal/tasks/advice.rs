@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use crate::{
-    coach::{Doubt, Kind, Map, Margin, Risk, Scatter, Shooter, Skill, systems::Guide},
+    coach::{Doubt, Kind, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
     game::Rule,
     learning::{Policy, evaluation::SuccessRate},
     terminal::Shot,
@@ -90,6 +90,8 @@ pub struct Advice {
     pub proposals: Vec<Proposal>,
     /// What it has cost, if that is to be shown.
     pub effort: Option<Effort>,
+    /// What the coach has found, where it is asked why its shot leads.
+    pub found: Option<Arc<Recommendation>>,
 }
 
 /// A closer look at a shot.

@@ -10,7 +10,9 @@ use std::{
 };
 
 use crate::{
-    coach::{Coach, Improvement, Input, Recommendation, Request, Skill, map, margins, scatter, systems::guide},
+    coach::{
+        Coach, Improvement, Input, Recommendation, Request, Skill, Why, map, margins, scatter, systems::guide, why,
+    },
     learning::Policy,
     physics::CueInputs,
     simulation::Recording,
@@ -51,6 +53,8 @@ pub struct Job {
     pub query: CoachQuery,
     /// Which shot is to be studied; without one the coach is to find one.
     pub shot: Option<CueInputs>,
+    /// What was found, where it is to be said why that shot leads.
+    pub found: Option<Arc<Recommendation>>,
     /// Time that the coach may think.
     pub budget: Duration,
     /// Seed of the coach's random numbers.
@@ -77,6 +81,8 @@ pub enum CoachNews {
     Advice(Advice),
     /// Why there is no advice.
     Refused(String),
+    /// Why the recommended shot leads.
+    Why(Box<Why>),
     /// What a closer look at a shot has shown.
     Study(Arc<ShotAnalysis>),
     /// The end of the study: the advice on where the shot leaves the balls, if there is any.
@@ -143,11 +149,19 @@ impl CoachWorker {
             });
         };
         let found = self.coach(job)?.recommend_and_tell(layout, &request, tell).map_err(|error| error.to_string())?;
-        proposals(job, layout, &found)
+        proposals(job, layout, found)
     }
 
     /// Looks at a shot closely, then at the layout after it.
     fn study(&mut self, job: &Job, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
+        if let Some(found) = job.found.as_deref().filter(|_| !job.cancel.load(Ordering::Relaxed)) {
+            let Job { table, layout, query, .. } = job;
+            let why = why(query.shooter(), query.rule, table, layout, found, job.seed);
+            // A reason that cannot be found is left out.
+            if let Ok(why) = why {
+                tell(CoachNews::Why(Box::new(why)));
+            }
+        }
         let study = Arc::new(study(job, cue)?);
         tell(CoachNews::Study(Arc::clone(&study)));
         // After a miss it is the other's turn.
@@ -177,7 +191,7 @@ impl CoachWorker {
 }
 
 /// What the coach has found, ready to be shown.
-fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advice, String> {
+fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice, String> {
     let record = |cue, solved, source: String| {
         Shot::new(&job.table, layout, cue, solved, source).map(Arc::new).map_err(|error| error.to_string())
     };
@@ -200,7 +214,8 @@ fn proposals(job: &Job, layout: &Layout, found: &Recommendation) -> Result<Advic
         })
     });
     let proposals = std::iter::once(Ok(best)).chain(others).collect::<Result<_, String>>()?;
-    Ok(Advice { proposals, effort: Some(Effort { simulations: found.simulations, elapsed: found.elapsed }) })
+    let effort = Some(Effort { simulations: found.simulations, elapsed: found.elapsed });
+    Ok(Advice { proposals, effort, found: found.solved.then(|| Arc::new(found)) })
 }
 
 /// Looks at a shot closely; breaks off between two parts where nobody waits any more.

@@ -5,7 +5,6 @@ use ratatui::{layout::Rect, text::Span};
 use crate::{
     simulation::Event,
     terminal::{
-        Shot,
         shot::playback::passed,
         ui::{Ui, draw_title, write_right},
         words::{event_words, fixed},
@@ -20,18 +19,18 @@ const WIDE: u16 = 29;
 /// Columns of an event's words and of how soon it comes.
 const WAIT: u16 = 34;
 
-/// Draws the panel: the stroke, then every event, with the one at `time` marked and in view. No time: the shot is not
+/// Draws the panel: the stroke, then `events`, called `name`, with the one at `time` marked and in view. No time: the shot is not
 /// being watched.
-pub fn draw_events(shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut Ui) {
-    let events: &[Event] = shot.map_or(&[], |shot| shot.recording.events());
+pub fn draw_events(name: &str, listed: Option<&[Event]>, time: Option<f64>, area: Rect, ui: &mut Ui) {
+    let events = listed.unwrap_or_default();
     // Row 0 is the stroke.
     let present = time.map_or(0, |time| passed(events, time));
-    let mut title = vec![Span::styled("Events", ui.theme.text())];
-    if shot.is_some() {
+    let mut title = vec![Span::styled(name.to_owned(), ui.theme.text())];
+    if listed.is_some() {
         title.push(Span::styled(format!(" {present}/{}", events.len()), ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    if shot.is_none() || inner.is_empty() {
+    if listed.is_none() || inner.is_empty() {
         return;
     }
     let is_narrow = inner.width < WIDE;

@@ -32,7 +32,7 @@ pub use self::{
     spin::draw_spin,
     status_line::{draw_question, draw_status},
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
-    text::{columns, cut, end_of, ending, shorten, wrap, write_right},
+    text::{columns, cut, end_of, ending, shorten, spell, wrap, write_right},
     theme::Theme,
     tip::{draw_face, draw_tip},
 };

@@ -92,6 +92,14 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
+/// The text in characters that the terminal has.
+pub fn spell(text: &str, caps: Capabilities) -> String {
+    if caps.unicode {
+        return text.to_owned();
+    }
+    text.replace('\u{2013}', "-").replace('\u{b0}', " degrees").replace('\u{e9}', "e")
+}
+
 /// The end of `text`, as much as fits into `room` columns: the ends of names differ where their beginnings do not.
 pub fn end_of(text: &str, room: usize, caps: Capabilities) -> String {
     if columns(text) <= room {

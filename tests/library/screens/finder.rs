@@ -1,6 +1,6 @@
 //! The command palette through the real app: what it lists, how it is narrowed, and what it does.
 
-use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at};
 use carom::terminal::Capabilities;
 use ratatui::style::Modifier;
 
@@ -10,7 +10,7 @@ fn opened(caps: Capabilities) -> Player {
 
 #[test]
 fn it_lists_what_the_keys_do_and_what_they_may_not_do_now() {
-    check("finder", &opened(TRUE_COLOUR));
+    check_at(&[(80, 24)], "finder", &opened(TRUE_COLOUR));
     opened(NO_COLOUR).is_plain().shows(&["▸ Enter            ask the coach", "Enter do it"]);
     let text = opened(ASCII).press("s h o t").text(80, 24);
     assert!(text.is_ascii(), "{text}");

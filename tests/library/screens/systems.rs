@@ -19,7 +19,7 @@ fn advised(player: Player, name: &str) -> Player {
     let cue = exercise.shot.unwrap();
     let words = format!("{},{},{},{},{}", cue.a, cue.b, cue.theta.to_degrees(), cue.phi.to_degrees(), cue.speed);
     let best = proposal(&job.table, &job.layout, &words, carom::coach::Way::AroundTheTable, 900);
-    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], effort: None })).studied()
+    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], effort: None, found: None })).studied()
 }
 
 #[test]

@@ -96,6 +96,12 @@ impl CoachPage {
             Action::NextRule => self.next_rule(),
             Action::NextSkill => self.next_skill(),
             Action::TurnPlan => self.turn_plan(),
+            Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
+            Action::TurnEvents => {
+                self.has_all_events = !self.has_all_events;
+                let words = if self.has_all_events { "all events are listed" } else { "contacts only are listed" };
+                self.message = Some(Message::plain(words));
+            }
             Action::NextView => self.view = self.view.next(),
             Action::NextShot => self.choose(|advised| advised.turn(true)),
             Action::PreviousShot => self.choose(|advised| advised.turn(false)),
@@ -133,12 +139,12 @@ impl CoachPage {
 
     fn play(&mut self, action: Action) {
         let Some(shot) = self.shot().cloned() else { return };
-        let (events, duration) = (shot.recording.events(), shot.recording.duration());
+        let (events, duration) = (self.events(&shot), shot.recording.duration());
         self.mode = Mode::Watching;
         match action {
             Action::PlayPause => self.playback.toggle(duration),
-            Action::NextEvent => self.playback.step_forward(events, duration),
-            Action::PreviousEvent => self.playback.step_back(events),
+            Action::NextEvent => self.playback.step_forward(&events, duration),
+            Action::PreviousEvent => self.playback.step_back(&events),
             Action::ToStart => self.playback.jump(0.0),
             Action::ToEnd => self.playback.jump(duration),
             Action::Faster => self.playback.faster(),

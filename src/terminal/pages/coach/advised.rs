@@ -2,13 +2,19 @@
 
 use std::sync::Arc;
 
-use crate::terminal::{Advice, CoachQuery, Proposal, ShotAnalysis};
+use crate::{
+    coach::{Recommendation, Why},
+    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis},
+};
 
 /// Advice on a layout.
 #[derive(Clone, Debug)]
 pub struct AdviceState {
     /// What was asked.
     pub query: CoachQuery,
+    /// Why the first shot leads, once that is known.
+    pub why: Option<Why>,
+    found: Option<Arc<Recommendation>>,
     choices: Vec<Choice>,
     chosen: usize,
 }
@@ -31,7 +37,7 @@ impl AdviceState {
     pub fn new(query: CoachQuery, advice: Advice) -> Option<Self> {
         let choice = |proposal| Choice { proposal, study: None, next: None, is_studied: false };
         let choices: Vec<_> = advice.proposals.into_iter().map(choice).collect();
-        (!choices.is_empty()).then_some(Self { query, choices, chosen: 0 })
+        (!choices.is_empty()).then_some(Self { query, why: None, found: advice.found, choices, chosen: 0 })
     }
 
     /// All shots, the recommended one first.
@@ -42,6 +48,11 @@ impl AdviceState {
     /// The place of the one that is shown.
     pub const fn chosen(&self) -> usize {
         self.chosen
+    }
+
+    /// What the first shot's lead follows from, while that one is shown and it is not known why it leads.
+    pub fn unexplained(&self) -> Option<&Arc<Recommendation>> {
+        self.found.as_ref().filter(|_| self.chosen == 0 && self.why.is_none())
     }
 
     /// The one that is shown.

@@ -9,7 +9,6 @@ use crate::{
     coach::{Cause, Skill},
     game::Rule,
     physics::CueInputs,
-    table::CueBall,
     terminal::{
         Advice, AdviceState, Answer, CoachNews, CoachQuery, Effect, Effort, Job, Mode, Proposal, Shot,
         pages::coach::CoachPage,
@@ -56,6 +55,7 @@ impl CoachPage {
             layout: *self.layout(),
             query: self.query.clone(),
             shot,
+            found: None,
             budget: self.budget,
             seed: self.questions,
             cancel: Arc::default(),
@@ -71,7 +71,7 @@ impl CoachPage {
             if pending.query == self.query {
                 words += "; this is the best shot so far";
             }
-            self.show(pending.query, Advice { proposals: vec![so_far], effort: None });
+            self.show(pending.query, Advice { proposals: vec![so_far], effort: None, found: None });
         }
         self.message = Some(Message::plain(words));
     }
@@ -91,7 +91,7 @@ impl CoachPage {
                 let query = pending.query.clone();
                 self.pending = None;
                 self.message = if query == self.query {
-                    advice.proposals.first().map(|best| news(best, advice.effort, &query, self.cue_ball()))
+                    advice.proposals.first().map(|best| news(best, advice.effort, &query))
                 } else {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("the coach has answered for {asked}; Enter asks it for {now}")))
@@ -101,6 +101,11 @@ impl CoachPage {
             (CoachNews::Refused(sentence), Some(_)) => {
                 self.cancel();
                 self.message = Some(Message::warning(sentence));
+            }
+            (CoachNews::Why(why), _) if is_study => {
+                if let Some(advised) = self.advised_mut() {
+                    advised.why = Some(*why);
+                }
             }
             (CoachNews::Study(study), _) if is_study => {
                 if let Some(advised) = self.advised_mut() {
@@ -148,21 +153,21 @@ impl CoachPage {
             old.cancel.store(true, Ordering::Relaxed);
         }
         let shot = wanted?;
-        let job = self.job(Some(shot.cue));
+        let found = self.advised().and_then(AdviceState::unexplained).cloned();
+        let job = Job { found, ..self.job(Some(shot.cue)) };
         self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
         Some(Effect::Ask(Box::new(job)))
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
-        let cue_ball = self.cue_ball();
         if let Some(advised) = self.advised_mut() {
             choose(advised);
             let words = format!("shot {} of {}", advised.chosen() + 1, advised.choices().len());
             let proposal = &advised.choice().proposal;
             self.message = Some(match chance(proposal, &advised.query) {
                 // Whose chance it is stands above the list, and one row is all there is.
-                Some(chance) => Message::good(format!("{words}: {chance}{}", contact(proposal, cue_ball))),
-                None => news(proposal, None, &advised.query, cue_ball).after(&words),
+                Some(chance) => Message::good(format!("{words}: {chance}")),
+                None => news(proposal, None, &advised.query).after(&words),
             });
         }
         self.watch_from_the_stroke();
@@ -177,7 +182,7 @@ impl CoachPage {
         }
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };
-        self.message = next.proposals.first().map(|best| news(best, None, &self.query, self.cue_ball()));
+        self.message = next.proposals.first().map(|best| news(best, None, &self.query));
         self.show(self.query.clone(), next);
         None
     }
@@ -216,8 +221,8 @@ fn after<T: Copy + PartialEq>(all: &[T], one: &T) -> T {
 }
 
 /// A proposal in a sentence.
-fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, cue_ball: CueBall) -> Message {
-    let (shot, contact) = (&proposal.shot, contact(proposal, cue_ball));
+fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Message {
+    let shot = &proposal.shot;
     let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
         0 => ", under 1 ms".to_owned(),
         milliseconds => format!(", {milliseconds} ms"),
@@ -225,22 +230,17 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, cue_bal
     if !shot.solved {
         let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
         let source = &shot.source;
-        return Message::poor(format!("no point found{tried}; this is the best attempt ({source}{took}){contact}"));
+        return Message::poor(format!("no point found{tried}; this is the best attempt ({source}{took})"));
     }
     let Some(chance) = chance(proposal, query) else {
-        return Message::good(format!("makes the point ({}{took}){contact}", shot.source));
+        return Message::good(format!("makes the point ({}{took})", shot.source));
     };
     let cause = proposal.risk.and_then(|risk| risk.main_cause()).filter(|cause| *cause != Cause::Hand);
     let cause = cause.map_or(String::new(), |cause| format!("; missed mostly by {cause}"));
-    Message::good(format!("{} makes it {chance}{cause}{took}{contact}", skill_word(query.skill)))
+    Message::good(format!("{} makes it {chance}{cause}{took}", skill_word(query.skill)))
 }
 
 /// How often the player makes a shot, where there is a doubt.
 fn chance(proposal: &Proposal, query: &CoachQuery) -> Option<String> {
     proposal.made.filter(|_| proposal.shot.solved && !query.skill.is_perfect()).as_ref().map(chance_words)
-}
-
-/// How the first ball is hit, after other words.
-fn contact(proposal: &Proposal, cue_ball: CueBall) -> String {
-    proposal.shot.contact_words(cue_ball).map_or(String::new(), |words| format!("; {words}"))
 }

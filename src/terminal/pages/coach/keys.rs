@@ -70,6 +70,10 @@ pub enum CoachAction {
     TurnPlan,
     /// Teaches the diamond system of the shot, then the others.
     NextSystem,
+    /// Tells the shot in the thesis' numbers, or in a player's again.
+    TurnNumbers,
+    /// Lists all events, or contacts only.
+    TurnEvents,
     /// Shows something else in the panels.
     NextView,
     /// Shows the next of the shots that may be chosen.
@@ -186,10 +190,14 @@ pub const COACH: &[Binding<A, W>] = &[
         letter('3', A::Select(2)), key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls),
         ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too"),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
-        "turn the panels: balls, chances, margins and maps, plan").known_as("diamonds numbers"),
+        "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
     bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
         "diamond systems on the table: the shot's own, then the others, then none")
         .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
+    bind(Shot, W::Shot, &[letter('N', A::TurnNumbers)], Some(("numbers", 1)),
+        "the shot in the thesis' numbers, or in a player's again").known_as("a b theta phi V impulse angle millimetres"),
+    bind(Shot, W::Shot, &[letter('E', A::TurnEvents)], None,
+        "list all events, with rolls and stops, or contacts only").known_as("rolls slides filter"),
     bind(Balls, W::Placing, &[
         key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
         key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),

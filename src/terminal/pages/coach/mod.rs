@@ -21,10 +21,11 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::Skill,
+    coach::{Skill, Units, Verdict},
     drills::Session,
     game::Rule,
     learning::Policy,
+    simulation::Event,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
         CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
@@ -68,9 +69,9 @@ struct Position {
 /// What the panel beside the shot's tells; see the screen for what goes with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
-    /// Where the balls lie and how they move.
+    /// The shot in words before the stroke; where the balls lie while they are placed, and how they move as it plays.
     #[default]
-    Balls,
+    Shot,
     /// How often each shot is made that may be chosen.
     Chances,
     /// How far off each input may be.
@@ -83,10 +84,10 @@ impl View {
     /// The one after it; after the last the first.
     const fn next(self) -> Self {
         match self {
-            Self::Balls => Self::Chances,
+            Self::Shot => Self::Chances,
             Self::Chances => Self::Margins,
             Self::Margins => Self::Plan,
-            Self::Plan => Self::Balls,
+            Self::Plan => Self::Shot,
         }
     }
 }
@@ -108,6 +109,12 @@ pub struct CoachPage {
     pub own: Option<Skill>,
     /// What the panels show.
     pub view: View,
+    /// Whether the shot is told in the thesis' numbers instead of a player's.
+    pub is_in_numbers: bool,
+    /// Whether all events are listed; else contacts only.
+    pub has_all_events: bool,
+    /// The units in which lengths are told.
+    pub units: Units,
     balls: History<Position>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
@@ -147,6 +154,9 @@ impl CoachPage {
             query: CoachQuery::default(),
             own: None,
             view: View::default(),
+            is_in_numbers: false,
+            has_all_events: false,
+            units: Units::default(),
             balls: History::new(Position {
                 table: Arc::new(table),
                 policy: None,
@@ -218,6 +228,7 @@ impl CoachPage {
         let Settings { rule, skill, doubt, plan, .. } = *settings;
         self.query = CoachQuery { rule, skill, doubt, plan, ..self.query.clone() };
         self.budget = Duration::from_millis(settings.think_ms);
+        self.units = settings.units;
         self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
     }
@@ -228,6 +239,9 @@ impl CoachPage {
     /// A sentence where the table cannot be read; everything else is taken.
     pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
         self.budget = Duration::from_millis(settings.think_ms);
+        if before.units != settings.units {
+            self.units = settings.units;
+        }
         if before.step_mm != settings.step_mm {
             self.set_step(settings.step_mm);
         }
@@ -350,6 +364,24 @@ impl CoachPage {
     /// The shot that is being watched.
     pub fn watched(&self) -> Option<&Shot> {
         self.shot().filter(|_| self.mode == Mode::Watching).map(Arc::as_ref)
+    }
+
+    /// The shot that is told in words: the one that is about to be played.
+    pub fn told(&self) -> Option<&Proposal> {
+        let is_told = self.mode == Mode::Watching && self.playback.time == 0.0 && self.lesson.is_none();
+        self.proposal().filter(|_| is_told)
+    }
+
+    /// What is listed of what happens in `shot`.
+    pub fn events(&self, shot: &Shot) -> Vec<Event> {
+        let all = shot.recording.events().iter();
+        all.filter(|event| self.has_all_events || event.kind.is_contact()).copied().collect()
+    }
+
+    /// What came of the shot that is watched, once the balls lie still.
+    pub fn verdict(&self) -> Option<Verdict> {
+        let shot = self.watched().filter(|shot| self.playback.time >= shot.recording.duration())?;
+        Some(Verdict::of(self.query.rule, self.table(), self.layout(), &shot.recording))
     }
 
     /// The chosen step in millimetres, mm.

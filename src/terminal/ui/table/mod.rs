@@ -1,5 +1,6 @@
 //! The table: cloth, rails, the predicted paths and the three balls.
 
+mod cushions;
 mod paint;
 mod rails;
 mod scene;
@@ -14,7 +15,7 @@ use crate::{
         ui::{
             Theme, Ui,
             sprites::Sprite,
-            table::{rails::draw_rails, scene::Scene},
+            table::{cushions::draw_cushions, rails::draw_rails, scene::Scene},
         },
     },
 };
@@ -56,6 +57,8 @@ pub struct TableView<'a> {
     pub front: usize,
     /// Whether the paths of the object balls are left out, for something else that there is to see.
     pub is_lean: bool,
+    /// Whether the cushions of the shot are numbered on the rails.
+    pub is_numbered: bool,
     /// What else is drawn, below the paths and the balls, the first lowest.
     pub spots: &'a [Spot],
     /// Where a film shows the balls at the same moment: outlines below the balls. The outlines of what lies ahead in the
@@ -78,6 +81,7 @@ impl<'a> TableView<'a> {
             is_moving: true,
             front: 0,
             is_lean: false,
+            is_numbered: true,
             spots: &[],
             film: None,
             theme: ui.theme,
@@ -104,6 +108,9 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let time = if view.is_moving { view.time } else { 0.0 };
     let scene = Scene { view, mapping, time, balls, sprite, clear };
     paint::paint(&scene, ui);
+    if let Some(shot) = view.shot.filter(|_| view.is_numbered) {
+        draw_cushions(&shot.words, view.table, &mapping, ui);
+    }
 }
 
 /// The centres at which the pictures of the balls are drawn: where the pictures are larger than the balls, those of balls

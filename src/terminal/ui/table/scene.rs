@@ -176,6 +176,7 @@ mod tests {
             is_moving: true,
             front: 0,
             is_lean: false,
+            is_numbered: false,
             spots: &[],
             film: None,
             theme: &theme,

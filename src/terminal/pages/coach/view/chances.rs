@@ -3,11 +3,11 @@
 use ratatui::{layout::Rect, text::Span};
 
 use crate::{
-    table::CueBall,
+    coach::words::pace_word,
     terminal::{
         AdviceState, Proposal,
-        ui::{Ui, draw_nothing, draw_title, list, write_right},
-        words::{chance_words, kind_words, percent, skill_word},
+        ui::{Ui, columns, cut, draw_nothing, draw_title, list, spell, wrap, write_right},
+        words::{chance_words, percent, skill_word},
     },
 };
 
@@ -15,6 +15,10 @@ use crate::{
 const NUMBER_END: u16 = 2;
 const CHANCE_END: u16 = 9;
 const WORDS: u16 = 10;
+/// Shares of the ball from which on a hit is no longer thin, is thick, and is full.
+const THIN: f64 = 0.41;
+const THICK: f64 = 0.6;
+const FULL: f64 = 0.85;
 
 /// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`.
 pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: &mut Ui) {
@@ -45,15 +49,44 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: 
         let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(ui.buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
         let room = usize::from(inner.width.saturating_sub(WORDS));
-        ui.buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal, ui.theme.cue_ball), room, style);
+        ui.buffer.set_stringn(inner.x + WORDS, row, sort_words(proposal, room, ui), room, style);
     }
     // What would miss the first shot by itself.
-    let row = inner.y + advised.choices().len() as u16;
+    let mut row = inner.y + advised.choices().len() as u16;
     if let (Some(risk), true) = (advised.choices()[0].proposal.risk, row < inner.bottom()) {
         let [hand, table, placing] = [risk.hand, risk.table, risk.placing].map(percent);
         let words = format!("misses %: hand {hand}, table {table}, places {placing}");
         ui.buffer.set_stringn(inner.x + 1, row, words, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
+        row += 1;
     }
+    let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
+    if let Some(words) = why_words(advised, ui) {
+        write_lines(&words, rest, ui);
+    }
+}
+
+/// Draws a panel of why the first shot leads; `false` where that is not known.
+pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
+    let Some(why) = &advised.why else { return false };
+    let inner = draw_title(Span::styled("Why shot 1 leads", ui.theme.text()), area, ui);
+    write_lines(&spell(&why.brief(ui.theme.cue_ball), ui.caps), inner, ui);
+    true
+}
+
+/// Writes as much as there is room for.
+fn write_lines(words: &str, area: Rect, ui: &mut Ui) {
+    let width = usize::from(area.width.saturating_sub(2));
+    let lines =
+        if area.is_empty() { Vec::new() } else { cut(wrap(words, width), usize::from(area.height), width, ui.caps) };
+    for (line, row) in lines.iter().zip(area.y..) {
+        ui.buffer.set_stringn(area.x + 1, row, line, width, ui.theme.faint());
+    }
+}
+
+/// Why the first shot leads, once that is known.
+pub fn why_words(advised: &AdviceState, ui: &Ui) -> Option<String> {
+    let words = spell(&advised.why.as_ref()?.brief(ui.theme.cue_ball), ui.caps);
+    Some(if advised.chosen() == 0 { format!("Why: {words}") } else { format!("Why shot 1 leads: {words}") })
 }
 
 /// The place of the shot that the panel in `area` tells in this row of the screen.
@@ -68,7 +101,35 @@ fn in_view(advised: &AdviceState, inner: Rect) -> impl Iterator<Item = (usize, u
     list::in_view(advised.chosen(), advised.choices().len(), usize::from(inner.height)).zip(inner.y..)
 }
 
-/// What sort of shot it is, or that it makes no point.
-pub fn sort_words(proposal: &Proposal, cue_ball: CueBall) -> String {
-    proposal.kind.map_or_else(|| "no point".to_owned(), |kind| kind_words(kind, cue_ball))
+/// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,
+/// the last two as far as `room` columns hold them.
+pub fn sort_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
+    if !proposal.shot.solved {
+        return "no point".to_owned();
+    }
+    let words = &proposal.shot.words;
+    let mut text = String::new();
+    let parts = [
+        words.first.map(|hit| ui.theme.names()[hit.ball]),
+        proposal.shot.pattern.map(|pattern| pattern.name),
+        words.first.map(|hit| fullness_word(hit.fullness)),
+        Some(pace_word(words.table_lengths)),
+    ];
+    for (n, part) in parts.into_iter().flatten().enumerate() {
+        let more = if n == 0 { part.to_owned() } else { format!("{text}, {part}") };
+        if n < 2 || columns(&more) <= room {
+            text = more;
+        }
+    }
+    spell(&text, ui.caps)
+}
+
+/// How much of a ball is hit, in a word.
+fn fullness_word(fullness: f64) -> &'static str {
+    match fullness {
+        _ if fullness < THIN => "thin",
+        _ if fullness < THICK => "half",
+        _ if fullness < FULL => "thick",
+        _ => "full",
+    }
 }

@@ -1,6 +1,7 @@
 //! The coach's screen: the table, what the coach recommends, and the shot as it plays.
 
 mod balls;
+mod card;
 mod chances;
 mod header;
 mod lesson;
@@ -9,21 +10,22 @@ mod margins;
 mod panes;
 mod plan;
 mod shot;
+mod told;
 
 use ratatui::layout::{Position, Rect};
 
 use crate::{
-    coach::{Mark, line_of_aim},
     table::BALLS,
     terminal::{
-        AdviceState, Capabilities, Mapping, Mode, Shot, View,
+        AdviceState, Mapping, Mode, Shot, View,
         pages::{
             PageArea, Target,
             coach::{
                 CoachPage,
                 view::{
                     balls::draw_balls,
-                    chances::{choice_at, draw_chances},
+                    card::draw_card,
+                    chances::{choice_at, draw_chances, draw_why},
                     header::draw_header,
                     lesson::{draw_lesson, draw_numbers, lesson_spots, system_words},
                     maps::{draw_aim_map, draw_legend, draw_tip_map},
@@ -31,15 +33,16 @@ use crate::{
                     panes::Panes,
                     plan::{draw_plan, plan_spots},
                     shot::{draw_proposal, draw_shot},
+                    told::draw_told,
                 },
             },
         },
         shot::playback::passed,
         ui::{
-            Message, TableView, Ui, draw_events, draw_question, draw_sight, draw_spin, draw_status, draw_table,
-            draw_tip,
+            Message, TableView, Ui, columns, draw_events, draw_question, draw_sight, draw_spin, draw_status,
+            draw_table, draw_tip, shorten, spell,
         },
-        words::{event_words, fixed, in_diamonds, millimetres, percent, rail_word},
+        words::{event_words, fixed, in_diamonds, millimetres, percent},
     },
 };
 
@@ -62,6 +65,8 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         front: coach.selected,
         // While the coach thinks each better shot would move them all.
         is_lean: planned.is_some() || lesson.is_some() || coach.spinner().is_some(),
+        // Those of a system are there then.
+        is_numbered: lesson.is_none(),
         spots: &spots,
         ..TableView::new(coach.table(), coach.layout(), ui)
     };
@@ -70,14 +75,13 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         draw_numbers(lesson, coach.table(), &table_mapping(coach, area.screen), ui);
     }
     draw_panels(coach, &panes, ui);
-    let caps = ui.caps;
     let message = coach.message.clone();
     if let Some((question, field)) = coach.asked() {
         let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
         return draw_question(&Message::plain(before + &question), field, area.status, ui);
     }
-    let standing = || Message::plain(standing(coach, caps));
-    draw_status(&message.unwrap_or_else(standing), area.status, ui)
+    let message = message.unwrap_or_else(|| standing(coach, usize::from(area.status.width.saturating_sub(2)), ui));
+    draw_status(&message, area.status, ui)
 }
 
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
@@ -85,9 +89,12 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
     let chosen = coach.view;
+    let told = coach.told().filter(|_| chosen == View::Shot);
+    let is_beside = panes.shot.y < panes.info.y;
     for (view, area) in views(chosen, panes) {
         match coach.lesson().filter(|_| view == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
+            None if told.is_some() && view == chosen => {}
             None => draw_info(coach, view, area, ui),
         }
     }
@@ -97,8 +104,20 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), ui);
         return draw_legend(panes.events, ui);
     }
+    // Before the stroke words have the room of what only tells later, or tells the same.
+    let is_wide = !is_beside && !coach.is_in_numbers;
+    if let Some(told) = told {
+        let area = match () {
+            () if is_beside => panes.info.union(panes.events),
+            () if is_wide => panes.info.union(panes.shot),
+            () => panes.info,
+        };
+        draw_told(coach, told, area, ui);
+    }
     match coach.proposal() {
-        Some(proposal) => draw_proposal(proposal, table, coach.layout(), panes.shot, ui),
+        Some(_) if told.is_some() && is_wide => {}
+        Some(proposal) if coach.is_in_numbers => draw_proposal(proposal, table, coach.layout(), panes.shot, ui),
+        Some(proposal) => draw_card(proposal, coach, panes.shot, ui),
         None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, ui),
     }
     draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, ui);
@@ -107,7 +126,13 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(shot.map(Shot::meeting), panes.sight, ui),
     }
-    draw_events(shot, time, panes.events, ui);
+    let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
+    if told.is_some() && is_beside || explained.is_some_and(|advised| draw_why(advised, panes.events, ui)) {
+        return;
+    }
+    let events = shot.map(|shot| coach.events(shot));
+    let name = if coach.has_all_events { "Events" } else { "Contacts" };
+    draw_events(name, events.as_deref(), time, panes.events, ui);
 }
 
 /// The chosen view and the others that there is room for, each with its panel.
@@ -147,7 +172,7 @@ fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
         (None, None) => "no shot yet; Enter asks the coach",
     };
     match view {
-        View::Balls => draw_balls(coach, area, ui),
+        View::Shot => draw_balls(coach, area, ui),
         View::Chances => draw_chances(advised, empty, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
@@ -157,35 +182,44 @@ fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// What the status line says while there is no news.
-fn standing(coach: &CoachPage, caps: Capabilities) -> String {
+/// What the status line says in `room` columns while there is no news.
+fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
     if let Some(picture) = coach.spinner() {
-        let pictures = caps.pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
+        let pictures =
+            ui.caps.pick(["⠋", "⠙", "⠹", "⠸", "⠼", "⠴", "⠦", "⠧"], ["|", "/", "-", "\\", "|", "/", "-", "\\"]);
         let so_far = coach.proposal().filter(|proposal| proposal.is_early).and_then(|proposal| proposal.made);
         let words = so_far.map_or("the coach is thinking; Esc stops it".to_owned(), |made| {
             format!("so far a shot that makes the point {} % of the time; Esc takes it", percent(made.rate))
         });
-        return format!("{} {words}", pictures[picture % pictures.len()]);
+        return Message::plain(format!("{} {words}", pictures[picture % pictures.len()]));
     }
-    match coach.watched() {
-        Some(shot) if coach.playback.time == 0.0 => aim_words(coach, shot),
+    if let Some(verdict) = coach.verdict() {
+        let words = verdict.words(coach.cue_ball(), coach.units.length);
+        return if verdict.is_made() { Message::good(words) } else { Message::poor(words) };
+    }
+    Message::plain(match coach.watched() {
+        Some(shot) if coach.playback.time == 0.0 => aim_words(coach, shot, room, ui),
         Some(shot) => {
-            let (events, time) = (shot.recording.events(), coach.playback.readout);
-            events.get(passed(events, time)).map_or("all balls lie still".to_owned(), |next| {
+            let (events, time) = (coach.events(shot), coach.playback.readout);
+            events.get(passed(&events, time)).map_or("no contact comes any more".to_owned(), |next| {
                 format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
             })
         }
         None => selected_ball(coach),
-    }
+    })
 }
 
-/// How the first ball is hit, and the line of aim in diamonds, as a player reads it off the rails.
-fn aim_words(coach: &CoachPage, shot: &Shot) -> String {
-    let hit = shot.contact_words(coach.cue_ball()).unwrap_or_else(|| "hits no ball".to_owned());
-    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
-    let [ahead, behind] = line_of_aim(coach.table(), coach.layout(), shot.cue.phi).map(mark);
-    let system = system_words(coach).map_or(String::new(), |words| format!(". {words}"));
-    format!("{hit}; aim from {behind} to {ahead} diamonds{system}")
+/// The line of aim, and what a system counts for the shot; the system alone where a row has no room for both, since the line
+/// is told above as well, and no more than a row of it where words stand there.
+fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
+    let aim = spell(&shot.words.aim(coach.units), ui.caps);
+    let Some(system) = system_words(coach) else { return aim };
+    let both = format!("{aim} {system}");
+    match columns(&both) <= room {
+        true => both,
+        false if coach.view == View::Shot => shorten(&system, room, ui.caps),
+        false => system,
+    }
 }
 
 /// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.

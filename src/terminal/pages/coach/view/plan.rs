@@ -18,6 +18,9 @@ use crate::{
 /// Sign of the cue ball's next way where only letters are drawn.
 const WAY_LETTER: char = '*';
 
+/// Columns of the rows' names.
+const NAMES: u16 = 6;
+
 /// What the distances of the stops are.
 const SPREAD_WORDS: &str = "half of the points leave the balls so near to the planned positions";
 
@@ -30,10 +33,11 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) 
     }
     let inner = draw_title(title, area, ui);
     let Some(choice) = choice else { return draw_nothing(&[empty], inner, ui) };
+    let room = usize::from(inner.width.saturating_sub(NAMES));
     let rows = [
-        ("now", shot_words(&choice.proposal, ui.theme)),
+        ("now", shot_words(&choice.proposal, room, ui)),
         ("stop", stop_words(choice, ui.theme)),
-        ("next", next_words(choice, ui.theme)),
+        ("next", next_words(choice, room, ui)),
     ];
     let mut lines: Vec<Line> = rows
         .into_iter()
@@ -61,10 +65,12 @@ pub fn draw_plan(choice: Option<&Choice>, empty: &str, area: Rect, ui: &mut Ui) 
     }
 }
 
-fn shot_words(proposal: &Proposal, theme: &Theme) -> String {
+fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
     let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
     let so_far = if proposal.is_early { "so far " } else { "" };
-    format!("{so_far}{chance} % {}", sort_words(proposal, theme.cue_ball))
+    let chance = format!("{so_far}{chance} % ");
+    let sort = sort_words(proposal, room.saturating_sub(chance.len()), ui);
+    chance + &sort
 }
 
 /// How near to the planned positions the balls stop, in half of the attempts that make the point.
@@ -77,9 +83,9 @@ fn stop_words(choice: &Choice, theme: &Theme) -> String {
     if words.is_empty() { "no attempt made the point".to_owned() } else { words.join(", ") + " cm" }
 }
 
-fn next_words(choice: &Choice, theme: &Theme) -> String {
+fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {
     match (&choice.next, choice.is_studied) {
-        (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, theme)),
+        (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, room, ui)),
         (None, false) => "being looked for".to_owned(),
         (None, true) => "none".to_owned(),
     }

@@ -7,17 +7,17 @@ use ratatui::{
 
 use crate::{
     coach::{Mark, line_of_aim},
-    learning::evaluation::SuccessRate,
     table::{Layout, Table},
     terminal::{
         Capabilities, Proposal, Shot,
+        pages::coach::view::card::chance_span,
         ui::{Theme, Ui, columns, draw_nothing, draw_title},
-        words::{across_word, chance_words, fixed, height_word, percent, rail_word},
+        words::{across_word, fixed, height_word, rail_word},
     },
 };
 
 /// Columns from which on the panel explains the numbers.
-const WIDE: u16 = 30;
+pub const WIDE: u16 = 30;
 /// Columns of a row where there are fewest: the last column of the screen stays free.
 const NARROW: usize = 14;
 /// Columns of the spin where its three numbers share a narrow row.
@@ -45,18 +45,11 @@ pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], table: &Table, area: Rect,
 pub fn draw_proposal(proposal: &Proposal, table: &Table, layout: &Layout, area: Rect, ui: &mut Ui) {
     let shot = &proposal.shot;
     let wide = area.width >= WIDE;
-    let chance = |rate: &SuccessRate| if wide { chance_words(rate) } else { format!("{} %", percent(rate.rate)) };
-    let (words, style) = match &proposal.made {
-        _ if !shot.solved => ("no point".to_owned(), ui.theme.warning()),
-        None => ("point".to_owned(), ui.theme.good()),
-        Some(made) if proposal.is_early => (format!("so far {} %", percent(made.rate)), ui.theme.accent()),
-        Some(made) => (chance(made), ui.theme.good()),
-    };
     let mut title = Vec::new();
     if wide || !proposal.is_early {
         title = vec![Span::styled("Shot", ui.theme.text()), Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint())];
     }
-    title.push(Span::styled(words, style));
+    title.push(chance_span(proposal, wide, ui));
     let source = format!(" {}", shot.source);
     // The rule before the title, and a blank on either side of it.
     let taken = 3 + title.iter().map(Span::width).sum::<usize>() + source.len();

@@ -49,7 +49,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
     }
     draw_distances(scene, time, panes.aim, ui);
-    draw_events(scene.map(|scene| scene.shot.as_ref()), Some(time), panes.score, ui);
+    draw_events("Events", scene.map(|scene| scene.shot.recording.events()), Some(time), panes.score, ui);
     scene.map_or_else(
         || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
         |scene| standing(scene, listed, time),

@@ -1,0 +1,176 @@
+//! The shot as a card: ball, thickness, side, height, speed and cue, a row each, to be read at a glance.
+
+use ratatui::{
+    layout::Rect,
+    text::{Line, Span},
+};
+
+use crate::{
+    coach::words::{English, TipUnit, pace_word, short},
+    terminal::{
+        Proposal,
+        pages::coach::{CoachPage, view::shot::WIDE},
+        ui::{Ui, draw_title, spell},
+        words::{chance_words, fixed, percent, rail_word},
+    },
+};
+
+/// Parts of a ball in which thickness is told.
+const PARTS: u32 = 16;
+
+/// Draws the panel of a shot that the coach proposes.
+pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui) {
+    let is_wide = area.width >= WIDE;
+    let mut title = Vec::new();
+    if is_wide || !proposal.is_early {
+        title = vec![Span::styled("Shot", ui.theme.text()), Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint())];
+    }
+    title.push(chance_span(proposal, is_wide, ui));
+    let inner = draw_title(title, area, ui);
+    let rows = if is_wide { wide_rows(proposal, coach) } else { narrow_rows(proposal, coach) };
+    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+        let mut line = Line::default();
+        if is_wide {
+            line.push_span(Span::styled(format!(" {name:<7}"), ui.theme.faint()));
+        }
+        line.push_span(Span::styled(spell(&value, ui.caps), ui.theme.text()));
+        ui.buffer.set_line(inner.x, row, &line, inner.width);
+    }
+}
+
+/// How often the shot is made, or whether it makes the point at all.
+pub fn chance_span(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Span<'static> {
+    let (words, style) = match &proposal.made {
+        _ if !proposal.shot.solved => ("no point".to_owned(), ui.theme.warning()),
+        None => ("point".to_owned(), ui.theme.good()),
+        Some(made) if proposal.is_early => (format!("so far {} %", percent(made.rate)), ui.theme.accent()),
+        Some(made) if is_wide => (chance_words(made), ui.theme.good()),
+        Some(made) => (format!("{} %", percent(made.rate)), ui.theme.good()),
+    };
+    Span::styled(words, style)
+}
+
+type Row = (&'static str, String);
+
+/// Fourteen columns at most, the more needful rows first.
+fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
+    let words = &proposal.shot.words;
+    let mut rows = Vec::new();
+    rows.extend(words.before.first().map(|cushion| {
+        // The side of the ball has no row then; the sentence has it.
+        format!("{} {} first", rail_word(cushion.rail), short(cushion.diamond, 1))
+    }));
+    match words.first {
+        None => rows.push("no ball".to_owned()),
+        Some(hit) => {
+            rows.push(format!("{} {}", coach.cue_ball().names()[hit.ball], fraction(hit.fullness)));
+            let side = if hit.left { "on the left" } else { "on the right" };
+            if words.before.is_empty() && fraction(hit.fullness) != "full" {
+                rows.push(side.to_owned());
+            }
+        }
+    }
+    rows.push(side_words(proposal, coach));
+    rows.push(height_words(proposal, coach));
+    rows.push(format!("{} {}", pace_word(words.table_lengths), short(words.table_lengths, 1)));
+    rows.push(match cue_degrees(proposal) {
+        None => "level cue".to_owned(),
+        Some(degrees) if words.is_level => format!("cue {degrees}\u{b0}, lowest"),
+        Some(degrees) => format!("cue raised {degrees}\u{b0}"),
+    });
+    let mark = |mark: crate::coach::Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
+    rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
+    rows.into_iter().map(|row| ("", row)).collect()
+}
+
+fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
+    let words = &proposal.shot.words;
+    let hit = words.first.map_or_else(
+        || "no ball".to_owned(),
+        |hit| {
+            let side = if hit.left { "left" } else { "right" };
+            format!("{} {}, {side}", coach.cue_ball().names()[hit.ball], fraction(hit.fullness))
+        },
+    );
+    let hit = match words.before.first() {
+        Some(cushion) => format!("{} {} first, {hit}", rail_word(cushion.rail), short(cushion.diamond, 1)),
+        None => hit,
+    };
+    let english = match words.english {
+        Some(English::Running) => ", running",
+        Some(English::Reverse) => ", reverse",
+        None => "",
+    };
+    let cue = match cue_degrees(proposal) {
+        None => "level".to_owned(),
+        Some(degrees) if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
+        Some(degrees) => format!("raised {degrees}\u{b0}"),
+    };
+    let mark = |mark: crate::coach::Mark| format!("{} rail {}", rail_word(mark.rail), fixed(mark.diamond, 2));
+    vec![
+        ("hit", hit),
+        ("side", side_words(proposal, coach) + english),
+        ("height", height_words(proposal, coach)),
+        ("speed", format!("{}, {} lengths", pace_word(words.table_lengths), short(words.table_lengths, 1))),
+        ("cue", cue),
+        ("from", mark(words.behind)),
+        ("to", mark(words.ahead)),
+    ]
+}
+
+/// Elevation in degrees, where there is any.
+fn cue_degrees(proposal: &Proposal) -> Option<String> {
+    let degrees = proposal.shot.words.elevation_deg;
+    (degrees >= 0.5).then(|| fixed(degrees, 0))
+}
+
+fn side_words(proposal: &Proposal, coach: &CoachPage) -> String {
+    let tips = proposal.shot.words.tips_right;
+    offset(tips, proposal.shot.cue.a, coach)
+        .map_or_else(|| "no side".to_owned(), |text| format!("{text} {}", if tips > 0.0 { "right" } else { "left" }))
+}
+
+fn height_words(proposal: &Proposal, coach: &CoachPage) -> String {
+    let tips = proposal.shot.words.tips_above;
+    offset(tips, proposal.shot.cue.b, coach).map_or_else(
+        || "centre height".to_owned(),
+        |text| format!("{text} {}", if tips > 0.0 { "above" } else { "below" }),
+    )
+}
+
+/// How far the tip is from the middle, to half a tip or half a millimetre; `None` where that is not at all. `radii` is the same
+/// in ball radii.
+fn offset(tips: f64, radii: f64, coach: &CoachPage) -> Option<String> {
+    let (value, unit) = match coach.units.tip {
+        TipUnit::Tips => (tips.abs(), "tip"),
+        TipUnit::Mm => (1e3 * coach.table().radius * radii.abs(), "mm"),
+    };
+    let value = 0.5 * (2.0 * value).round();
+    let plural = if unit == "tip" && value > 1.0 { "s" } else { "" };
+    (value > 0.0).then(|| format!("{} {unit}{plural}", short(value, 1)))
+}
+
+/// How much of the ball is hit, to a sixteenth.
+fn fraction(fullness: f64) -> String {
+    let (mut part, mut of) = ((f64::from(PARTS) * fullness.clamp(0.0, 1.0)).round() as u32, PARTS);
+    if part == 0 || part == PARTS {
+        return if part == 0 { "graze" } else { "full" }.to_owned();
+    }
+    while part.is_multiple_of(2) {
+        (part, of) = (part / 2, of / 2);
+    }
+    format!("{part}/{of}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thickness_is_told_in_the_shortest_fraction() {
+        assert_eq!(
+            [0.01, 0.0625, 0.25, 0.51, 0.69, 0.99].map(fraction),
+            ["graze", "1/16", "1/4", "1/2", "11/16", "full"]
+        );
+    }
+}

@@ -1,0 +1,83 @@
+//! The numbers of the cue ball's cushions, at the rails where it meets them.
+
+use glam::DVec2;
+use ratatui::style::Modifier;
+
+use crate::{
+    coach::{Cushion, ShotWords},
+    simulation::Rail,
+    table::Table,
+    terminal::{Glyphs, Mapping, ui::Ui},
+};
+
+/// Cushions that have a number: a figure is a cell.
+const NUMBERED: usize = 9;
+
+/// Writes 1, 2, 3 … on the cushions that the cue ball meets before the second object ball, outside the cloth, where no ball is
+/// hidden.
+pub fn draw_cushions(words: &ShotWords, table: &Table, mapping: &Mapping, ui: &mut Ui) {
+    let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.cushion };
+    let style = ui.theme.accent().bg(back).add_modifier(Modifier::BOLD);
+    let cushions = words.before.iter().chain(&words.between).take(NUMBERED);
+    for (cell, number) in cells(cushions, table, mapping).into_iter().zip(1..) {
+        ui.buffer.set_string(cell.0, cell.1, number.to_string(), style);
+    }
+}
+
+/// How far a number gives way to another, in cells, the nearest first: one for each that may be there.
+const WAYS: [i16; NUMBERED] = [0, 1, -1, 2, -2, 3, -3, 4, -4];
+
+/// The cells of the numbers, each of its own: where one is taken, the next gives way along its rail.
+fn cells<'a>(cushions: impl Iterator<Item = &'a Cushion>, table: &Table, mapping: &Mapping) -> Vec<(u16, u16)> {
+    let bed = mapping.bed;
+    let mut taken = Vec::new();
+    for cushion in cushions {
+        let along = cushion.diamond * table.diamond();
+        let from_middle = DVec2::splat(along) - 0.5 * DVec2::new(table.length, table.width);
+        let (column, row) = mapping.to_cell(from_middle);
+        let x = |way: i16| column.saturating_add_signed(way).clamp(bed.x, bed.right() - 1);
+        let y = |way: i16| row.saturating_add_signed(way).clamp(bed.y, bed.bottom() - 1);
+        let at = |way: i16| match cushion.rail {
+            Rail::Top => (x(way), bed.y - 1),
+            Rail::Bottom => (x(way), bed.bottom()),
+            Rail::Left => (bed.x - 1, y(way)),
+            Rail::Right => (bed.right(), y(way)),
+        };
+        taken.push(WAYS.map(at).into_iter().find(|cell| !taken.contains(cell)).unwrap_or_else(|| at(0)));
+    }
+    taken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ratatui::layout::Rect;
+
+    #[test]
+    fn numbers_stand_on_their_rails_beside_the_cloth_and_never_on_each_other() {
+        let table = Table::default();
+        let mapping = Mapping::fit(&table, Rect::new(0, 0, 80, 20));
+        let bed = mapping.bed;
+        let cushion = |rail, diamond| Cushion { rail, diamond, along: 0.0 };
+        let met = [
+            cushion(Rail::Top, 4.0),
+            cushion(Rail::Top, 4.01),
+            cushion(Rail::Right, 0.0),
+            cushion(Rail::Right, 0.0),
+            cushion(Rail::Left, 4.0),
+            cushion(Rail::Bottom, 8.0),
+        ];
+        let found = cells(met.iter(), &table, &mapping);
+        let middle = bed.x + bed.width / 2;
+        let lowest = bed.bottom() - 1;
+        let wanted = [
+            (middle, bed.y - 1),
+            (middle + 1, bed.y - 1),
+            (bed.right(), lowest),
+            (bed.right(), lowest - 1),
+            (bed.x - 1, bed.y),
+            (bed.right() - 1, bed.bottom()),
+        ];
+        assert_eq!(found, wanted);
+    }
+}
