@@ -2,7 +2,7 @@
 //!
 //! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls,
 //! [`saving`] how they are saved as a position, [`positions`] how they are typed;
-//! [`lesson`] teaches diamond systems.
+//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke beside the coach's.
 
 mod actions;
 mod advised;
@@ -10,6 +10,7 @@ mod asking;
 mod dragging;
 pub mod keys;
 mod lesson;
+mod own_stroke;
 mod page;
 mod positions;
 mod saving;
@@ -21,7 +22,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::Skill,
+    coach::{Skill, Units},
     drills::Session,
     game::Rule,
     learning::Policy,
@@ -34,7 +35,7 @@ use crate::{
             keys::QuestionContext,
             saving::Saving,
         },
-        shot::{History, Playback, placing::STEPS},
+        shot::{History, Playback, WhatIf, placing::STEPS},
         ui::{Message, TextField},
         words::step_words,
     },
@@ -108,6 +109,10 @@ pub struct CoachPage {
     pub own: Option<Skill>,
     /// What the panels show.
     pub view: View,
+    /// The units in which the player is told lengths.
+    pub units: Units,
+    /// The player's own stroke beside the coach's.
+    compared: Option<own_stroke::Compared>,
     balls: History<Position>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
@@ -147,6 +152,8 @@ impl CoachPage {
             query: CoachQuery::default(),
             own: None,
             view: View::default(),
+            units: Units::default(),
+            compared: None,
             balls: History::new(Position {
                 table: Arc::new(table),
                 policy: None,
@@ -218,6 +225,7 @@ impl CoachPage {
         let Settings { rule, skill, doubt, plan, .. } = *settings;
         self.query = CoachQuery { rule, skill, doubt, plan, ..self.query.clone() };
         self.budget = Duration::from_millis(settings.think_ms);
+        self.units = settings.units;
         self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
     }
@@ -228,6 +236,7 @@ impl CoachPage {
     /// A sentence where the table cannot be read; everything else is taken.
     pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
         self.budget = Duration::from_millis(settings.think_ms);
+        self.units = settings.units;
         if before.step_mm != settings.step_mm {
             self.set_step(settings.step_mm);
         }
@@ -342,9 +351,9 @@ impl CoachPage {
         so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
     }
 
-    /// The same without what is known about it.
+    /// The shot that is on the table: the player's own while there is one, else the one that is shown.
     pub fn shot(&self) -> Option<&Arc<Shot>> {
-        self.proposal().map(|proposal| &proposal.shot)
+        self.what_if().map(WhatIf::shot).or_else(|| self.proposal().map(|proposal| &proposal.shot))
     }
 
     /// The shot that is being watched.

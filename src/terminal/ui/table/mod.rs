@@ -3,6 +3,7 @@
 mod paint;
 mod rails;
 mod scene;
+mod ways;
 
 use glam::DVec2;
 use ratatui::{layout::Rect, style::Color};
@@ -48,6 +49,10 @@ pub struct TableView<'a> {
     pub layout: &'a Layout,
     /// The shot from there, if there is one.
     pub shot: Option<&'a Shot>,
+    /// Another shot from there, whose cue ball's way is drawn as well, in dashes and with the word for whose it is.
+    pub other: Option<&'a Shot>,
+    /// That word.
+    pub other_name: &'static str,
     /// Seconds since the stroke.
     pub time: f64,
     /// Whether the balls are drawn where the shot has them at `time`; otherwise they wait to be placed.
@@ -74,6 +79,8 @@ impl<'a> TableView<'a> {
             table,
             layout,
             shot: None,
+            other: None,
+            other_name: "",
             time: 0.0,
             is_moving: true,
             front: 0,
@@ -104,6 +111,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let time = if view.is_moving { view.time } else { 0.0 };
     let scene = Scene { view, mapping, time, balls, sprite, clear };
     paint::paint(&scene, ui);
+    ways::draw_words(&scene, ui);
 }
 
 /// The centres at which the pictures of the balls are drawn: where the pictures are larger than the balls, those of balls

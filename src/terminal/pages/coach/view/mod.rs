@@ -6,6 +6,7 @@ mod header;
 mod lesson;
 mod maps;
 mod margins;
+mod own_stroke;
 mod panes;
 mod plan;
 mod shot;
@@ -28,6 +29,7 @@ use crate::{
                     lesson::{draw_lesson, draw_numbers, lesson_spots, system_words},
                     maps::{draw_aim_map, draw_legend, draw_tip_map},
                     margins::draw_margins,
+                    own_stroke::{COACH, draw_own_stroke},
                     panes::Panes,
                     plan::{draw_plan, plan_spots},
                     shot::{draw_proposal, draw_shot},
@@ -60,6 +62,8 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         time: coach.playback.time,
         is_moving: coach.mode == Mode::Watching,
         front: coach.selected,
+        other: coach.what_if().map(|what_if| &**what_if.coach()),
+        other_name: COACH,
         // While the coach thinks each better shot would move them all.
         is_lean: planned.is_some() || lesson.is_some() || coach.spinner().is_some(),
         spots: &spots,
@@ -85,6 +89,9 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
     let chosen = coach.view;
+    if let Some(what_if) = coach.what_if() {
+        return draw_own_stroke(coach, what_if, panes, ui);
+    }
     for (view, area) in views(chosen, panes) {
         match coach.lesson().filter(|_| view == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
@@ -121,9 +128,9 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), Panes::new(coach.table(), area).table)
 }
 
-/// What the mouse points at; nothing while something is asked.
+/// What the mouse points at; nothing while something is asked, or a stroke is set.
 pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
-    if coach.question().is_some() {
+    if coach.question().is_some() || coach.what_if().is_some() {
         return None;
     }
     let area = area.screen;
