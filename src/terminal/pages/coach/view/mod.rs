@@ -50,7 +50,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let panes = Panes::new(coach.table(), area.screen);
     draw_header(coach, area.header, ui);
     let choice = coach.shown().map(AdviceState::choice);
-    let planned = choice.filter(|_| coach.view == View::Plan);
+    let planned = choice.filter(|_| coach.view == View::Plan && coach.what_if().is_none());
     let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
     let lesson = coach.lesson();
     if let Some(lesson) = lesson {
@@ -191,7 +191,9 @@ fn aim_words(coach: &CoachPage, shot: &Shot) -> String {
     let hit = shot.contact_words(coach.cue_ball()).unwrap_or_else(|| "hits no ball".to_owned());
     let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
     let [ahead, behind] = line_of_aim(coach.table(), coach.layout(), shot.cue.phi).map(mark);
-    let system = system_words(coach).map_or(String::new(), |words| format!(". {words}"));
+    // The system is the coach's shot's.
+    let system =
+        system_words(coach).filter(|_| coach.what_if().is_none()).map_or(String::new(), |words| format!(". {words}"));
     format!("{hit}; aim from {behind} to {ahead} diamonds{system}")
 }
 
