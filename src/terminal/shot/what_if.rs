@@ -132,9 +132,9 @@ impl WhatIf {
         let parts = yours.differences(coach, misses, cue_ball, units);
         let room = if self.has_room { "" } else { "; no room for the cue" };
         if parts.is_empty() {
-            format!("as the {teacher}'s{room}")
+            format!("You: as the {teacher}{room}")
         } else {
-            format!("against the {teacher}'s: {}{room}", parts.join(", "))
+            format!("You: {}{room}", parts.join(", "))
         }
     }
 }
@@ -168,14 +168,14 @@ mod tests {
         with(|mut what_if, scene| {
             let units = Units::default();
             assert!(what_if.is_made() && Arc::ptr_eq(what_if.coach(), what_if.shot()));
-            assert_eq!(what_if.difference("coach", CueBall::White, units), "as the coach's");
+            assert_eq!(what_if.difference("coach", CueBall::White, units), "You: as the coach");
             let coach = Arc::clone(what_if.coach());
             let softer = CueInputs { speed: 0.5, ..coach.cue };
             what_if.strike(&softer, scene).unwrap();
             assert!(!what_if.is_made() && what_if.coach().cue == coach.cue && what_if.shot().cue.speed == 0.5);
             assert!(what_if.outcome(CueBall::White, units).starts_with("No point: "));
             let told = what_if.difference("coach", CueBall::White, units);
-            assert!(told.starts_with("against the coach's: ") && told.contains("softer by "), "{told}");
+            assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
         });
     }
 

@@ -120,10 +120,12 @@ pub enum DrillCondition {
     Ended,
     /// Where the model shot is known.
     AdviceState,
-    /// The same while the stroke is set.
+    /// The same while the stroke is set, and the model shot is not beside it.
     Adopted,
     /// While the model shot is on the table beside the stroke.
     Compared,
+    /// While it is not.
+    Alone,
     /// Where there is a note that can be taken back.
     Undoable,
     /// Where the stroke was changed.
@@ -261,8 +263,6 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
 ], [
     bind(Stroke, W::AdviceState, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
-    bind(Stroke, W::Compared, &[letter('w', A::LeaveWhatIf), key(Esc, A::LeaveWhatIf)], Some(("your stroke alone", 1)),
-        "take the model shot off the table; your stroke stays as it is set"),
     bind(Stroke, W::Adopted, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
@@ -286,7 +286,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
-    BACK,
+    bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf), letter('w', A::LeaveWhatIf)], Some(("model shot off", 1)),
+        "take the model shot off the table; your stroke stays as it is set"),
+    bind(Program, W::Alone, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ]);
 
 /// An exam that is over.

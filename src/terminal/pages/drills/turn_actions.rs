@@ -47,12 +47,12 @@ impl Turn {
             (_, Condition::AdviceState) => refuse(self.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
                 .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
-            (_, Condition::Adopted) => {
-                self.disabled_reason(Condition::AdviceState).or_else(|| self.disabled_reason(Condition::Aiming))
-            }
-            (_, Condition::Compared) => {
-                refuse(self.what_if().is_none(), "the model shot is not beside your stroke; w takes it over")
-            }
+            (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
+            (_, Condition::Adopted) => self
+                .disabled_reason(Condition::AdviceState)
+                .or_else(|| self.disabled_reason(Condition::Aiming))
+                .or_else(|| self.disabled_reason(Condition::Alone)),
+            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
             (Stage::Aiming, Condition::StrokeChanged) => {
                 refuse(!self.can_travel().0, "the stroke is as it was at first")
             }

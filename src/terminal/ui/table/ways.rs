@@ -5,12 +5,9 @@ use std::collections::HashSet;
 use glam::DVec2;
 use ratatui::style::Style;
 
-use crate::{
-    table::BALLS,
-    terminal::{
-        shot::Dot,
-        ui::{Ui, columns, table::scene::Scene},
-    },
+use crate::terminal::{
+    shot::Dot,
+    ui::{Ui, columns, table::scene::Scene},
 };
 
 /// Distance of the two ways from which on the words stand there, m: two balls.
@@ -21,9 +18,11 @@ pub fn draw_words(scene: &Scene, ui: &mut Ui) {
     let Some((own, other)) = scene.view.shot.zip(scene.view.other) else { return };
     let [own, other] = [&own.paths[0], &other.paths[0]];
     let mut taken: HashSet<(u16, u16)> = own.iter().chain(other).map(|dot| scene.mapping.to_cell(dot.place)).collect();
-    for ball in 0..BALLS {
-        let (x, y) = scene.mapping.to_cell(scene.balls[ball]);
-        taken.extend((x.saturating_sub(1)..=x + 1).map(|x| (x, y)));
+    let balls = scene.balls.into_iter().chain(scene.ghosts().into_iter().map(|ghost| ghost.place));
+    for (x, y) in balls.map(|place| scene.mapping.to_cell(place)) {
+        // A picture may reach into the rows and columns beside its middle.
+        let across = x.saturating_sub(2)..=x + 2;
+        taken.extend(across.flat_map(|x| (y.saturating_sub(1)..=y + 1).map(move |y| (x, y))));
     }
     let theme = ui.theme;
     for (text, way, from, color) in
