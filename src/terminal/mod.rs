@@ -59,12 +59,12 @@ pub use pages::{
     },
     training::keys::{TrainingAction, TrainingCondition, TrainingContext},
 };
-pub use shot::{Shot, film::FilmScene};
+pub use shot::{Shot, StrokeChange, film::FilmScene};
 pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
     calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
-    drills::{DrillReport, DrillTask, Loaded, Outcome, Position, Stroke, Taught},
+    drills::{DrillReport, DrillTask, JudgedStroke, Loaded, Outcome, Position, Stroke, Taught},
     recommender::{Answer, CoachNews, CoachWorker, Job},
     reel::{Reel, Scene},
     training::{Failure, Keeping, Kept, Launch, Report, Slot, Subscriptions},

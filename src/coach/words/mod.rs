@@ -1,5 +1,6 @@
 //! A shot in the numbers and words of a player: how full, how much side, how hard, and which cushions.
 
+mod difference;
 mod numbers;
 mod pace;
 mod sentence;
@@ -7,6 +8,7 @@ mod sentence;
 mod tests;
 mod units;
 
+use glam::DVec2;
 use serde::Serialize;
 
 pub use numbers::{clock, number_word};
@@ -70,6 +72,9 @@ pub struct ShotWords {
     pub ahead: Mark,
     /// Where it comes from.
     pub behind: Mark,
+    /// The way that the cue points, of length 1.
+    #[serde(skip)]
+    direction: DVec2,
     /// Ball radius, m.
     #[serde(skip)]
     radius: f64,
@@ -114,6 +119,7 @@ impl ShotWords {
             between: technique.between.clone(),
             ahead,
             behind,
+            direction: DVec2::from_angle(cue.phi),
             radius: table.radius,
             diamond: table.diamond(),
         }

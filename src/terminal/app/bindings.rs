@@ -170,6 +170,7 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     program(&mut all, help);
     match place {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
+        KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach, coach::words),
         KeyContext::Question(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
         KeyContext::Training(place) => {
             take(&mut all, place.bindings(), A::Training, Condition::Training, training::words);
@@ -250,7 +251,7 @@ mod tests {
     };
 
     fn places() -> impl Iterator<Item = KeyContext> {
-        [KeyContext::Coach, KeyContext::CommandPalette]
+        [KeyContext::Coach, KeyContext::OwnStroke, KeyContext::CommandPalette]
             .into_iter()
             .chain(TrainingContext::ALL.map(KeyContext::Training))
             .chain(QuestionContext::ALL.map(KeyContext::Question))
@@ -344,7 +345,7 @@ mod tests {
     fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
         let all = key_pages();
         let pages = |letter| works_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
-        assert_eq!(pages('u'), ["Coach", "Drills: exercise"]);
+        assert_eq!(pages('u'), ["Coach", "Coach: your stroke", "Drills: exercise"]);
         assert_eq!(works_of(&all, Chord::char('q')).len(), 1, "quitting");
         assert!(pages('%').is_empty());
     }

@@ -12,6 +12,8 @@ use crate::terminal::{
 pub enum KeyContext {
     /// The coach.
     Coach,
+    /// The player's own stroke there.
+    OwnStroke,
     /// What is asked over its table.
     Question(QuestionContext),
     /// One of the training pages, or what is asked there.
@@ -28,8 +30,9 @@ pub enum KeyContext {
 
 impl KeyContext {
     /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 15] = [
+    pub const PAGES: [(Self, &'static str); 16] = [
         (Self::Coach, "Coach"),
+        (Self::OwnStroke, "Coach: your stroke"),
         (Self::Drill(DrillContext::Library), "Drills: library"),
         (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
         (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
@@ -49,7 +52,7 @@ impl KeyContext {
     /// Whether letters are typed there, or answers.
     pub const fn takes_letters(self) -> bool {
         match self {
-            Self::Coach => false,
+            Self::Coach | Self::OwnStroke => false,
             Self::Training(place) => place.takes_letters(),
             Self::Drill(place) => place.takes_letters(),
             Self::Settings(place) => place.takes_letters(),

@@ -112,8 +112,11 @@ impl App {
     /// The same without the command palette.
     pub(super) fn place_below(&self) -> KeyContext {
         match self.screen {
-            PageId::Coach if self.help.is_some() => KeyContext::Coach,
-            PageId::Coach => self.coach.question().map_or(KeyContext::Coach, KeyContext::Question),
+            PageId::Coach => match self.coach.question().filter(|_| self.help.is_none()) {
+                Some(question) => KeyContext::Question(question),
+                None if self.coach.what_if().is_some() => KeyContext::OwnStroke,
+                None => KeyContext::Coach,
+            },
             PageId::Training if self.help.is_some() => KeyContext::Training(self.training.page().place()),
             PageId::Training => KeyContext::Training(self.training.place()),
             PageId::Drills if self.help.is_some() => KeyContext::Drill(self.drills.page_place()),

@@ -1,14 +1,23 @@
 //! A recommended shot as the screen needs it: its recording, the dots of its paths, and how it meets the first ball.
 
+pub mod aiming;
 pub mod film;
 pub mod history;
 pub mod placing;
 pub mod playback;
 pub mod spin;
+pub mod stroke;
+pub mod what_if;
 
 use glam::DVec2;
 
-pub use self::{history::History, playback::Playback, spin::Spin};
+pub use self::{
+    history::History,
+    playback::Playback,
+    spin::Spin,
+    stroke::{OwnStroke, StrokeChange},
+    what_if::WhatIf,
+};
 
 use crate::{
     coach::{Hit, Pattern, ShotWords, Technique},

@@ -6,6 +6,7 @@ use crate::{
     coach::Skill,
     drills::{Advice, Exercise, Played, Session},
     game::Rule,
+    learning::evaluation::SuccessRate,
     physics::CueInputs,
     storage::Places,
     study::filmed::FilmedShot,
@@ -22,6 +23,8 @@ pub enum DrillTask {
     Advise(Box<Position>),
     /// Play the next attempt of a session, and save it.
     Play(Box<Stroke>),
+    /// Find out how often the player makes a stroke that is not played.
+    Judge(Box<JudgedStroke>),
     /// Save a session, in which something was noted or taken back.
     Save(Box<Session>),
     /// Save a position, over one of the same name only where that is wanted.
@@ -39,7 +42,7 @@ pub enum DrillTask {
 impl DrillTask {
     /// Whether it changes what is on the disk, or is needed for that.
     pub const fn writes(&self) -> bool {
-        !matches!(self, Self::Advise(_) | Self::Estimate(..) | Self::Film(_))
+        !matches!(self, Self::Advise(_) | Self::Judge(_) | Self::Estimate(..) | Self::Film(_))
     }
 }
 
@@ -75,6 +78,25 @@ pub struct Stroke {
     pub helped: bool,
     /// The number of the position, see [`Position::id`].
     pub position: u64,
+}
+
+/// A stroke that is not played, only judged.
+#[derive(Clone, Debug)]
+pub struct JudgedStroke {
+    /// Tells this question's answer from those to earlier ones.
+    pub id: u64,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie.
+    pub layout: Layout,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who plays.
+    pub skill: Skill,
+    /// What the player means.
+    pub cue: CueInputs,
+    /// Set when the answer is no longer wanted.
+    pub cancel: Arc<AtomicBool>,
 }
 
 /// A stroke that is taught, ready to be shown.
@@ -125,6 +147,8 @@ pub enum DrillReport {
     Played(Result<Box<Outcome>, String>, Result<(), String>),
     /// How often the player makes what was meant: the session's identity, the number of the attempt, the share.
     Judged(String, usize, f64),
+    /// Of [`DrillTask::Judge`], with the question's number.
+    StrokeJudged(u64, SuccessRate),
     /// Of [`DrillTask::Save`].
     Saved(Box<Session>, Result<(), String>),
     /// Of [`DrillTask::SavePosition`]: whether it is saved, or the name is taken.

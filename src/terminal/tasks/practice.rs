@@ -15,7 +15,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        DrillReport, DrillTask, FilmScene, Loaded, Outcome, Position, Shot, Stroke, Taught, tasks::event::Event,
+        DrillReport, DrillTask, FilmScene, JudgedStroke, Loaded, Outcome, Position, Shot, Stroke, Taught,
+        tasks::event::Event,
     },
 };
 
@@ -51,6 +52,15 @@ impl PracticeWorker {
             DrillTask::Play(stroke) => {
                 if catch_unwind(AssertUnwindSafe(|| self.play(*stroke, reply))).is_err() {
                     reply(DrillReport::Played(Err(failed.to_owned()), Ok(())));
+                }
+            }
+            DrillTask::Judge(stroke) => {
+                let JudgedStroke { id, table, layout, rule, skill, cue, cancel } = &*stroke;
+                let judge = || chance(*skill, *rule, table, layout, cue);
+                if !cancel.load(Ordering::Relaxed)
+                    && let Ok(made) = catch_unwind(AssertUnwindSafe(judge))
+                {
+                    reply(DrillReport::StrokeJudged(*id, made));
                 }
             }
             DrillTask::Save(session) => {

@@ -11,9 +11,10 @@ use std::{
 
 use crate::{
     coach::{
-        Coach, Improvement, Input, Recommendation, Request, Skill, Why, map, margins, scatter, systems::guide, why,
+        Coach, Improvement, Input, Recommendation, Request, Skill, Why, make_probability, map, margins, scatter,
+        systems::guide, why,
     },
-    learning::Policy,
+    learning::{Policy, evaluation::SuccessRate},
     physics::CueInputs,
     simulation::Recording,
     table::{Layout, Table},
@@ -40,6 +41,11 @@ const RIM: f64 = 1.1;
 /// Attempts whose ends are shown: enough to see the cloud, few enough to see through it.
 const ATTEMPTS: usize = 100;
 
+/// Attempts at a stroke of the player's own: its share is right to 2 % in two of three cases, in the time between two keys. Their
+/// seed is the same for all strokes: two are to differ by what they are, and not by luck.
+const JUDGED: usize = 500;
+const JUDGED_SEED: u64 = 0x7768_6174_2069_6621;
+
 /// A question to the coach.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -55,6 +61,8 @@ pub struct Job {
     pub shot: Option<CueInputs>,
     /// What was found, where it is to be said why that shot leads.
     pub found: Option<Arc<Recommendation>>,
+    /// A stroke of the player's own: how often it is made is all that is asked then.
+    pub stroke: Option<CueInputs>,
     /// Time that the coach may think.
     pub budget: Duration,
     /// Seed of the coach's random numbers.
@@ -85,6 +93,8 @@ pub enum CoachNews {
     Why(Box<Why>),
     /// What a closer look at a shot has shown.
     Study(Arc<ShotAnalysis>),
+    /// How often the player makes the stroke of the question.
+    Judged(SuccessRate),
     /// The end of the study: the advice on where the shot leaves the balls, if there is any.
     Next(Option<Advice>),
 }
@@ -106,6 +116,15 @@ impl CoachWorker {
     /// Answers a question on this thread; `tell` hears everything as soon as it is known. A panic becomes a sentence.
     pub fn answer(&mut self, job: &Job, mut tell: impl FnMut(Answer)) {
         let mut tell = |news| tell(Answer { id: job.id, news });
+        if let Some(cue) = job.stroke {
+            let Job { table, layout, query, .. } = job;
+            let judge = || make_probability(query.shooter(), query.rule, table, layout, &cue, JUDGED, JUDGED_SEED);
+            // Where it fails, it is not known.
+            if let Ok(made) = catch_unwind(AssertUnwindSafe(judge)) {
+                tell(CoachNews::Judged(made));
+            }
+            return;
+        }
         if let Some(cue) = job.shot {
             let study = || self.study(job, &cue, &mut tell);
             // Nobody asked for it: where it fails, there is nothing to see.

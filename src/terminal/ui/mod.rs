@@ -18,6 +18,7 @@ pub mod text;
 pub mod theme;
 pub mod tip;
 pub mod toasts;
+pub mod what_if;
 
 use ratatui::buffer::Buffer;
 
@@ -35,6 +36,7 @@ pub use self::{
     text::{columns, cut, end_of, ending, shorten, spell, wrap, write_right},
     theme::Theme,
     tip::{draw_face, draw_tip},
+    what_if::{Beside, draw_what_if},
 };
 use crate::terminal::{Capabilities, Keys};
 

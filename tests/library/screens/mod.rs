@@ -23,3 +23,4 @@ mod tabs;
 mod toasts;
 mod training;
 mod undo;
+mod what_if;

@@ -52,6 +52,8 @@ pub struct Player {
     /// The question to the coach, which a test answers when it likes.
     pub asked: Option<Box<Job>>,
     pub study: Option<Box<Job>>,
+    /// The question how often a stroke of the player's own is made.
+    pub judged: Option<Box<Job>>,
     pub copied: Vec<String>,
     /// What is asked of processes and of the terminal.
     pub effects: Vec<Effect>,
@@ -100,6 +102,7 @@ impl Player {
             app: app.with_settings_file("/home/player/.config/carom/config.toml".into()),
             asked: None,
             study: None,
+            judged: None,
             copied: Vec::new(),
             effects: Vec::new(),
             practice: PracticeWorker::default(),
@@ -207,6 +210,7 @@ impl Player {
 impl Player {
     fn take(&mut self, effect: Effect) {
         match effect {
+            Effect::Ask(job) if job.stroke.is_some() => self.judged = Some(job),
             Effect::Ask(job) if job.shot.is_some() => self.study = Some(job),
             Effect::Ask(job) => self.asked = Some(job),
             Effect::Copy(text) => self.copied.push(text),

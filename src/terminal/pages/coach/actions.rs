@@ -11,7 +11,7 @@ use crate::{
         CoachAction as Action, CoachCondition, CoachQuery, Effect, Mode,
         pages::coach::{CoachPage, Position},
         shot::{
-            History,
+            History, OwnStroke,
             placing::{self, STEPS},
         },
         ui::Message,
@@ -47,6 +47,8 @@ impl CoachPage {
                 refuse(is_gone && self.left_exam.is_none(), "there is no earlier session to go on with")
             }
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled weights are asked already"),
+            CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is the coach's"),
+            CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
             CoachCondition::Redoable => refuse(!self.balls.can_redo(), "nothing was taken back"),
         }
     }
@@ -55,6 +57,7 @@ impl CoachPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
         let effect = self.act(action);
+        self.forget_own_stroke();
         self.renew_lesson();
         // Whatever has changed, the closer look is at the shot that is shown now.
         let study = self.study();
@@ -106,6 +109,11 @@ impl CoachPage {
             Action::NextShot => self.choose(|advised| advised.turn(true)),
             Action::PreviousShot => self.choose(|advised| advised.turn(false)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
+            Action::WhatIf => return self.take_over(),
+            Action::LeaveStroke => self.leave_own_stroke(),
+            Action::Stroke(change) => return self.change_stroke(change),
+            Action::StrokeBack => return self.travel_stroke(OwnStroke::undo),
+            Action::StrokeAgain => return self.travel_stroke(OwnStroke::redo),
             // The app goes on with what was practised.
             Action::Resume => drop(self.resume()),
             Action::Bundled => self.take_query(&self.table().clone(), CoachQuery::default()),

@@ -47,7 +47,7 @@ impl CoachPage {
         Effect::Ask(Box::new(job))
     }
 
-    fn job(&mut self, shot: Option<CueInputs>) -> Job {
+    pub(super) fn job(&mut self, shot: Option<CueInputs>) -> Job {
         self.questions += 1;
         Job {
             id: self.questions,
@@ -56,6 +56,7 @@ impl CoachPage {
             query: self.query.clone(),
             shot,
             found: None,
+            stroke: None,
             budget: self.budget,
             seed: self.questions,
             cancel: Arc::default(),
@@ -112,6 +113,11 @@ impl CoachPage {
                     advised.choice_mut().study = Some(study);
                 }
             }
+            (CoachNews::Judged(made), _) => {
+                if let Some(compared) = &mut self.compared {
+                    compared.judged(answer.id, made);
+                }
+            }
             (CoachNews::Next(next), _) if is_study => {
                 self.studying = None;
                 if let Some(advised) = self.advised_mut() {
@@ -134,14 +140,15 @@ impl CoachPage {
         }
     }
 
-    fn watch_from_the_stroke(&mut self) {
+    pub(super) fn watch_from_the_stroke(&mut self) {
         self.playback.jump(0.0);
         self.mode = Mode::Watching;
     }
 
-    /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other.
+    /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other. A stroke of the
+    /// player's own comes before that.
     pub(super) fn study(&mut self) -> Option<Effect> {
-        let advised = self.advised().filter(|_| self.pending.is_none());
+        let advised = self.advised().filter(|_| self.pending.is_none() && self.compared.is_none());
         let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
         let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
         if let (Some(studying), Some(shot)) = (&self.studying, &wanted)

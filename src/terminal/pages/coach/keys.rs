@@ -2,10 +2,13 @@
 
 use crossterm::event::KeyCode::{BackTab, Down, End, Enter, Esc, Home, Left, Right, Tab, Up};
 
-use crate::terminal::keymap::{
-    Binding, Chord,
-    Section::{self, Balls, Program, Shot},
-    bind, ctrl, key, letter,
+use crate::terminal::{
+    keymap::{
+        Binding, Chord,
+        Section::{self, Balls, Program, Shot},
+        bind, ctrl, key, letter,
+    },
+    shot::{StrokeChange, stroke::stroke_keys},
 };
 
 use CoachAction as A;
@@ -82,6 +85,16 @@ pub enum CoachAction {
     PreviousShot,
     /// Shows one of them by its place in the list; no key does it, but the mouse.
     Show(usize),
+    /// Takes the shot that is shown over into the player's own stroke.
+    WhatIf,
+    /// Changes that stroke.
+    Stroke(StrokeChange),
+    /// Takes the last change of the stroke back.
+    StrokeBack,
+    /// Makes it again.
+    StrokeAgain,
+    /// Leaves the player's own stroke for the coach's shot.
+    LeaveStroke,
     /// Asks the bundled policies again.
     Bundled,
     /// Goes on from where the last session ended.
@@ -121,6 +134,10 @@ pub enum CoachCondition {
     Undoable,
     /// Where a change was taken back.
     Redoable,
+    /// Where the player's own stroke was changed.
+    StrokeChanged,
+    /// Where a change of it was taken back.
+    StrokeUndone,
     /// Where a policy is asked that a user has trained.
     Trained,
     /// Where an earlier session can be gone on with.
@@ -183,6 +200,8 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
+    bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
+        "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
         "step through the shots that the coach lists"),
     bind(Shot, W::Watching, &[
@@ -251,9 +270,30 @@ pub const COACH: &[Binding<A, W>] = &[
         "train agents and watch them learn"),
 ];
 
+/// The player's own stroke beside the coach's.
+#[rustfmt::skip]
+pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
+    bind(Stroke, W::Anytime, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
+        "play and pause your stroke"),
+    bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("coach's shot", 1)),
+        "leave your stroke; the coach's shot is as it was"),
+], [
+    bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),
+        "take the last change of the stroke back"),
+    bind(Stroke, W::StrokeUndone, &[letter('U', A::StrokeAgain), letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)],
+        Some(("redo", 1)), "make a change of the stroke again that was taken back"),
+    bind(Stroke, W::Anytime, &[letter(',', A::PreviousEvent), letter('.', A::NextEvent)], Some(("event", 2)),
+        "step from event to event"),
+], [
+    bind(Stroke, W::Anytime, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
+        "to the stroke, to the end"),
+    bind(Stroke, W::Anytime, &[letter('<', A::Slower), letter('>', A::Faster)], None, "play slower or faster"),
+]);
+
 /// The words of `action` by itself, where its binding does several things.
 pub const fn words(action: CoachAction, section: Section) -> Option<&'static str> {
     Some(match action {
+        A::Stroke(change) => return change.words(),
         A::Select(0) if matches!(section, Shot) => "leave the shot and select the white ball",
         A::Select(1) if matches!(section, Shot) => "leave the shot and select the yellow ball",
         A::Select(2) if matches!(section, Shot) => "leave the shot and select the red ball",

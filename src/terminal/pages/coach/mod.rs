@@ -2,7 +2,7 @@
 //!
 //! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls,
 //! [`saving`] how they are saved as a position, [`positions`] how they are typed;
-//! [`lesson`] teaches diamond systems.
+//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke beside the coach's.
 
 mod actions;
 mod advised;
@@ -10,6 +10,7 @@ mod asking;
 mod dragging;
 pub mod keys;
 mod lesson;
+mod own_stroke;
 mod page;
 mod positions;
 mod saving;
@@ -35,7 +36,7 @@ use crate::{
             keys::QuestionContext,
             saving::Saving,
         },
-        shot::{History, Playback, placing::STEPS},
+        shot::{History, Playback, WhatIf, placing::STEPS},
         ui::{Message, TextField},
         words::step_words,
     },
@@ -115,6 +116,8 @@ pub struct CoachPage {
     pub has_all_events: bool,
     /// The units in which lengths are told.
     pub units: Units,
+    /// The player's own stroke beside the coach's.
+    compared: Option<own_stroke::Compared>,
     balls: History<Position>,
     /// The selected ball is held by the mouse.
     drag: Option<Drag>,
@@ -157,6 +160,7 @@ impl CoachPage {
             is_in_numbers: false,
             has_all_events: false,
             units: Units::default(),
+            compared: None,
             balls: History::new(Position {
                 table: Arc::new(table),
                 policy: None,
@@ -356,9 +360,9 @@ impl CoachPage {
         so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
     }
 
-    /// The same without what is known about it.
+    /// The shot that is on the table: the player's own while there is one, else the one that is shown.
     pub fn shot(&self) -> Option<&Arc<Shot>> {
-        self.proposal().map(|proposal| &proposal.shot)
+        self.what_if().map(WhatIf::shot).or_else(|| self.proposal().map(|proposal| &proposal.shot))
     }
 
     /// The shot that is being watched.

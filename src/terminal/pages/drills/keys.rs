@@ -2,10 +2,13 @@
 
 use crossterm::event::KeyCode::{BackTab, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up};
 
-use crate::terminal::keymap::{
-    Binding, Chord,
-    Section::{self, Film, Library, Position, Program, Record, Score, Stroke},
-    bind, ctrl, key, letter, mark,
+use crate::terminal::{
+    keymap::{
+        Binding,
+        Section::{self, Film, Library, Position, Program, Record, Score},
+        bind, ctrl, key, letter, mark,
+    },
+    shot::{StrokeChange, stroke::stroke_keys},
 };
 
 use DrillAction as A;
@@ -44,18 +47,12 @@ pub enum DrillAction {
     Remove,
     /// Puts the exercise's balls on the coach's table.
     ToCoach,
-    /// Turns the aim by degrees, to the left where positive.
-    Turn(f64),
-    /// Aims full at an object ball, then at the other.
-    AimAtBall,
-    /// Moves the tip by mm to the left and up.
-    Tip(f64, f64),
-    /// Puts the tip in the middle.
-    Centre,
-    /// Raises the cue by degrees.
-    Raise(f64),
-    /// Strikes faster by m/s.
-    Faster(f64),
+    /// Changes the stroke that is set.
+    Stroke(StrokeChange),
+    /// Takes the model shot over into the stroke, beside which it stays on the table.
+    WhatIf,
+    /// Takes the model shot off the table again.
+    LeaveWhatIf,
     /// Plays the stroke.
     Play,
     /// Goes on to the next repetition, or the next exercise of an exam.
@@ -123,6 +120,12 @@ pub enum DrillCondition {
     Ended,
     /// Where the model shot is known.
     AdviceState,
+    /// The same while the stroke is set, and the model shot is not beside it.
+    Adopted,
+    /// While the model shot is on the table beside the stroke.
+    Compared,
+    /// While it is not.
+    Alone,
     /// Where there is a note that can be taken back.
     Undoable,
     /// Where the stroke was changed.
@@ -249,7 +252,7 @@ pub const EXAM: &[Binding<A, W>] = &[
 
 /// An exercise.
 #[rustfmt::skip]
-pub const EXERCISE: &[Binding<A, W>] = &[
+pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', A::PlayPause)], Some(("replay", 1)), "play and pause the shot"),
@@ -257,22 +260,12 @@ pub const EXERCISE: &[Binding<A, W>] = &[
         key(Down, A::Pace(-1)), key(Up, A::Pace(1))], None, "play slower or faster"),
     bind(Stroke, W::Aiming, &[letter(' ', A::Play), key(Enter, A::Play)], Some(("play", 1)),
         "play the stroke, with the player's errors"),
-    bind(Stroke, W::Aiming, &[key(Left, A::Turn(0.2)), key(Right, A::Turn(-0.2))], Some(("aim", 2)),
-        "aim further to the left, to the right, by 0.2 degrees"),
-    bind(Stroke, W::Aiming, &[(Chord::shift(Left), A::Turn(5.0)), (Chord::shift(Right), A::Turn(-5.0))], None,
-        "aim further to the left, to the right, by 5 degrees"),
-    bind(Stroke, W::Aiming, &[(Chord::ctrl(Left), A::Turn(0.01)), (Chord::ctrl(Right), A::Turn(-0.01))], None,
-        "aim further to the left, to the right, by 0.01 degrees"),
-    bind(Stroke, W::Aiming, &[letter('h', A::Tip(0.5, 0.0)), letter('j', A::Tip(0.0, -0.5)), letter('k', A::Tip(0.0, 0.5)),
-        letter('l', A::Tip(-0.5, 0.0))], Some(("tip", 4)), "move the tip to the left, down, up, to the right by 0.5 mm"),
-    bind(Stroke, W::Aiming, &[letter('H', A::Tip(3.0, 0.0)), letter('J', A::Tip(0.0, -3.0)), letter('K', A::Tip(0.0, 3.0)),
-        letter('L', A::Tip(-3.0, 0.0))], None, "move the tip to the left, down, up, to the right by 3 mm"),
-    bind(Stroke, W::Aiming, &[key(Down, A::Faster(-0.1)), key(Up, A::Faster(0.1))], Some(("speed", 2)),
-        "strike softer, harder by 0.1 m/s"),
-    bind(Stroke, W::Aiming, &[(Chord::shift(Down), A::Faster(-0.5)), (Chord::shift(Up), A::Faster(0.5))], None,
-        "strike softer, harder by 0.5 m/s"),
+], [
     bind(Stroke, W::AdviceState, &[letter('v', A::Hint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
+    bind(Stroke, W::Adopted, &[letter('w', A::WhatIf)], Some(("what if", 1)),
+        "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
+         with a hint").known_as("adopt compare try hint"),
     bind(Stroke, W::Here, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
         "turn the pages of a text that is longer than its room"),
     bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
@@ -286,19 +279,17 @@ pub const EXERCISE: &[Binding<A, W>] = &[
         "a shorter or longer goal"),
     bind(Stroke, W::Watching, &[letter(',', A::Event(-1)), letter('.', A::Event(1)), key(Left, A::Event(-1)),
         key(Right, A::Event(1))], Some(("event", 2)), "step from event to event"),
-    bind(Stroke, W::Aiming, &[key(Tab, A::AimAtBall)], Some(("at a ball", 1)),
-        "aim full at the first object ball, then at the other"),
-    bind(Stroke, W::Aiming, &[letter('0', A::Centre)], None, "put the tip in the middle"),
+], [
     bind(Stroke, W::StrokeChanged, &[letter('z', A::StrokeBack)], None, "take the last change of the stroke back"),
     bind(Stroke, W::StrokeUndone, &[letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)], None,
         "make a change of the stroke again that was taken back"),
-    bind(Stroke, W::Aiming, &[letter('-', A::Raise(-1.0)), letter('+', A::Raise(1.0)), letter('=', A::Raise(1.0))], None,
-        "lower, raise the cue by 1 degree"),
     bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
-    BACK,
-];
+    bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf), letter('w', A::LeaveWhatIf)], Some(("model shot off", 1)),
+        "take the model shot off the table; your stroke stays as it is set"),
+    bind(Program, W::Alone, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
+]);
 
 /// An exam that is over.
 #[rustfmt::skip]
@@ -332,6 +323,7 @@ pub const TEXT: &[Binding<A, W>] = &[
 /// The words of `action` by itself, where its binding does several things.
 pub const fn words(action: DrillAction, section: Section) -> Option<&'static str> {
     Some(match action {
+        A::Stroke(change) => return change.words(),
         A::Line(lines) => {
             return match (section, lines) {
                 (Section::Record, 1) => Some("earlier sessions, by one line"),
@@ -352,26 +344,6 @@ pub const fn words(action: DrillAction, section: Section) -> Option<&'static str
         A::Exam(1) => "an exam of grade 1 to 3: 20 exercises, one attempt each",
         A::Exam(2) => "an exam of grade 2 to 4: 20 exercises, one attempt each",
         A::Exam(3) => "an exam of grade 3 to 5: 20 exercises, one attempt each",
-        A::Turn(0.2) => "aim left by 0.2 degrees",
-        A::Turn(-0.2) => "aim right by 0.2 degrees",
-        A::Turn(5.0) => "aim left by 5 degrees",
-        A::Turn(-5.0) => "aim right by 5 degrees",
-        A::Turn(0.01) => "aim left by 0.01 degrees",
-        A::Turn(-0.01) => "aim right by 0.01 degrees",
-        A::Tip(0.5, 0.0) => "move the tip left by 0.5 mm",
-        A::Tip(-0.5, 0.0) => "move the tip right by 0.5 mm",
-        A::Tip(0.0, -0.5) => "move the tip down by 0.5 mm",
-        A::Tip(0.0, 0.5) => "move the tip up by 0.5 mm",
-        A::Tip(3.0, 0.0) => "move the tip left by 3 mm",
-        A::Tip(-3.0, 0.0) => "move the tip right by 3 mm",
-        A::Tip(0.0, -3.0) => "move the tip down by 3 mm",
-        A::Tip(0.0, 3.0) => "move the tip up by 3 mm",
-        A::Faster(0.1) => "strike harder by 0.1 m/s",
-        A::Faster(-0.1) => "strike softer by 0.1 m/s",
-        A::Faster(0.5) => "strike harder by 0.5 m/s",
-        A::Faster(-0.5) => "strike softer by 0.5 m/s",
-        A::Raise(1.0) => "raise the cue by 1 degree",
-        A::Raise(-1.0) => "lower the cue by 1 degree",
         A::TurnText(1) => "the next page of a text that is longer than its room",
         A::TurnText(-1) => "the page before of a text that is longer than its room",
         A::Event(1) => "step to the next event",

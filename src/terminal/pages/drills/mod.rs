@@ -4,7 +4,6 @@
 //! [`DrillReport`]. [`actions`] is what each key does.
 
 mod actions;
-mod aiming;
 mod book;
 mod catalogue;
 pub mod film;
@@ -24,7 +23,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::Skill,
+    coach::{Skill, Units},
     drills::{Goal, Library, Session},
     game::Rule,
     storage::Places,
@@ -124,6 +123,8 @@ pub struct DrillsPage {
     pub question: Option<Question>,
     /// What the status line says.
     pub message: Option<Message>,
+    /// The units in which the player is told lengths.
+    pub units: Units,
     options: RepetitionOptions,
     for_coach: Option<Balls>,
     /// The pages one has come through; the last one is open.
@@ -148,6 +149,7 @@ impl DrillsPage {
             player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
             question: None,
             message: None,
+            units: Units::default(),
             options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
             pages: Vec::new(),

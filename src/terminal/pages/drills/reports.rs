@@ -45,6 +45,11 @@ impl DrillsPage {
                     turn.judged(&id, number, chance);
                 }
             }
+            DrillReport::StrokeJudged(id, made) => {
+                if let Some(turn) = &mut self.turn {
+                    turn.stroke_judged(id, made);
+                }
+            }
             DrillReport::Saved(session, saved) => return self.saved(&session, saved),
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
                 Ok(true) => self.position_saved(&exercise),

@@ -2,26 +2,24 @@
 //!
 //! [`super::turn_actions`] is what each key does to it.
 
-use std::{
-    mem::Discriminant,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, AtomicU64, Ordering},
-    },
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, AtomicU64, Ordering},
 };
 
 use crate::{
     coach::Skill,
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
-    physics::{CueInputs, LeastElevation, NoRoom, least_elevation, with_room},
+    learning::evaluation::SuccessRate,
+    physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
     table::{CueBall, Layout, Table},
     terminal::{
-        DrillAction, DrillTask, Outcome, Position, Shot, Stroke, Taught,
+        DrillTask, JudgedStroke, Outcome, Position, Shot, Stroke, Taught,
         pages::drills::{
-            Watched, aiming,
+            Watched,
             sight::{Sight, sight},
         },
-        shot::{History, Playback},
+        shot::{OwnStroke, Playback, StrokeChange, WhatIf, aiming, stroke::TipSlips, what_if},
         ui::Message,
     },
 };
@@ -77,9 +75,9 @@ pub struct Turn {
     /// The session as it will be once all notes are saved.
     ahead: Option<Session>,
     /// The stroke that is set, with what it was before.
-    strokes: History<CueInputs>,
-    /// What has changed it last: one input that is changed several times over is one step back.
-    changed_by: Option<Discriminant<DrillAction>>,
+    stroke: OwnStroke,
+    /// The stroke beside the one that is taught, once that was taken over.
+    what_if: Option<WhatIf>,
     position: u64,
     cancel: Arc<AtomicBool>,
 }
@@ -94,8 +92,8 @@ impl Turn {
             return Ok(None);
         };
         Ok(Some(Self {
-            strokes: History::new(aiming::first_stroke(&layout)),
-            changed_by: None,
+            stroke: OwnStroke::new(aiming::first_stroke(&layout)),
+            what_if: None,
             cue_ball: session.cue_ball_now(),
             session,
             exercise,
@@ -114,12 +112,12 @@ impl Turn {
 
     /// The stroke that is set.
     pub const fn stroke(&self) -> &CueInputs {
-        self.strokes.present()
+        self.stroke.cue()
     }
 
     /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
     pub fn raised_stroke(&self) -> CueInputs {
-        with_room(&self.table, &self.layout, self.stroke()).unwrap_or(*self.stroke())
+        self.stroke.raised(&self.table, &self.layout)
     }
 
     /// How low the cue can be held for the stroke that is set.
@@ -130,29 +128,72 @@ impl Turn {
         least_elevation(&self.table, &self.layout, self.stroke())
     }
 
-    /// Sets another stroke, as `action` wants it.
-    pub(super) fn set_stroke(&mut self, stroke: CueInputs, action: DrillAction) {
-        let changed_by = Some(std::mem::discriminant(&action));
-        if stroke == *self.stroke() {
-            return;
-        }
-        if self.changed_by == changed_by {
-            *self.strokes.present_mut() = stroke;
-        } else {
-            self.strokes.push(stroke);
-        }
-        self.changed_by = changed_by;
+    /// Changes the stroke.
+    pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Result<Vec<DrillTask>, TipSlips> {
+        self.stroke.change(change, &self.table, &self.layout)?;
+        Ok(self.compare())
     }
 
     /// Sets the stroke as it was before its last change, or after it again.
-    pub(super) fn travel(&mut self, step: impl Fn(&mut History<CueInputs>) -> bool) {
-        step(&mut self.strokes);
-        self.changed_by = None;
+    pub(super) fn travel(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Vec<DrillTask> {
+        step(&mut self.stroke);
+        self.compare()
     }
 
     /// Whether the stroke can be set as it was before its last change, and after it again.
     pub(super) const fn can_travel(&self) -> (bool, bool) {
-        (self.strokes.can_undo(), self.strokes.can_redo())
+        self.stroke.can_travel()
+    }
+
+    /// The stroke beside the one that is taught, while the player sets it.
+    pub fn what_if(&self) -> Option<&WhatIf> {
+        self.what_if.as_ref().filter(|_| self.is_aiming())
+    }
+
+    /// Takes the stroke that is taught over into the one that is set; the attempt counts as one with a hint.
+    pub(super) fn take_over(&mut self) -> Vec<DrillTask> {
+        let Lesson::Known(taught) = &self.lesson else { return Vec::new() };
+        let (cue, shot) = (taught.advice.cue, Arc::clone(&taught.shot));
+        self.stroke.set(cue);
+        self.what_if = Some(WhatIf::new(shot, self.scene()));
+        (self.is_helped, self.shows_hint, self.text_page) = (true, false, 0);
+        self.judge()
+    }
+
+    /// Takes the stroke that is taught off the table.
+    pub(super) fn leave_what_if(&mut self) {
+        self.what_if = None;
+    }
+
+    /// Compares the stroke as it is set now with the one that is taught, if that is wanted.
+    fn compare(&mut self) -> Vec<DrillTask> {
+        let Some(mut what_if) = self.what_if.take() else { return Vec::new() };
+        // What cannot be simulated cannot be compared; playing it will say why.
+        if what_if.strike(self.stroke(), self.scene()).is_err() {
+            return Vec::new();
+        }
+        self.what_if = Some(what_if);
+        self.judge()
+    }
+
+    /// Asks how often the player makes the stroke that is compared.
+    fn judge(&mut self) -> Vec<DrillTask> {
+        let (table, layout, rule, skill) = (self.table.clone(), self.layout, self.exercise.rule, self.session.skill);
+        let Some(what_if) = &mut self.what_if else { return Vec::new() };
+        let id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
+        let (cue, cancel) = (what_if.shot().cue, what_if.ask(id));
+        vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, skill, cue, cancel }))]
+    }
+
+    const fn scene(&self) -> what_if::Scene<'_> {
+        what_if::Scene { table: &self.table, layout: &self.layout, rule: self.exercise.rule }
+    }
+
+    /// How often the player makes the stroke of question `id`.
+    pub(super) fn stroke_judged(&mut self, id: u64, made: SuccessRate) {
+        if let Some(what_if) = &mut self.what_if {
+            what_if.judged(id, made);
+        }
     }
 
     /// Whose strokes are played.
@@ -194,8 +235,11 @@ impl Turn {
         if let Lesson::Known(taught) = &self.lesson { Some(taught) } else { None }
     }
 
-    /// The shot on the table: the one that is watched, or the one that is taught while it is shown.
+    /// The shot on the table: the one that is watched, the one that is taught while it is shown, or the player's own beside it.
     pub fn shot(&self) -> Option<&Shot> {
+        if let Some(what_if) = self.what_if() {
+            return Some(what_if.shot());
+        }
         match self.watched() {
             Some(watched) if !self.shows_hint => watched.outcome.shot.as_deref(),
             _ => self.taught().filter(|_| self.shows_hint).map(|taught| taught.shot.as_ref()),
@@ -227,6 +271,7 @@ impl Turn {
     /// Asks for the stroke that is taught in this position. Nobody waits for the one before any more.
     pub(super) fn ask(&mut self) -> Vec<DrillTask> {
         self.stop_asking();
+        self.what_if = None;
         self.lesson = Lesson::Pending;
         self.position = QUESTIONS.fetch_add(1, Ordering::Relaxed);
         let is_exact = self.layout == self.exercise.layout;
@@ -257,7 +302,7 @@ impl Turn {
 
     /// What plays the stroke that is set.
     pub(super) fn play(&mut self) -> DrillTask {
-        self.changed_by = None;
+        self.stroke.settle();
         self.text_page = 0;
         self.stage = Stage::Waiting;
         self.is_helped |= self.shows_hint;
@@ -349,14 +394,16 @@ impl Turn {
         let is_other = exercise.name != self.exercise.name;
         let is_moved = is_other || layout != self.layout;
         if is_other || is_moved && self.session.is_game() {
-            self.strokes = History::new(aiming::first_stroke(&layout));
-            self.changed_by = None;
+            self.stroke = OwnStroke::new(aiming::first_stroke(&layout));
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.cue_ball = self.session.cue_ball_now();
         self.stage = Stage::Aiming;
         self.shows_hint &= !is_moved;
-        self.is_helped = self.shows_hint;
+        if is_moved {
+            self.what_if = None;
+        }
+        self.is_helped = self.shows_hint || self.what_if.is_some();
         is_moved
     }
 

@@ -3,11 +3,10 @@
 use crate::{
     coach::Skill,
     drills::{Attempt, Goal, Session, Venue},
-    physics::CueInputs,
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, Taught,
-        pages::drills::{DrillsPage, Lesson, Screen, Stage, Turn, aiming},
-        shot::History,
+        pages::drills::{DrillsPage, Lesson, Screen, Stage, Turn},
+        shot::OwnStroke,
         ui::Message,
         words::skill_word,
     },
@@ -31,7 +30,8 @@ impl Turn {
                 | Condition::Running
                 | Condition::Ended
                 | Condition::Free
-                | Condition::Counted,
+                | Condition::Counted
+                | Condition::Adopted,
             ) => Some("the stroke is being played"),
             (_, Condition::Aiming) => refuse(!self.is_aiming(), "a shot is being watched; Enter goes on"),
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
@@ -47,6 +47,12 @@ impl Turn {
             (_, Condition::AdviceState) => refuse(self.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.lesson, Lesson::Pending), "the coach is still thinking"))
                 .or(refuse(self.taught().is_none(), "the coach has found no shot that makes the point")),
+            (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
+            (_, Condition::Adopted) => self
+                .disabled_reason(Condition::AdviceState)
+                .or_else(|| self.disabled_reason(Condition::Aiming))
+                .or_else(|| self.disabled_reason(Condition::Alone)),
+            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
             (Stage::Aiming, Condition::StrokeChanged) => {
                 refuse(!self.can_travel().0, "the stroke is as it was at first")
             }
@@ -72,26 +78,20 @@ impl DrillsPage {
     /// What the keys do to the exercise that is practised.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
-        let cue = *turn.stroke();
         match action {
-            Action::Turn(degrees) => turn.set_stroke(aiming::turned(&cue, degrees), action),
-            Action::AimAtBall => {
-                let ball = aiming::next_ball(&cue, &turn.layout);
-                turn.set_stroke(aiming::at_ball(&cue, &turn.layout, ball), action);
-            }
-            Action::Tip(left, up) => match aiming::tip_moved(&turn.table, &cue, left, up) {
-                Some(moved) => turn.set_stroke(moved, action),
-                None => self.message = Some(Message::warning("further out the tip would slip off the ball")),
+            Action::Stroke(change) => match turn.change_stroke(change) {
+                Ok(tasks) => return some(tasks),
+                Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
-            Action::Centre => turn.set_stroke(CueInputs { a: 0.0, b: 0.0, ..cue }, action),
-            Action::Raise(degrees) => turn.set_stroke(aiming::raised(&turn.raised_stroke(), degrees), action),
-            Action::Faster(by) => turn.set_stroke(aiming::faster(&cue, by), action),
-            Action::StrokeBack => turn.travel(History::undo),
-            Action::StrokeAgain => turn.travel(History::redo),
+            Action::StrokeBack => return some(turn.travel(OwnStroke::undo)),
+            Action::StrokeAgain => return some(turn.travel(OwnStroke::redo)),
+            Action::WhatIf => return some(turn.take_over()),
+            Action::LeaveWhatIf => turn.leave_what_if(),
             Action::Play => return self.play(),
             Action::Next => return self.next(),
             Action::PlayPause | Action::Event(_) | Action::Pace(_) => self.watch(action),
             Action::Hint => {
+                turn.leave_what_if();
                 turn.shows_hint = !turn.shows_hint;
                 turn.text_page = 0;
                 turn.is_helped |= turn.shows_hint && turn.is_aiming();
@@ -244,4 +244,9 @@ impl DrillsPage {
         session.undo();
         Some(Effect::Drill(vec![turn.save(session)]))
     }
+}
+
+/// What is to be done, if anything is.
+fn some(tasks: Vec<DrillTask>) -> Option<Effect> {
+    (!tasks.is_empty()).then_some(Effect::Drill(tasks))
 }

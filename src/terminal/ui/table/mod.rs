@@ -4,6 +4,7 @@ mod cushions;
 mod paint;
 mod rails;
 mod scene;
+mod ways;
 
 use glam::DVec2;
 use ratatui::{layout::Rect, style::Color};
@@ -49,6 +50,10 @@ pub struct TableView<'a> {
     pub layout: &'a Layout,
     /// The shot from there, if there is one.
     pub shot: Option<&'a Shot>,
+    /// Another shot from there, whose cue ball's way is drawn as well, in dashes and with the word for whose it is.
+    pub other: Option<&'a Shot>,
+    /// That word.
+    pub other_name: &'static str,
     /// Seconds since the stroke.
     pub time: f64,
     /// Whether the balls are drawn where the shot has them at `time`; otherwise they wait to be placed.
@@ -77,6 +82,8 @@ impl<'a> TableView<'a> {
             table,
             layout,
             shot: None,
+            other: None,
+            other_name: "",
             time: 0.0,
             is_moving: true,
             front: 0,
@@ -111,6 +118,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     if let Some(shot) = view.shot.filter(|_| view.is_numbered) {
         draw_cushions(&shot.words, view.table, &mapping, ui);
     }
+    ways::draw_words(&scene, ui);
 }
 
 /// The centres at which the pictures of the balls are drawn: where the pictures are larger than the balls, those of balls

@@ -20,6 +20,8 @@ const BRACKET_COLUMNS: f64 = 2.0;
 const DOTS: [char; BALLS] = ['·', '+', '×'];
 const PLAIN_DOTS: [char; BALLS] = ['.', '+', 'x'];
 const TRAIL: [char; 2] = ['•', '*'];
+/// That of another shot's way.
+const OTHER: [char; 2] = ['=', '='];
 
 /// Weights of what shares a cell (see [`Ink`]).
 const DOT_WEIGHT: u8 = 3;
@@ -60,6 +62,7 @@ fn in_blocks(scene: &Scene, ui: &mut Ui) {
     for spot in scene.spots() {
         if spot.is_ball { ring(&mut canvas, spot.place, spot.color) } else { dot(&mut canvas, spot.place, spot.color) }
     }
+    scene.each_other_dot(|place| dot(&mut canvas, place, theme.way));
     scene.each_dot(|ball, place, age| dot(&mut canvas, place, path_color(theme, ball, age)));
     scene.each_cue_dot(|place, _| dot(&mut canvas, place, theme.cue));
     for ghost in scene.ghosts() {
@@ -91,6 +94,7 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
     for spot in scene.spots() {
         put(spot.place, spot.letter, spot.color);
     }
+    scene.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.way));
     let dots = theme.cue_ball.ordered(caps.pick(DOTS, PLAIN_DOTS));
     let (letters, trail) = (theme.letters(), caps.pick(TRAIL[0], TRAIL[1]));
     scene.each_dot(|ball, place, age| {

@@ -17,6 +17,8 @@ const HALF_DOT_COLUMNS: f64 = 2.6;
 /// Length of the cue that is drawn before the stroke, m, and the distance of its dots: it is to be a line.
 const CUE_LENGTH: f64 = 0.4;
 const CUE_DOTS: f64 = 0.008;
+/// Dots of a dash of another shot's way, and as many that are left out after it: a tenth of a metre each.
+const DASH: usize = 4;
 /// How near dots come to a ball that is not there, against one that is: there is no fourth colour.
 const GHOST_CLEAR: f64 = 0.95;
 /// How long a ball's way counts as its trail, s.
@@ -97,6 +99,13 @@ impl Scene<'_> {
         }
     }
 
+    /// Calls `draw` with each dot of the cue ball's way in the other shot, in dashes, that no ball hides.
+    pub fn each_other_dot(&self, mut draw: impl FnMut(DVec2)) {
+        let dots = self.view.other.map_or(&[][..], |shot| &shot.paths[0]);
+        let dashes = dots.chunks(DASH).step_by(2).flatten();
+        dashes.filter(|dot| self.is_clear(dot.place)).for_each(|dot| draw(dot.place));
+    }
+
     /// Where balls will be: the cue ball at its first contact with each object ball, and all balls that move where they come
     /// to rest.
     pub fn ghosts(&self) -> Vec<Ghost> {
@@ -172,6 +181,8 @@ mod tests {
             table: &table,
             layout: &layout,
             shot: Some(&shot),
+            other: None,
+            other_name: "",
             time,
             is_moving: true,
             front: 0,

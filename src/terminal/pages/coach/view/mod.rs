@@ -7,6 +7,7 @@ mod header;
 mod lesson;
 mod maps;
 mod margins;
+mod own_stroke;
 mod panes;
 mod plan;
 mod shot;
@@ -30,6 +31,7 @@ use crate::{
                     lesson::{draw_lesson, draw_numbers, lesson_spots, system_words},
                     maps::{draw_aim_map, draw_legend, draw_tip_map},
                     margins::draw_margins,
+                    own_stroke::{COACH, draw_own_stroke},
                     panes::Panes,
                     plan::{draw_plan, plan_spots},
                     shot::{draw_proposal, draw_shot},
@@ -51,7 +53,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     let panes = Panes::new(coach.table(), area.screen);
     draw_header(coach, area.header, ui);
     let choice = coach.shown().map(AdviceState::choice);
-    let planned = choice.filter(|_| coach.view == View::Plan);
+    let planned = choice.filter(|_| coach.view == View::Plan && coach.what_if().is_none());
     let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
     let lesson = coach.lesson();
     if let Some(lesson) = lesson {
@@ -63,6 +65,8 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         time: coach.playback.time,
         is_moving: coach.mode == Mode::Watching,
         front: coach.selected,
+        other: coach.what_if().map(|what_if| &**what_if.coach()),
+        other_name: COACH,
         // While the coach thinks each better shot would move them all.
         is_lean: planned.is_some() || lesson.is_some() || coach.spinner().is_some(),
         // Those of a system are there then.
@@ -89,6 +93,9 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
     let chosen = coach.view;
+    if let Some(what_if) = coach.what_if() {
+        return draw_own_stroke(coach, what_if, panes, ui);
+    }
     let told = coach.told().filter(|_| chosen == View::Shot);
     let is_beside = panes.shot.y < panes.info.y;
     for (view, area) in views(chosen, panes) {
@@ -130,9 +137,14 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     if told.is_some() && is_beside || explained.is_some_and(|advised| draw_why(advised, panes.events, ui)) {
         return;
     }
+    draw_listed(coach, shot, time, panes.events, ui);
+}
+
+/// Draws the events of a shot that are to be listed.
+fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut Ui) {
     let events = shot.map(|shot| coach.events(shot));
     let name = if coach.has_all_events { "Events" } else { "Contacts" };
-    draw_events(name, events.as_deref(), time, panes.events, ui);
+    draw_events(name, events.as_deref(), time, area, ui);
 }
 
 /// The chosen view and the others that there is room for, each with its panel.
@@ -146,9 +158,9 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), Panes::new(coach.table(), area).table)
 }
 
-/// What the mouse points at; nothing while something is asked.
+/// What the mouse points at; nothing while something is asked, or a stroke is set.
 pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
-    if coach.question().is_some() {
+    if coach.question().is_some() || coach.what_if().is_some() {
         return None;
     }
     let area = area.screen;
@@ -213,7 +225,7 @@ fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
 /// is told above as well, and no more than a row of it where words stand there.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
-    let Some(system) = system_words(coach) else { return aim };
+    let Some(system) = system_words(coach).filter(|_| coach.what_if().is_none()) else { return aim };
     let both = format!("{aim} {system}");
     match columns(&both) <= room {
         true => both,

@@ -10,7 +10,10 @@ use crate::terminal::{
         view::{draw_header, panels, panes::Panes, score, separator},
     },
     shot::Meeting,
-    ui::{Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip},
+    ui::{
+        Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip,
+        draw_what_if,
+    },
 };
 
 /// Distance of two dots of the line of aim, m: half of that of the dots of a path, since it is to be a line.
@@ -23,9 +26,21 @@ const CUE_DOT: f64 = 0.008;
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     draw_header(drills, &turn.exercise.title, &about(turn, ui.caps), header, ui);
     let panes = Panes::new(&turn.table, area);
-    let spots = turn.sight().map_or_else(Vec::new, |sight| spots(turn, &sight, ui.theme, ui.caps));
+    let what_if = turn.what_if();
+    // The whole way is drawn then.
+    let spots = turn
+        .sight()
+        .filter(|_| what_if.is_none())
+        .map_or_else(Vec::new, |sight| spots(turn, &sight, ui.theme, ui.caps));
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
-    let view = TableView { shot: turn.shot(), time, spots: &spots, ..TableView::new(&turn.table, &turn.layout, ui) };
+    let view = TableView {
+        shot: turn.shot(),
+        other: what_if.map(|what_if| &**what_if.coach()),
+        other_name: turn.taught().map_or("", panels::teacher),
+        time,
+        spots: &spots,
+        ..TableView::new(&turn.table, &turn.layout, ui)
+    };
     draw_table(&view, panes.table, ui);
     panels::draw_stroke(turn, panes.stroke, ui);
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
@@ -36,7 +51,18 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(meeting(turn), panes.sight, ui),
     }
-    panels::draw_aim(turn, panes.aim, ui);
+    match what_if.zip(turn.taught()) {
+        Some((what_if, taught)) => {
+            let beside = Beside {
+                teacher: panels::teacher(taught),
+                made: Some(taught.advice.chance.rate),
+                cue_ball: turn.cue_ball,
+                units: drills.units,
+            };
+            draw_what_if(what_if, &beside, panes.aim, ui);
+        }
+        None => panels::draw_aim(turn, panes.aim, ui),
+    }
     score::draw(drills, turn, panes.score, ui);
     standing(turn)
 }
@@ -97,6 +123,9 @@ fn standing(turn: &Turn) -> Message {
         (true, _) => "the shot is on its way; Enter goes to its end",
         (false, Lesson::Pending) => "set the stroke and play it; the coach is still thinking",
         (false, Lesson::Missing) => "set the stroke and play it; the coach has found no shot here",
+        (false, Lesson::Known(_)) if turn.what_if().is_some() => {
+            "what if: change your stroke; the attempt counts as one with a hint"
+        }
         (false, Lesson::Known(taught)) if turn.shows_hint && taught.is_own => {
             "this is the model shot; the attempt counts as one with a hint"
         }

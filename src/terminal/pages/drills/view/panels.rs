@@ -142,7 +142,7 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
 }
 
 /// Whose shot the advice is.
-const fn teacher(taught: &Taught) -> &'static str {
+pub const fn teacher(taught: &Taught) -> &'static str {
     if taught.is_own { "model shot" } else { "coach" }
 }
 

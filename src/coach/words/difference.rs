@@ -1,0 +1,189 @@
+//! How one stroke differs from another, as a player would say it.
+
+use super::{ShotWords, TIP, TipUnit, Units, short};
+use crate::table::CueBall;
+
+/// Parts of a ball below which a difference of fullness is not told, is a hair, and is a little; from there on eighths are told.
+const UNTOLD: f64 = 0.008;
+const HAIR: f64 = 1.0 / 32.0;
+const LITTLE: f64 = 3.0 / 32.0;
+const EIGHTHS: [&str; 9] = [
+    "",
+    "an eighth",
+    "a quarter",
+    "three eighths",
+    "half a ball",
+    "five eighths",
+    "three quarters",
+    "seven eighths",
+    "a whole ball",
+];
+
+/// Least differences that are told of the tip's place, tips, of the table lengths, of the cue's elevation and of the aim, degrees.
+const TIPS: f64 = 0.02;
+const LENGTHS: f64 = 0.05;
+const ELEVATION: f64 = 0.5;
+const AIM: f64 = 0.005;
+
+impl ShotWords {
+    /// How this shot differs from `other`, a part each; none where nobody could tell. Where it `misses` and the other does not, how
+    /// thick it is is told as what is wrong with it.
+    pub fn differences(&self, other: &Self, misses: bool, cue_ball: CueBall, units: Units) -> Vec<String> {
+        let mut parts = self.contact_difference(other, misses, cue_ball);
+        if parts.is_empty() {
+            parts.extend(self.aim_difference(other));
+        }
+        let tip = |by: f64| tip_amount(by, self.radius, units.tip);
+        parts.extend(
+            tip(self.tips_right - other.tips_right)
+                .map(|amount| format!("{amount} {}", way(other.tips_right, self.tips_right, ["right", "left"]))),
+        );
+        parts.extend(
+            tip(self.tips_above - other.tips_above).map(|amount| {
+                format!("{amount} {}", if self.tips_above > other.tips_above { "higher" } else { "lower" })
+            }),
+        );
+        let harder = self.table_lengths - other.table_lengths;
+        if harder.abs() >= LENGTHS {
+            let lengths = short(harder.abs(), 1);
+            let unit = if lengths == "1" { "length" } else { "lengths" };
+            parts.push(format!("{} by {lengths} {unit}", if harder > 0.0 { "harder" } else { "softer" }));
+        }
+        let raised = self.elevation_deg - other.elevation_deg;
+        if raised.abs() >= ELEVATION {
+            parts.push(format!("cue {:.0}\u{b0} {}", raised.abs(), if raised > 0.0 { "higher" } else { "lower" }));
+        }
+        parts
+    }
+
+    /// What it meets otherwise, or how much more of the same ball.
+    fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
+        let names = cue_ball.names();
+        if self.before.is_empty() != other.before.is_empty() {
+            let first = if self.before.is_empty() { "no cushion first" } else { "a cushion first" };
+            return vec![first.to_owned()];
+        }
+        let (Some(hit), Some(others)) = (self.first, other.first) else {
+            let met = self.first.map(|hit| format!("meets {}", names[hit.ball]));
+            return if self.first.is_none() && other.first.is_none() {
+                Vec::new()
+            } else {
+                vec![met.unwrap_or_else(|| "meets no ball".to_owned())]
+            };
+        };
+        if hit.ball != others.ball {
+            return vec![format!("meets {} first", names[hit.ball])];
+        }
+        if hit.left != others.left {
+            return vec![format!("{} on its {} side", names[hit.ball], if hit.left { "left" } else { "right" })];
+        }
+        let fuller = hit.fullness - others.fullness;
+        let words = if fuller > 0.0 { ["thicker", "too thick"] } else { ["thinner", "too thin"] };
+        let part = match fuller.abs() {
+            by if by < UNTOLD => return Vec::new(),
+            by if by < LITTLE => {
+                let little = if by < HAIR { "a hair" } else { "a little" };
+                format!("{little} {}", words[usize::from(misses)])
+            }
+            by => {
+                let amount = EIGHTHS[((8.0 * by).round() as usize).clamp(1, 8)];
+                if misses { format!("{} by {amount}", words[1]) } else { format!("{amount} {}", words[0]) }
+            }
+        };
+        vec![part]
+    }
+
+    /// How much further to one side the cue points.
+    fn aim_difference(&self, other: &Self) -> Option<String> {
+        let degrees = other.direction.angle_to(self.direction).to_degrees();
+        (degrees.abs() >= AIM).then(|| {
+            let side = if degrees > 0.0 { "left" } else { "right" };
+            format!("aimed {}\u{b0} further {side}", short(degrees.abs(), 2))
+        })
+    }
+}
+
+/// How far the tip is from another place, one way.
+fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
+    if tips.abs() < TIPS {
+        return None;
+    }
+    Some(match unit {
+        TipUnit::Mm => format!("{} mm", short(1e3 * radius * TIP * tips.abs(), 1)),
+        TipUnit::Tips => match (4.0 * tips.abs()).round() as u32 {
+            0 => "a touch".to_owned(),
+            1 => "a quarter tip".to_owned(),
+            2 => "half a tip".to_owned(),
+            3 => "three quarters of a tip".to_owned(),
+            4 => "one tip".to_owned(),
+            quarters => format!("{} tips", short(0.25 * f64::from(quarters), 2)),
+        },
+    })
+}
+
+/// Side that goes from one place to another, positive to the first of the two `names`: more of one, or less of the other.
+fn way(from: f64, to: f64, [more, less]: [&str; 2]) -> String {
+    let (towards, away) = if to > from { (more, less) } else { (less, more) };
+    // What was the other side's, and still is not this one's, is less of that.
+    let is_less = from.abs() > TIPS && (to * from > 0.0 || to.abs() < TIPS) && to.abs() < from.abs();
+    if is_less { format!("less {away}") } else { format!("more {towards}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        physics::CueInputs,
+        table::{Layout, Table},
+    };
+
+    /// Red lies half a ball beside the way along x.
+    const HALF: &str = "-0.7,0 0.9,0.5 0,-0.03075";
+
+    fn of(cue: &str) -> ShotWords {
+        let table = Table::preset("textbook").unwrap();
+        let layout = Layout::parse(HALF, &table).unwrap();
+        ShotWords::of(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+    }
+
+    fn told(yours: &str, misses: bool) -> String {
+        of(yours).differences(&of("-0.2,0.1,0,0,3"), misses, CueBall::White, Units::default()).join(", ")
+    }
+
+    #[test]
+    fn a_stroke_that_nobody_could_tell_from_the_other_has_no_difference() {
+        assert_eq!(told("-0.2,0.1,0,0,3", true), "");
+        assert_eq!(told("-0.2004,0.1,0,0.001,3.001", false), "");
+    }
+
+    #[test]
+    fn each_input_is_told_in_the_words_for_it() {
+        assert_eq!(told("-0.225,0.1,0,0,3", false), "a quarter tip more right");
+        assert_eq!(told("-0.15,0.1,0,0,3", false), "half a tip less right");
+        assert_eq!(told("0.1,0.1,0,0,3", false), "3 tips more left");
+        assert_eq!(told("-0.2,0,0,0,3", false), "one tip lower");
+        let harder = told("-0.2,0.1,0,0,3.4", false);
+        assert!(harder.starts_with("harder by 0.") && harder.ends_with(" lengths"), "{harder}");
+        assert!(told("-0.2,0.1,6,0,3", false).ends_with("cue 6\u{b0} higher"));
+        let mm = Units { tip: TipUnit::Mm, ..Units::default() };
+        let other = of("-0.2,0.1,0,0,3");
+        assert_eq!(of("-0.3,0.1,0,0,3").differences(&other, false, CueBall::White, mm), ["3.1 mm more right"]);
+    }
+
+    #[test]
+    fn thickness_is_told_in_eighths_and_as_a_fault_where_it_misses() {
+        // A degree at 0.7 m is 12 mm, a fifth of a ball.
+        assert_eq!(told("-0.2,0.1,0,-0.6,3", false), "an eighth thicker");
+        assert_eq!(told("-0.2,0.1,0,-0.6,3", true), "too thick by an eighth");
+        assert_eq!(told("-0.2,0.1,0,0.6,3", true), "too thin by an eighth");
+        assert_eq!(told("-0.2,0.1,0,0.3,3", false), "a little thinner");
+        assert_eq!(told("-0.2,0.1,0,0.1,3", true), "a hair too thin");
+    }
+
+    #[test]
+    fn another_ball_another_side_and_none_are_named() {
+        assert_eq!(told("-0.2,0.1,0,-4.5,3", true), "red on its right side");
+        assert_eq!(told("-0.2,0.1,0,17.4,3", true), "meets yellow first");
+        assert_eq!(told("-0.2,0.1,0,10,0.3", true).split(", ").next(), Some("meets no ball"));
+    }
+}

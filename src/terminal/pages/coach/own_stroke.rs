@@ -1,0 +1,198 @@
+//! What if: the coach's shot taken over into the player's own stroke, which keys change; the coach's stays as it was.
+
+use std::sync::Arc;
+
+use crate::{
+    learning::evaluation::SuccessRate,
+    terminal::{
+        Effect, Job,
+        pages::coach::CoachPage,
+        shot::{
+            OwnStroke, StrokeChange, WhatIf,
+            what_if::{self, Scene},
+        },
+        ui::Message,
+    },
+};
+
+/// The player's own stroke beside the coach's.
+#[derive(Debug)]
+pub struct Compared {
+    stroke: OwnStroke,
+    what_if: WhatIf,
+}
+
+impl Compared {
+    /// How often the player makes the stroke of question `id`.
+    pub fn judged(&mut self, id: u64, made: SuccessRate) {
+        self.what_if.judged(id, made);
+    }
+}
+
+impl CoachPage {
+    /// The player's own stroke beside the coach's shot that is shown; nothing where another is shown by now.
+    pub fn what_if(&self) -> Option<&WhatIf> {
+        let own = self.compared.as_ref().map(|compared| &compared.what_if)?;
+        let shown = self.proposal().filter(|_| self.pending.is_none())?;
+        Arc::ptr_eq(own.coach(), &shown.shot).then_some(own)
+    }
+
+    /// Whether the stroke can be set as it was before its last change, and after it again.
+    pub(super) fn can_travel(&self) -> (bool, bool) {
+        self.compared.as_ref().map_or((false, false), |compared| compared.stroke.can_travel())
+    }
+
+    /// Takes the coach's shot over into the player's own stroke.
+    pub(super) fn take_over(&mut self) -> Option<Effect> {
+        let coach = Arc::clone(&self.proposal()?.shot);
+        let stroke = OwnStroke::new(coach.cue);
+        self.compared = Some(Compared { stroke, what_if: WhatIf::new(coach, self.scene()) });
+        self.lesson = None;
+        self.watch_from_the_stroke();
+        self.judge()
+    }
+
+    /// Leaves the player's own stroke; the coach's shot is as it was.
+    pub(super) fn leave_own_stroke(&mut self) {
+        self.compared = None;
+        self.watch_from_the_stroke();
+    }
+
+    /// Forgets a stroke that stands beside no shot any more.
+    pub(super) fn forget_own_stroke(&mut self) {
+        if self.what_if().is_none() {
+            self.compared = None;
+        }
+    }
+
+    /// Changes the player's own stroke.
+    pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Option<Effect> {
+        let (table, layout) = (Arc::clone(&self.balls.present().table), *self.layout());
+        let mut stroke = self.compared.as_ref()?.stroke.clone();
+        match stroke.change(change, &table, &layout) {
+            Ok(()) => self.strike(stroke),
+            Err(error) => self.refuse(&error.to_string()),
+        }
+    }
+
+    /// Sets the player's own stroke as it was before its last change, or after it again.
+    pub(super) fn travel_stroke(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
+        let mut stroke = self.compared.as_ref()?.stroke.clone();
+        step(&mut stroke);
+        self.strike(stroke)
+    }
+
+    fn strike(&mut self, stroke: OwnStroke) -> Option<Effect> {
+        let mut compared = self.compared.take()?;
+        let struck = compared.what_if.strike(stroke.cue(), self.scene());
+        if struck.is_ok() {
+            compared.stroke = stroke;
+        }
+        self.compared = Some(compared);
+        if let Err(error) = struck {
+            return self.refuse(&error.to_string());
+        }
+        self.watch_from_the_stroke();
+        self.judge()
+    }
+
+    /// Asks how often the player makes the stroke as it is set now; one who makes no errors does not ask.
+    fn judge(&mut self) -> Option<Effect> {
+        if self.query.skill.is_perfect() {
+            return None;
+        }
+        let cue = self.compared.as_ref()?.what_if.shot().cue;
+        let job = self.job(None);
+        let cancel = self.compared.as_mut()?.what_if.ask(job.id);
+        Some(Effect::Ask(Box::new(Job { stroke: Some(cue), cancel, ..job })))
+    }
+
+    fn refuse(&mut self, sentence: &str) -> Option<Effect> {
+        self.message = Some(Message::warning(sentence));
+        None
+    }
+
+    fn scene(&self) -> Scene<'_> {
+        what_if::Scene { table: self.table(), layout: self.layout(), rule: self.query.rule }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        physics::CueInputs,
+        table::{Layout, Table},
+        terminal::{Advice, Answer, CoachAction as Action, CoachNews, Proposal, Shot},
+    };
+    use std::sync::atomic::Ordering;
+
+    /// The opening with the coach's shot on it.
+    fn advised() -> CoachPage {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let mut page = CoachPage::new(table.clone(), layout, 1).unwrap();
+        let Some(Effect::Ask(job)) = page.update(Action::Recommend) else { panic!("the coach is asked") };
+        let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
+        let shot = Arc::new(Shot::new(&table, &layout, cue, true, "search").unwrap());
+        let made = Some(SuccessRate::new(890, 1000));
+        let best = Proposal { shot, kind: None, made, risk: None, next: None, is_early: false };
+        let advice = Advice { proposals: vec![best], effort: None, found: None };
+        assert!(page.receive(Answer { id: job.id, news: CoachNews::Advice(advice) }).is_some(), "it is studied");
+        page
+    }
+
+    /// The question that an action asks about the stroke.
+    fn asked(page: &mut CoachPage, action: Action) -> Box<Job> {
+        match page.update(action) {
+            Some(Effect::Ask(job)) if job.stroke.is_some() => job,
+            other => panic!("{action:?}: {other:?}"),
+        }
+    }
+
+    const HARDER: Action = Action::Stroke(StrokeChange::Faster(0.1));
+
+    #[test]
+    fn each_change_asks_once_how_often_the_stroke_is_made_and_late_answers_are_dropped() {
+        let mut page = advised();
+        let first = asked(&mut page, Action::WhatIf);
+        assert_eq!(first.stroke, page.shot().map(|shot| shot.cue));
+        let second = asked(&mut page, HARDER);
+        assert!(first.cancel.load(Ordering::Relaxed) && !second.cancel.load(Ordering::Relaxed));
+        assert!((second.stroke.unwrap().speed - 2.6).abs() < 1e-9);
+        let tell = |page: &mut CoachPage, id: u64, made| {
+            assert!(page.receive(Answer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
+            page.what_if().unwrap().made().map(|rate| rate.rate)
+        };
+        assert_eq!(tell(&mut page, first.id, 10), None);
+        assert_eq!(tell(&mut page, second.id, 70), Some(0.7));
+        assert!(page.update(Action::PlayPause).is_none(), "playing asks nothing");
+        assert!(page.playback.playing && page.shot().unwrap().cue.speed > 2.55, "the player's own is played");
+    }
+
+    #[test]
+    fn the_coachs_shot_is_as_before_once_the_stroke_is_left_and_is_studied_again() {
+        let mut page = advised();
+        let coach = Arc::clone(page.shot().unwrap());
+        asked(&mut page, Action::WhatIf);
+        asked(&mut page, HARDER);
+        asked(&mut page, HARDER);
+        asked(&mut page, Action::StrokeBack);
+        assert_eq!(page.shot().unwrap().cue, coach.cue, "one input changed twice is one step back");
+        assert_eq!(page.can_travel(), (false, true));
+        asked(&mut page, Action::StrokeAgain);
+        let Some(Effect::Ask(study)) = page.update(Action::LeaveStroke) else { panic!("the study goes on") };
+        assert_eq!((study.shot, study.stroke), (Some(coach.cue), None));
+        assert!(page.what_if().is_none() && Arc::ptr_eq(page.shot().unwrap(), &coach));
+    }
+
+    #[test]
+    fn a_stroke_beside_a_shot_that_is_no_longer_shown_is_forgotten() {
+        let mut page = advised();
+        asked(&mut page, Action::WhatIf);
+        page.take_skill(crate::coach::Skill::CLUB);
+        assert!(page.what_if().is_none() && page.shot().is_none());
+        page.update(Action::NextView);
+        assert!(page.compared.is_none());
+    }
+}

@@ -1,0 +1,217 @@
+//! The stroke that a player sets with keys: what each key changes, and what the stroke was before.
+
+use std::mem::{Discriminant, discriminant};
+
+use crate::{
+    physics::{CueInputs, with_room},
+    table::{Layout, Table},
+    terminal::shot::{History, aiming},
+};
+
+/// What a key changes of a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StrokeChange {
+    /// Turns the aim by degrees, to the left where positive.
+    Turn(f64),
+    /// Aims full at an object ball, then at the other.
+    AimAtBall,
+    /// Moves the tip by mm to the left and up.
+    Tip(f64, f64),
+    /// Puts the tip in the middle.
+    Centre,
+    /// Raises the cue by degrees.
+    Raise(f64),
+    /// Strikes faster by m/s.
+    Faster(f64),
+}
+
+impl StrokeChange {
+    /// What it does, where its key stands in a line with others.
+    pub const fn words(self) -> Option<&'static str> {
+        Some(match self {
+            Self::Turn(0.2) => "aim left by 0.2 degrees",
+            Self::Turn(-0.2) => "aim right by 0.2 degrees",
+            Self::Turn(5.0) => "aim left by 5 degrees",
+            Self::Turn(-5.0) => "aim right by 5 degrees",
+            Self::Turn(0.01) => "aim left by 0.01 degrees",
+            Self::Turn(-0.01) => "aim right by 0.01 degrees",
+            Self::Tip(0.5, 0.0) => "move the tip left by 0.5 mm",
+            Self::Tip(-0.5, 0.0) => "move the tip right by 0.5 mm",
+            Self::Tip(0.0, -0.5) => "move the tip down by 0.5 mm",
+            Self::Tip(0.0, 0.5) => "move the tip up by 0.5 mm",
+            Self::Tip(3.0, 0.0) => "move the tip left by 3 mm",
+            Self::Tip(-3.0, 0.0) => "move the tip right by 3 mm",
+            Self::Tip(0.0, -3.0) => "move the tip down by 3 mm",
+            Self::Tip(0.0, 3.0) => "move the tip up by 3 mm",
+            Self::Faster(0.1) => "strike harder by 0.1 m/s",
+            Self::Faster(-0.1) => "strike softer by 0.1 m/s",
+            Self::Faster(0.5) => "strike harder by 0.5 m/s",
+            Self::Faster(-0.5) => "strike softer by 0.5 m/s",
+            Self::Raise(1.0) => "raise the cue by 1 degree",
+            Self::Raise(-1.0) => "lower the cue by 1 degree",
+            _ => return None,
+        })
+    }
+}
+
+/// Why a stroke stays as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("further out the tip would slip off the ball")]
+pub struct TipSlips;
+
+/// The stroke that is set, with what it was before.
+#[derive(Clone, Debug)]
+pub struct OwnStroke {
+    strokes: History<CueInputs>,
+    /// What has changed it last: one input that is changed several times over is one step back.
+    changed_by: Option<Discriminant<StrokeChange>>,
+}
+
+impl OwnStroke {
+    /// A stroke to begin with.
+    pub const fn new(cue: CueInputs) -> Self {
+        Self { strokes: History::new(cue), changed_by: None }
+    }
+
+    /// The stroke that is set.
+    pub const fn cue(&self) -> &CueInputs {
+        self.strokes.present()
+    }
+
+    /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
+    pub fn raised(&self, table: &Table, layout: &Layout) -> CueInputs {
+        with_room(table, layout, self.cue()).unwrap_or(*self.cue())
+    }
+
+    /// Changes the stroke.
+    ///
+    /// # Errors
+    /// A place of the tip at which it would slip off; the stroke stays as it is.
+    pub fn change(&mut self, change: StrokeChange, table: &Table, layout: &Layout) -> Result<(), TipSlips> {
+        let cue = *self.cue();
+        let next = match change {
+            StrokeChange::Turn(degrees) => aiming::turned(&cue, degrees),
+            StrokeChange::AimAtBall => aiming::at_ball(&cue, layout, aiming::next_ball(&cue, layout)),
+            StrokeChange::Tip(left, up) => aiming::tip_moved(table, &cue, left, up).ok_or(TipSlips)?,
+            StrokeChange::Centre => CueInputs { a: 0.0, b: 0.0, ..cue },
+            StrokeChange::Raise(degrees) => aiming::raised(&self.raised(table, layout), degrees),
+            StrokeChange::Faster(by) => aiming::faster(&cue, by),
+        };
+        if next == cue {
+            return Ok(());
+        }
+        let changed_by = Some(discriminant(&change));
+        if self.changed_by == changed_by {
+            *self.strokes.present_mut() = next;
+        } else {
+            self.strokes.push(next);
+        }
+        self.changed_by = changed_by;
+        Ok(())
+    }
+
+    /// Sets another stroke, as a step of its own.
+    pub fn set(&mut self, cue: CueInputs) {
+        if cue != *self.cue() {
+            self.strokes.push(cue);
+        }
+        self.settle();
+    }
+
+    /// Makes the next change a step of its own.
+    pub const fn settle(&mut self) {
+        self.changed_by = None;
+    }
+
+    /// Sets the stroke as it was before its last change; `false` where there was none.
+    pub fn undo(&mut self) -> bool {
+        self.settle();
+        self.strokes.undo()
+    }
+
+    /// Makes a change again that was taken back; `false` where none was.
+    pub fn redo(&mut self) -> bool {
+        self.settle();
+        self.strokes.redo()
+    }
+
+    /// Whether the stroke can be set as it was before its last change, and after it again.
+    pub const fn can_travel(&self) -> (bool, bool) {
+        (self.strokes.can_undo(), self.strokes.can_redo())
+    }
+}
+
+/// A page's table of keys with those that set a stroke: `$before`, aim, tip and speed, `$between`, then the others, `$after`.
+/// `$action` makes a [`StrokeChange`] the page's action, `$when` is when they may be used.
+macro_rules! stroke_keys {
+    ($action:path, $when:expr, [$($before:expr,)*], [$($between:expr,)*], [$($after:expr,)*]) => {{
+        use crossterm::event::KeyCode::{Down, Left, Right, Tab, Up};
+        use $crate::terminal::{
+            keymap::{Chord, Section::Stroke, bind, key, letter},
+            shot::StrokeChange::{AimAtBall, Centre, Faster, Raise, Tip, Turn},
+        };
+        &[
+            $($before,)*
+            bind(Stroke, $when, &[key(Left, $action(Turn(0.2))), key(Right, $action(Turn(-0.2)))], Some(("aim", 2)),
+                "aim further to the left, to the right, by 0.2 degrees"),
+            bind(Stroke, $when, &[(Chord::shift(Left), $action(Turn(5.0))), (Chord::shift(Right), $action(Turn(-5.0)))],
+                None, "aim further to the left, to the right, by 5 degrees"),
+            bind(Stroke, $when, &[(Chord::ctrl(Left), $action(Turn(0.01))), (Chord::ctrl(Right), $action(Turn(-0.01)))],
+                None, "aim further to the left, to the right, by 0.01 degrees"),
+            bind(Stroke, $when, &[letter('h', $action(Tip(0.5, 0.0))), letter('j', $action(Tip(0.0, -0.5))),
+                letter('k', $action(Tip(0.0, 0.5))), letter('l', $action(Tip(-0.5, 0.0)))], Some(("tip", 4)),
+                "move the tip to the left, down, up, to the right by 0.5 mm"),
+            bind(Stroke, $when, &[letter('H', $action(Tip(3.0, 0.0))), letter('J', $action(Tip(0.0, -3.0))),
+                letter('K', $action(Tip(0.0, 3.0))), letter('L', $action(Tip(-3.0, 0.0)))], None,
+                "move the tip to the left, down, up, to the right by 3 mm"),
+            bind(Stroke, $when, &[key(Down, $action(Faster(-0.1))), key(Up, $action(Faster(0.1)))], Some(("speed", 2)),
+                "strike softer, harder by 0.1 m/s"),
+            bind(Stroke, $when, &[(Chord::shift(Down), $action(Faster(-0.5))), (Chord::shift(Up), $action(Faster(0.5)))],
+                None, "strike softer, harder by 0.5 m/s"),
+            $($between,)*
+            bind(Stroke, $when, &[key(Tab, $action(AimAtBall))], Some(("at a ball", 1)),
+                "aim full at the first object ball, then at the other"),
+            bind(Stroke, $when, &[letter('0', $action(Centre))], None, "put the tip in the middle"),
+            bind(Stroke, $when, &[letter('-', $action(Raise(-1.0))), letter('+', $action(Raise(1.0))),
+                letter('=', $action(Raise(1.0)))], None, "lower, raise the cue by 1 degree"),
+            $($after,)*
+        ]
+    }};
+}
+pub(in crate::terminal) use stroke_keys;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_input_changed_several_times_over_is_one_step_back() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let first = aiming::first_stroke(&layout);
+        let mut stroke = OwnStroke::new(first);
+        for _ in 0..3 {
+            stroke.change(StrokeChange::Turn(0.2), &table, &layout).unwrap();
+        }
+        let turned = *stroke.cue();
+        stroke.change(StrokeChange::Faster(0.1), &table, &layout).unwrap();
+        stroke.settle();
+        stroke.change(StrokeChange::Faster(0.1), &table, &layout).unwrap();
+        assert!(stroke.undo() && stroke.undo());
+        assert_eq!(*stroke.cue(), turned);
+        assert!(stroke.undo() && !stroke.undo());
+        assert_eq!(*stroke.cue(), first);
+        assert!(stroke.redo());
+        assert_eq!((*stroke.cue(), stroke.can_travel()), (turned, (true, true)));
+    }
+
+    #[test]
+    fn a_tip_that_would_slip_off_and_a_change_that_is_none_leave_all_as_it_is() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let mut stroke = OwnStroke::new(aiming::first_stroke(&layout));
+        assert_eq!(stroke.change(StrokeChange::Tip(40.0, 0.0), &table, &layout), Err(TipSlips));
+        stroke.change(StrokeChange::Centre, &table, &layout).unwrap();
+        assert_eq!(stroke.can_travel(), (false, false));
+    }
+}

@@ -1,0 +1,201 @@
+//! What if: a stroke of the player's own beside the coach's, what comes of it, how often it is made, and how it differs.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use crate::{
+    coach::{ShotWords, Technique, Units, Verdict},
+    game::Rule,
+    learning::evaluation::SuccessRate,
+    physics::{CueInputs, with_room},
+    simulation::ShotError,
+    table::{CueBall, Layout, Table},
+    terminal::Shot,
+};
+
+/// Where both strokes are played, and what counts.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// Where the balls lie.
+    pub layout: &'a Layout,
+    /// What counts as a point.
+    pub rule: Rule,
+}
+
+/// A stroke of the player's own beside the coach's.
+#[derive(Debug)]
+pub struct WhatIf {
+    coach: Arc<Shot>,
+    shot: Arc<Shot>,
+    verdict: Verdict,
+    /// The coach's and the player's.
+    words: [ShotWords; 2],
+    has_room: bool,
+    made: Option<SuccessRate>,
+    /// The number of the question how often the player makes it, as long as it is open.
+    question: Option<u64>,
+    cancel: Arc<AtomicBool>,
+}
+
+impl WhatIf {
+    /// The coach's shot, taken over as it is.
+    pub fn new(coach: Arc<Shot>, scene: Scene) -> Self {
+        let words = words(&coach, scene);
+        Self {
+            verdict: Verdict::of(scene.rule, scene.table, scene.layout, &coach.recording),
+            words: [words.clone(), words],
+            shot: Arc::clone(&coach),
+            coach,
+            has_room: true,
+            made: None,
+            question: None,
+            cancel: Arc::default(),
+        }
+    }
+
+    /// Takes another stroke for the player's own; rails and balls behind raise the cue that is set lower. How often it is made is
+    /// not known then.
+    ///
+    /// # Errors
+    /// What the simulator refuses; all stays as it is.
+    pub fn strike(&mut self, cue: &CueInputs, scene: Scene) -> Result<(), ShotError> {
+        let raised = with_room(scene.table, scene.layout, cue);
+        let shot = Shot::new(scene.table, scene.layout, raised.unwrap_or(*cue), false, "yours")?;
+        self.verdict = Verdict::of(scene.rule, scene.table, scene.layout, &shot.recording);
+        let shot = Shot { solved: self.verdict.is_made(), ..shot };
+        self.words[1] = words(&shot, scene);
+        (self.shot, self.has_room) = (Arc::new(shot), raised.is_ok());
+        self.made = None;
+        self.stop_asking();
+        Ok(())
+    }
+
+    /// The coach's shot.
+    pub const fn coach(&self) -> &Arc<Shot> {
+        &self.coach
+    }
+
+    /// The player's own.
+    pub const fn shot(&self) -> &Arc<Shot> {
+        &self.shot
+    }
+
+    /// Whether the player's own makes the point if it is played as meant.
+    pub fn is_made(&self) -> bool {
+        self.verdict.is_made()
+    }
+
+    /// How often the player makes it, once that is known.
+    pub const fn made(&self) -> Option<SuccessRate> {
+        self.made
+    }
+
+    /// Whether that is being worked out.
+    pub const fn is_asked(&self) -> bool {
+        self.question.is_some()
+    }
+
+    /// Asks how often the player makes it as question `id`; nobody waits for the answer to the one before any more. What is
+    /// given is set when the answer is no longer wanted.
+    pub fn ask(&mut self, id: u64) -> Arc<AtomicBool> {
+        self.stop_asking();
+        self.question = Some(id);
+        Arc::clone(&self.cancel)
+    }
+
+    /// The answer to question `id`; late ones are dropped.
+    pub fn judged(&mut self, id: u64, made: SuccessRate) {
+        if self.question == Some(id) {
+            (self.question, self.made) = (None, Some(made));
+        }
+    }
+
+    fn stop_asking(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+        self.cancel = Arc::default();
+        self.question = None;
+    }
+
+    /// What comes of it if it is played as meant.
+    pub fn outcome(&self, cue_ball: CueBall, units: Units) -> String {
+        self.verdict.words(cue_ball, units.length)
+    }
+
+    /// How it differs from the coach's, whom `teacher` names; and whether there is room for the cue.
+    pub fn difference(&self, teacher: &str, cue_ball: CueBall, units: Units) -> String {
+        let misses = !self.is_made() && self.coach.solved;
+        let [coach, yours] = &self.words;
+        let parts = yours.differences(coach, misses, cue_ball, units);
+        let room = if self.has_room { "" } else { "; no room for the cue" };
+        if parts.is_empty() {
+            format!("You: as the {teacher}{room}")
+        } else {
+            format!("You: {}{room}", parts.join(", "))
+        }
+    }
+}
+
+impl Drop for WhatIf {
+    fn drop(&mut self) {
+        self.stop_asking();
+    }
+}
+
+fn words(shot: &Shot, scene: Scene) -> ShotWords {
+    let technique = Technique::of_recorded(scene.table, &shot.recording);
+    ShotWords::of_technique(scene.table, scene.layout, &shot.cue, &technique)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(check: impl FnOnce(WhatIf, Scene)) {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let scene = Scene { table: &table, layout: &layout, rule: Rule::StraightRail };
+        let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
+        let coach = Shot::new(&table, &layout, cue, true, "search").unwrap();
+        check(WhatIf::new(Arc::new(coach), scene), scene);
+    }
+
+    #[test]
+    fn what_is_taken_over_is_the_coachs_and_a_change_leaves_that_as_it_was() {
+        with(|mut what_if, scene| {
+            let units = Units::default();
+            assert!(what_if.is_made() && Arc::ptr_eq(what_if.coach(), what_if.shot()));
+            assert_eq!(what_if.difference("coach", CueBall::White, units), "You: as the coach");
+            let coach = Arc::clone(what_if.coach());
+            let softer = CueInputs { speed: 0.5, ..coach.cue };
+            what_if.strike(&softer, scene).unwrap();
+            assert!(!what_if.is_made() && what_if.coach().cue == coach.cue && what_if.shot().cue.speed == 0.5);
+            assert!(what_if.outcome(CueBall::White, units).starts_with("No point: "));
+            let told = what_if.difference("coach", CueBall::White, units);
+            assert!(told.starts_with("You: ") && told.contains("softer by "), "{told}");
+        });
+    }
+
+    #[test]
+    fn a_late_answer_is_dropped_and_each_change_makes_the_chance_unknown() {
+        with(|mut what_if, scene| {
+            let rate = |made| SuccessRate::new(made, 100);
+            let first = what_if.ask(7);
+            what_if.judged(6, rate(1));
+            assert!(what_if.made().is_none() && what_if.is_asked());
+            what_if.strike(&CueInputs { speed: 2.6, ..what_if.coach().cue }, scene).unwrap();
+            assert!(first.load(Ordering::Relaxed) && !what_if.is_asked());
+            let second = what_if.ask(8);
+            what_if.judged(7, rate(1));
+            assert_eq!(what_if.made(), None);
+            what_if.judged(8, rate(90));
+            assert_eq!(what_if.made(), Some(rate(90)));
+            assert!(!second.load(Ordering::Relaxed));
+            drop(what_if);
+            assert!(second.load(Ordering::Relaxed));
+        });
+    }
+}

@@ -1,0 +1,105 @@
+//! What if: the coach's shot taken over into a stroke of the player's own, changed, played and left, at the coach and in an exercise.
+
+use super::player::{ASCII, NO_COLOUR, OTHERS, Player, SHOT, TRUE_COLOUR};
+use carom::{
+    learning::evaluation::SuccessRate,
+    physics::CueInputs,
+    terminal::{Capabilities, CoachNews, CoachWorker, KeyContext},
+};
+
+/// At the coach, who has answered, with the coach's shot taken over.
+fn taken_over(caps: Capabilities) -> Player {
+    Player::with(caps).press("Enter").answer().press("w")
+}
+
+/// Tells how often the stroke is made that was asked about last.
+fn judged(mut player: Player, made: usize) -> Player {
+    let job = player.judged.take().expect("it is asked how often the stroke is made");
+    player.tell(job.id, CoachNews::Judged(SuccessRate::new(made, 1000)))
+}
+
+#[test]
+fn the_coachs_shot_is_taken_over_changed_played_and_left() {
+    let player = taken_over(TRUE_COLOUR);
+    assert_eq!(player.app.place(), KeyContext::OwnStroke);
+    player.shows(&["You … % · coach 89 %", "You: as the coach", "coach's shot"]);
+    assert_eq!(player.judged.as_ref().unwrap().stroke, Some(CueInputs::parse(SHOT).unwrap()));
+    let player = judged(player, 880);
+    player.shows(&["You 88 % · coach 89 %", "Point: "]);
+    let player = player.press("S-Up l l S-Right");
+    player.shows(&["You … % · coach 89 %", "No point: ", "You: "]);
+    let large = player.text(120, 40);
+    for part in ["left", "harder by ", "lengths", "you", "coach"] {
+        assert!(large.contains(part), "{part}\n{large}");
+    }
+    let player = judged(player, 20).press("Space");
+    assert!(
+        player.app.playback().playing && player.app.watched().unwrap().cue.speed == 3.0,
+        "the own stroke is played"
+    );
+    let player = player.press("u u u");
+    assert!(!player.app.playback().playing, "a change goes back to the stroke");
+    player.shows(&["You: as the coach"]);
+    let player = player.press("U Esc");
+    assert_eq!(player.app.place(), KeyContext::Coach);
+    assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    player.is_silent_on("You 2").is_silent_on("You: ");
+    assert!(player.study.is_some(), "the closer look at the coach's shot goes on");
+    let other = player.press("] w");
+    assert_eq!(other.app.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap(), "whichever is shown is taken over");
+}
+
+#[test]
+fn both_ways_are_told_apart_without_colours_too() {
+    for caps in [NO_COLOUR, ASCII] {
+        let player = taken_over(caps).press("S-Right");
+        let text = player.text(80, 24);
+        let table: Vec<&str> = text.lines().skip(2).take(15).collect();
+        let (dashes, words) = (table.join("").matches('=').count(), ["you", "coach"]);
+        assert!(dashes > 10, "the coach's way is of another sign\n{text}");
+        assert!(words.iter().all(|word| table.iter().any(|row| row.contains(word))), "{text}");
+        player.is_plain();
+        let left = player.press("Esc").text(80, 24);
+        assert!(!left.lines().skip(2).take(15).any(|row| row.contains('=')), "{left}");
+    }
+}
+
+#[test]
+fn how_often_a_stroke_is_made_is_the_coachs_answer_for_this_player() {
+    let mut player = taken_over(TRUE_COLOUR);
+    let job = player.judged.take().unwrap();
+    let mut told = Vec::new();
+    CoachWorker::unhurried(1).answer(&job, |answer| told.push(answer));
+    let [answer] = &told[..] else { panic!("{told:?}") };
+    let CoachNews::Judged(made) = answer.news else { panic!("{answer:?}") };
+    assert!(answer.id == job.id && made.rate > 0.5, "{made:?}");
+    // The answer to a stroke that is set no more is dropped.
+    let player = player.press("Up").tell(job.id, CoachNews::Judged(made));
+    player.shows(&["You … % · coach 89 %"]);
+    let perfect = Player::new().press("S S S S S Enter").answer().press("w");
+    assert!(perfect.judged.is_none(), "who makes no errors makes what makes the point");
+}
+
+#[test]
+fn the_model_shot_of_an_exercise_is_taken_over_and_the_attempt_is_one_with_a_hint() {
+    let player = Player::practising(TRUE_COLOUR).press("w");
+    player.shows(&["You: as the model shot", "model shot", "Esc model shot off"]);
+    assert!(player.text(120, 40).contains("You "), "how often it is made is told");
+    let player = player.press("S-Left Up");
+    player.shows(&["You: ", "harder by "]);
+    let back = player.press("z z");
+    back.shows(&["You: as the model shot"]);
+    let left = back.press("Esc");
+    left.shows(&["From the opening"]).is_silent_on("You: ");
+    let ended = left.press("Space").wait(60.0);
+    let attempt = &ended.store().sessions().items[0].attempts[0];
+    assert!(attempt.helped, "{attempt:?}");
+    let meant = attempt.meant.unwrap();
+    assert!((meant.speed - CueInputs::parse(SHOT).unwrap().speed).abs() < 1e-9, "the stroke stays set: {meant:?}");
+}
+
+#[test]
+fn an_exam_gives_no_shot_to_take_over() {
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter w");
+    player.says("an exam gives no hints");
+}
