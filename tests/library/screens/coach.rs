@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     keys::key,
-    player::{ASCII, NO_COLOUR, Player, SHOT, advice, check, check_at},
+    player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at},
 };
 use carom::{
     physics::CueInputs,
