@@ -196,8 +196,6 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
-    bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
-        "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
         "step through the shots that the coach lists"),
     bind(Shot, W::Watching, &[
@@ -206,6 +204,8 @@ pub const COACH: &[Binding<A, W>] = &[
         ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too"),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: balls, chances, margins and maps, plan").known_as("diamonds numbers"),
+    bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
+        "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
         "diamond systems on the table: the shot's own, then the others, then none")
         .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
