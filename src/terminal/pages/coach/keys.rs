@@ -200,8 +200,6 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),
         "ask the bundled weights again, as at the start"),
     bind(Shot, W::Shot, &[letter(' ', A::PlayPause)], Some(("play", 1)), "play and pause the shot"),
-    bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
-        "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Choice, &[letter('[', A::PreviousShot), letter(']', A::NextShot)], Some(("shots", 2)),
         "step through the shots that the coach lists"),
     bind(Shot, W::Watching, &[

@@ -286,7 +286,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Free, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
     bind(Score, W::Here, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
-    bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf), letter('w', A::LeaveWhatIf)], Some(("model shot off", 1)),
+    bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
         "take the model shot off the table; your stroke stays as it is set"),
     bind(Program, W::Alone, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ]);
