@@ -189,7 +189,7 @@ impl Session {
     pub fn wait_for_advice(&mut self) {
         self.wait_until("the advice", |screen| {
             let text = screen.contents();
-            text.contains("Events 0/") && !text.contains("cancel")
+            [" 0.00/", " 0.00 / "].iter().any(|start| text.contains(start)) && !text.contains("cancel")
         });
     }
 

@@ -142,7 +142,7 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     // The time in which the shot would run on.
     std::thread::sleep(Duration::from_secs(1));
     let stood = stopped.elapsed().as_secs_f64();
-    session.come_back_to("Events");
+    session.come_back_to("Contacts");
     session.wait_until("the clock", |screen| clock(screen).is_some());
     let passed = clock(session.screen()).unwrap() - before;
     let running = played + stopped.elapsed().as_secs_f64() - stood;

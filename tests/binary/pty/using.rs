@@ -23,13 +23,13 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.send("\x1b[B\x1b[1;2B");
     session.wait_for("white at x -710.0 mm, y 72.5 mm");
     session.send("\r");
-    session.wait_for("Events 0/");
+    session.wait_for_advice();
     session.wait_for("‖");
     session.send(".");
-    session.wait_for("Events 1/");
+    session.wait_for("Contacts 1/");
     session.send(" ");
     session.wait_until("it plays", |screen| !screen.contents().contains('‖'));
-    session.wait_until("the next event", |screen| !screen.contents().contains("Events 1/"));
+    session.wait_until("the next event", |screen| !screen.contents().contains("Contacts 1/"));
     session.send(" ?");
     session.wait_for("Placing the balls");
     // Escape and q at once would be Alt-q.

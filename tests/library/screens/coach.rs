@@ -204,7 +204,7 @@ fn without_colours_letters_tell_everything() {
         let text = player.text(80, 24);
         assert!(text.contains("a -2.61 +0.54 0.5") && text.contains("# point = too few cushions - one ball"), "{text}");
         let plan = player.press("v");
-        plan.is_plain().shows(&["now  94 % yellow, ", "stop white 74, yellow 25, red 145 cm", "next 100 % yellow"]);
+        plan.is_plain().shows(&["now  94 % yellow, ", "stop white 80, yellow 24, red 136 cm", "next 100 % yellow"]);
         if caps == ASCII {
             check_at(&[(120, 40)], "ascii_plan", &plan);
         }

@@ -244,7 +244,7 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
     };
     let cause = proposal.risk.and_then(|risk| risk.main_cause()).filter(|cause| *cause != Cause::Hand);
     let cause = cause.map_or(String::new(), |cause| format!("; missed mostly by {cause}"));
-    Message::good(format!("{} makes it {chance}{cause}{took}", skill_word(query.skill)))
+    Message::good(format!("{} makes it {chance}{cause}", skill_word(query.skill)))
 }
 
 /// How often the player makes a shot, where there is a doubt.

@@ -73,7 +73,7 @@ pub enum CoachAction {
     TurnPlan,
     /// Teaches the diamond system of the shot, then the others.
     NextSystem,
-    /// Tells the shot in the thesis' numbers, or in a player's again.
+    /// Tells the shot in the thesis' numbers, or in words again.
     TurnNumbers,
     /// Lists all events, or contacts only.
     TurnEvents,
@@ -208,11 +208,13 @@ pub const COACH: &[Binding<A, W>] = &[
         ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too"),
     bind(Shot, W::Anytime, &[letter('v', A::NextView)], Some(("view", 1)),
         "turn the panels: shot and balls, chances, margins and maps, plan").known_as("diamonds words"),
+    bind(Shot, W::Shot, &[letter('w', A::WhatIf)], Some(("what if", 1)),
+        "take the shot over into a stroke of your own, to change it and see what comes of it").known_as("adopt compare try own"),
     bind(Shot, W::Anytime, &[letter('y', A::NextSystem)], None,
         "diamond systems on the table: the shot's own, then the others, then none")
         .known_as("corner-5 corner five and a half plus seven count numbers learn teach"),
     bind(Shot, W::Shot, &[letter('N', A::TurnNumbers)], Some(("numbers", 1)),
-        "the shot in the thesis' numbers, or in a player's again").known_as("a b theta phi V impulse angle millimetres"),
+        "the shot in the thesis' numbers, or in words again").known_as("a b theta phi V impulse angle millimetres"),
     bind(Shot, W::Shot, &[letter('E', A::TurnEvents)], None,
         "list all events, with rolls and stops, or contacts only").known_as("rolls slides filter"),
     bind(Balls, W::Placing, &[

@@ -75,8 +75,8 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     rows.push(format!("{} {}", pace_word(words.table_lengths), short(words.table_lengths, 1)));
     rows.push(match cue_degrees(proposal) {
         None => "level cue".to_owned(),
-        Some(degrees) if words.is_level => format!("cue {degrees}\u{b0}, lowest"),
-        Some(degrees) => format!("cue raised {degrees}\u{b0}"),
+        Some(degrees) if words.is_level => format!("low cue {degrees}\u{b0}"),
+        Some(degrees) => format!("raised {degrees}\u{b0}"),
     });
     let mark = |mark: crate::coach::Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
