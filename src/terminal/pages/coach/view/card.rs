@@ -28,10 +28,13 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
     title.push(chance_span(proposal, is_wide, ui));
     let inner = draw_title(title, area, ui);
     let rows = if is_wide { wide_rows(proposal, coach) } else { narrow_rows(proposal, coach) };
-    for ((name, value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
+    for ((name, mut value), row) in rows.into_iter().zip(inner.y..inner.bottom()) {
         let mut line = Line::default();
         if is_wide {
             line.push_span(Span::styled(format!(" {name:<7}"), ui.theme.faint()));
+        } else {
+            // The whole word has no room.
+            value = value.replace('\u{b0}', ui.caps.pick("\u{b0}", " deg"));
         }
         line.push_span(Span::styled(spell(&value, ui.caps), ui.theme.text()));
         ui.buffer.set_line(inner.x, row, &line, inner.width);
