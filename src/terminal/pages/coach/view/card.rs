@@ -44,7 +44,7 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
 /// How often the shot is made, or whether it makes the point at all.
 pub fn chance_span(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Span<'static> {
     let (words, style) = match &proposal.made {
-        _ if !proposal.shot.solved => ("no point".to_owned(), ui.theme.warning()),
+        _ if !proposal.shot.solved => ("misses".to_owned(), ui.theme.warning()),
         None => ("point".to_owned(), ui.theme.good()),
         Some(made) if proposal.is_early => (format!("so far {} %", percent(made.rate)), ui.theme.accent()),
         Some(made) if is_wide => (chance_words(made), ui.theme.good()),

@@ -27,7 +27,7 @@ const SPIN_WIDTH: usize = 12;
 pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], table: &Table, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Shot", ui.theme.text())];
     if let Some(shot) = shot {
-        let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("no point", ui.theme.warning()) };
+        let (words, style) = if shot.solved { ("point", ui.theme.good()) } else { ("misses", ui.theme.warning()) };
         title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
         title.push(Span::styled(words, style));
         if area.width >= WIDE {
