@@ -98,8 +98,13 @@ fn mark(table: &Table, from: DVec2, direction: DVec2) -> Mark {
 
 /// How the cue ball meets the first object ball of a recorded shot; `None` where it meets none.
 pub fn first_hit(table: &Table, recording: &Recording) -> Option<Hit> {
+    hit(table, recording, |_| true)
+}
+
+/// How the cue ball first meets one of the object balls that are `wanted`; `None` where it meets none of them.
+pub fn hit(table: &Table, recording: &Recording, wanted: impl Fn(usize) -> bool) -> Option<Hit> {
     let (time, ball) = recording.events().iter().find_map(|event| match event.kind {
-        EventKind::BallBall(0, ball) => Some((event.time, ball)),
+        EventKind::BallBall(0, ball) if wanted(ball) => Some((event.time, ball)),
         _ => None,
     })?;
     let place = recording.state(0, time).position;

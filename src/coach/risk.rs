@@ -59,7 +59,11 @@ impl fmt::Display for Risk {
             formatter,
             "missed by the hand alone {hand:.0} %, by what is not known of the table {table:.0} %, of the balls' places {placing:.0} %"
         )?;
-        self.main_cause().map_or(Ok(()), |cause| write!(formatter, "; mostly {cause}"))
+        match self.main_cause() {
+            Some(Cause::Table) => formatter.write_str("; mostly the table, which carom calibrate measures"),
+            Some(cause) => write!(formatter, "; mostly {cause}"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -67,8 +71,8 @@ impl fmt::Display for Cause {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
             Self::Hand => "the hand",
-            Self::Table => "the table: calibrate it",
-            Self::Placing => "the places: measure them",
+            Self::Table => "the table",
+            Self::Placing => "the places",
         })
     }
 }

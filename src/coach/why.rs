@@ -251,42 +251,47 @@ impl Why {
         }
         words::capital(&format!("{}.", parts.join("; ")))
     }
-}
 
-impl Why {
-    /// The same in few words, for who plays with `cue_ball`: the next shot's numbers stand in brackets.
+    /// The same in few words, for who plays with `cue_ball`, and how the next shot differs first.
     pub fn brief(&self, cue_ball: CueBall) -> String {
         let names = cue_ball.names();
         let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-        let beside =
-            |own: String, other: Option<String>| other.map_or_else(|| own.clone(), |other| format!("{own} ({other})"));
         let degrees = |width: f64| format!("{}\u{b0}", short(width, 2));
         let second = self.second.as_ref();
         let mut parts = Vec::new();
-        parts.extend(self.make_probability.map(|rate| {
-            let other = second.and_then(|second| second.make_probability);
-            beside(format!("made {}", percent(rate)), other.map(|rate| format!("next shot {}", percent(rate))))
-        }));
+        parts.extend(self.make_probability.map(|rate| format!("made {}", percent(rate))));
+        parts.push(second.map_or_else(
+            || "nothing else makes the point".to_owned(),
+            |second| {
+                let made = second.make_probability.map_or_else(String::new, |rate| format!(" {}", percent(rate)));
+                format!("shot 2{made} ({})", second.parts(names))
+            },
+        ));
         parts.extend(self.aim_deg.map(|width| {
-            beside(format!("aim {} wide", degrees(width)), second.and_then(|second| second.aim_deg).map(degrees))
+            let other = second.and_then(|second| second.aim_deg);
+            let there = other.map_or_else(String::new, |width| format!(", there {}", degrees(width)));
+            format!("the aim may be {} off in all{there}", degrees(width))
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             format!("{} and {} kiss in {}", names[one], names[other], percent(share))
         }));
-        parts.extend(self.next_probability.map(|next| format!("leaves {}", percent(next))));
-        parts.push(second.map_or_else(|| "nothing else makes the point".to_owned(), |second| second.words(names)));
+        parts.extend(self.next_probability.map(|next| format!("the next point {}", percent(next))));
         format!("{}.", parts.join("; "))
     }
 }
 
 impl Difference {
     fn words(&self, names: [&'static str; 3]) -> String {
+        format!("the next: {}", self.parts(names))
+    }
+
+    fn parts(&self, names: [&'static str; 3]) -> String {
         let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
         parts.extend(self.first_ball.map(|ball| format!("off {}", names[ball])));
         parts
             .extend((self.fuller.abs() > FULLER).then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()));
         parts.extend((self.harder.abs() > HARDER).then(|| if self.harder > 0.0 { "harder" } else { "softer" }.into()));
-        format!("the next: {}", parts.join(", "))
+        parts.join(", ")
     }
 }
 
@@ -321,7 +326,7 @@ mod tests {
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
         assert_eq!(why.second.is_some(), !advice.alternatives.is_empty());
         let brief = why.brief(CueBall::White);
-        assert!(brief.starts_with("made ") && brief.contains("\u{b0} wide") && brief.len() < 160, "{brief}");
+        assert!(brief.starts_with("made ") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains(if why.second.is_some() { "the next" } else { "." }), "{said}");
     }

@@ -6,7 +6,7 @@ pub use patterns::{PATTERNS, Pattern};
 
 use serde::Serialize;
 
-use super::{Hit, Mark, first_hit};
+use super::{Hit, Mark, first_hit, hit};
 use crate::{
     game::Tally,
     physics::CueInputs,
@@ -33,7 +33,9 @@ pub struct Technique {
     pub tally: Tally,
     /// How the object ball is met that comes first.
     pub first: Option<Hit>,
-    /// Cushions before it, in order.
+    /// How the other one is met.
+    pub second: Option<Hit>,
+    /// Cushions before the first, in order.
     pub before: Vec<Cushion>,
     /// Cushions between the first and the second object ball, in order.
     pub between: Vec<Cushion>,
@@ -74,6 +76,7 @@ impl Technique {
         let mut technique = Self {
             tally: Tally::default(),
             first,
+            second: first.and_then(|first| hit(table, recording, |ball| ball != first.ball)),
             before: Vec::new(),
             between: Vec::new(),
             sent: events.filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0))).collect(),

@@ -3,7 +3,10 @@
 use std::f64::consts::FRAC_PI_3;
 
 use super::Technique;
-use crate::simulation::Rail;
+use crate::{
+    coach::words::{FULL, THICK, THIN},
+    simulation::Rail,
+};
 
 /// A sort of shot that players have a name for.
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +32,6 @@ const DRAWN: f64 = -0.15;
 
 /// Spin from which on it follows, and what lies between slides: a stun shot.
 const ROLLING: f64 = 0.35;
-
-/// Below this share of the ball covered it is hit thin, from the second on thick, and from the third on so full that a
-/// rolling ball goes on ahead. A half-ball hit lies between the first two.
-const THIN: f64 = 0.41;
-const THICK: f64 = 0.6;
-const FULL: f64 = 0.85;
 
 /// The patterns that have a name, in the order in which a shot is asked whether it is one; it is called by the first.
 pub const PATTERNS: [Pattern; 30] = [

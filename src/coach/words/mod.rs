@@ -11,8 +11,9 @@ mod units;
 use glam::DVec2;
 use serde::Serialize;
 
-pub use numbers::{clock, number_word};
+pub use numbers::{clock, fullness_word, number_word};
 pub use pace::{pace_word, table_lengths};
+pub(super) use numbers::{FULL, THICK, THIN};
 pub(super) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};
 
@@ -33,6 +34,9 @@ const TOLD: f64 = 0.1;
 /// How near the least elevation a cue counts as level as it can be, rad: half a degree.
 const LEVEL: f64 = 0.5_f64.to_radians();
 
+/// Elevation below which such a cue is called level, degrees: the rail behind the ball alone asks for two or three.
+const RAISED: f64 = 5.0;
+
 /// What side does at the first cushion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -48,8 +52,8 @@ pub enum English {
 pub struct ShotWords {
     /// How the object ball is met that comes first; `None` where none is.
     pub first: Option<Hit>,
-    /// The other object ball, 1 or 2, where it is met too.
-    pub second: Option<usize>,
+    /// How the other one is met.
+    pub second: Option<Hit>,
     /// Tips of side, to the right for one who looks along the cue; less is left.
     pub tips_right: f64,
     /// Tips above the centre; less is below.
@@ -106,7 +110,7 @@ impl ShotWords {
         };
         Self {
             first,
-            second: first.filter(|_| technique.tally.met_both()).map(|hit| 3 - hit.ball),
+            second: technique.second,
             tips_right,
             tips_above,
             clock: clock(tips_right, tips_above),
@@ -123,5 +127,10 @@ impl ShotWords {
             radius: table.radius,
             diamond: table.diamond(),
         }
+    }
+
+    /// Whether players call the cue level.
+    pub fn has_level_cue(&self) -> bool {
+        self.elevation_deg < 0.5 || self.is_level && self.elevation_deg < RAISED
     }
 }

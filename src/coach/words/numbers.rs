@@ -27,6 +27,22 @@ pub fn fullness_words(fullness: f64) -> (&'static str, bool) {
     (SIXTEENTHS[sixteenths], sixteenths == 16)
 }
 
+/// Shares of the ball from which on a hit is no longer thin, is thick, and is so full that a rolling ball goes on ahead. A half-ball
+/// hit lies between the first two.
+pub const THIN: f64 = 0.41;
+pub const THICK: f64 = 0.6;
+pub const FULL: f64 = 0.85;
+
+/// How much of a ball is hit, in a word.
+pub fn fullness_word(fullness: f64) -> &'static str {
+    match fullness {
+        _ if fullness < THIN => "thin",
+        _ if fullness < THICK => "half",
+        _ if fullness < FULL => "thick",
+        _ => "full",
+    }
+}
+
 /// A whole number in words up to ten.
 pub fn number_word(number: u32) -> String {
     const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];

@@ -1,8 +1,8 @@
 //! The sentences: how to strike, which way the cue ball goes, and where to aim.
 
-use super::{English, PlaceUnit, ShotWords, TIP, TipUnit, Units, numbers, pace_word, short};
+use super::{English, PlaceUnit, ShotWords, TIP, TipUnit, Units, fullness_word, numbers, pace_word, short};
 use crate::{
-    coach::{Cushion, Mark},
+    coach::{Cushion, Hit, Mark},
     simulation::Rail,
     table::CueBall,
 };
@@ -15,8 +15,23 @@ impl ShotWords {
         capital(&text)
     }
 
-    /// Which way the cue ball goes: balls, and cushions with where each is met.
+    /// Which way the cue ball goes: balls, and cushions with where each is met; and how the second ball is met.
     pub fn course(&self, cue_ball: CueBall, units: Units) -> String {
+        let met = |hit: Hit| match (fullness_word(hit.fullness), hit.left) {
+            ("full", _) => "full".to_owned(),
+            (full, true) => format!("{full} on the left"),
+            (full, false) => format!("{full} on the right"),
+        };
+        let second = self.second.map_or_else(String::new, |hit| format!(", {}", met(hit)));
+        format!("{}{second}.", self.stops(cue_ball, units))
+    }
+
+    /// The same without how the second ball is met.
+    pub fn short_course(&self, cue_ball: CueBall, units: Units) -> String {
+        self.stops(cue_ball, units) + "."
+    }
+
+    fn stops(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
         let cushions = |cushions: &[Cushion]| -> Vec<String> {
             let one =
@@ -26,8 +41,8 @@ impl ShotWords {
         let mut stops = cushions(&self.before);
         stops.extend(self.first.map(|hit| names[hit.ball].to_owned()));
         stops.extend(cushions(&self.between));
-        stops.extend(self.second.map(|ball| names[ball].to_owned()));
-        capital(&format!("{}.", stops.join(" \u{2013} ")))
+        stops.extend(self.second.map(|hit| names[hit.ball].to_owned()));
+        capital(&stops.join(" \u{2013} "))
     }
 
     /// The line along which the cue points, from cushion to cushion, on the noses.
@@ -95,7 +110,7 @@ impl ShotWords {
     /// How hard, and how the cue is held.
     fn stroke_words(&self) -> String {
         let cue = match self.elevation_deg.round() {
-            _ if self.elevation_deg < 0.5 => "level cue".to_owned(),
+            _ if self.has_level_cue() => "level cue".to_owned(),
             _ if self.is_level => "cue as level as it can be".to_owned(),
             degrees => format!("cue raised {degrees}\u{b0}"),
         };

@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{ShotWords, Technique, Units, Verdict},
+    coach::{Units, Verdict},
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, with_room},
@@ -32,8 +32,6 @@ pub struct WhatIf {
     coach: Arc<Shot>,
     shot: Arc<Shot>,
     verdict: Verdict,
-    /// The coach's and the player's.
-    words: [ShotWords; 2],
     has_room: bool,
     made: Option<SuccessRate>,
     /// The number of the question how often the player makes it, as long as it is open.
@@ -44,10 +42,8 @@ pub struct WhatIf {
 impl WhatIf {
     /// The coach's shot, taken over as it is.
     pub fn new(coach: Arc<Shot>, scene: Scene) -> Self {
-        let words = words(&coach, scene);
         Self {
             verdict: Verdict::of(scene.rule, scene.table, scene.layout, &coach.recording),
-            words: [words.clone(), words],
             shot: Arc::clone(&coach),
             coach,
             has_room: true,
@@ -67,7 +63,6 @@ impl WhatIf {
         let shot = Shot::new(scene.table, scene.layout, raised.unwrap_or(*cue), false, "yours")?;
         self.verdict = Verdict::of(scene.rule, scene.table, scene.layout, &shot.recording);
         let shot = Shot { solved: self.verdict.is_made(), ..shot };
-        self.words[1] = words(&shot, scene);
         (self.shot, self.has_room) = (Arc::new(shot), raised.is_ok());
         self.made = None;
         self.stop_asking();
@@ -128,8 +123,7 @@ impl WhatIf {
     /// How it differs from the coach's, whom `teacher` names; and whether there is room for the cue.
     pub fn difference(&self, teacher: &str, cue_ball: CueBall, units: Units) -> String {
         let misses = !self.is_made() && self.coach.solved;
-        let [coach, yours] = &self.words;
-        let parts = yours.differences(coach, misses, cue_ball, units);
+        let parts = self.shot.words.differences(&self.coach.words, misses, cue_ball, units);
         let room = if self.has_room { "" } else { "; no room for the cue" };
         if parts.is_empty() {
             format!("You: as the {teacher}{room}")
@@ -143,11 +137,6 @@ impl Drop for WhatIf {
     fn drop(&mut self) {
         self.stop_asking();
     }
-}
-
-fn words(shot: &Shot, scene: Scene) -> ShotWords {
-    let technique = Technique::of_recorded(scene.table, &shot.recording);
-    ShotWords::of_technique(scene.table, scene.layout, &shot.cue, &technique)
 }
 
 #[cfg(test)]

@@ -181,12 +181,15 @@ impl CoachWorker {
                 tell(CoachNews::Why(Box::new(why)));
             }
         }
-        let study = Arc::new(study(job, cue)?);
-        tell(CoachNews::Study(Arc::clone(&study)));
+        let recording = Recording::new(&job.table, &job.layout, cue).ok()?;
+        let study = study(job, cue, &recording)?;
+        let makes_point = study.margins.is_some();
+        tell(CoachNews::Study(Arc::new(study)));
         // After a miss it is the other's turn.
-        study.margins?;
-        let shot = Shot::new(&job.table, &job.layout, *cue, true, "").ok()?;
-        self.advice(job, &shot.recording.final_layout(), &mut |_| {}).ok()
+        if !makes_point {
+            return None;
+        }
+        self.advice(job, &recording.final_layout(), &mut |_| {}).ok()
     }
 
     /// The coach for the question's table, with its policy.
@@ -237,8 +240,8 @@ fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice
     Ok(Advice { proposals, effort, found: found.solved.then(|| Arc::new(found)) })
 }
 
-/// Looks at a shot closely; breaks off between two parts where nobody waits any more.
-fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
+/// Looks at a shot closely, which was recorded; breaks off between two parts where nobody waits any more.
+fn study(job: &Job, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
     let Job { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
     let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
@@ -254,7 +257,6 @@ fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
     let aim = map(*rule, table, layout, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
     go_on()?;
     let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
-    let recording = Recording::new(table, layout, cue).ok().filter(|_| margins.is_some());
-    let system = recording.and_then(|recording| guide(table, &recording));
+    let system = margins.and_then(|_| guide(table, recording));
     go_on().map(|()| ShotAnalysis { margins, tip, aim, hand, scatter, system })
 }

@@ -48,7 +48,11 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
         let player = player.press("y");
         player.shows(&[&format!("System - {system} for this shot")]);
         // Where the shot is gone, its numbers go too.
-        let player = player.press("1 S-Up");
+        let moved = player.press("1 S-Up");
+        moved.shows(&[&format!("System - {system} example")]);
+        let mut player = moved.press("u");
+        player.shows(&[&format!("System - {system} for this shot")]);
+        player.app.paste("2d,0.5d 6d,2d 4d,3.5d");
         player.shows(&[&format!("System - {system} example")]);
     }
 }

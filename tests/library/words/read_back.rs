@@ -166,9 +166,10 @@ fn rail_mark((rail, diamond): (&str, &str)) -> Option<Mark> {
     Some(Mark { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
 }
 
-/// Reads "Red – long 5.1 – short 1.2 – long 2.3 – yellow."
+/// Reads "Red – long 5.1 – short 1.2 – long 2.3 – yellow, thin on the left."; how the second ball is met is not gone by.
 fn course(text: &str) -> Option<Vec<Stop>> {
     let text = text.trim_end_matches('.').to_lowercase();
+    let text = text.split_once(", ").map_or(&*text, |(stops, _)| stops);
     let stop = |words: &str| match words.split_once(' ') {
         Some((length, diamond)) => Some(Stop::Cushion { is_long: length == "long", diamond: diamond.parse().ok()? }),
         None => Some(Stop::Ball(BALL_NAMES.iter().position(|name| *name == words)?)),

@@ -57,8 +57,7 @@ impl CoachPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
         let effect = self.act(action);
-        self.forget_own_stroke();
-        self.renew_lesson();
+        self.renew();
         // Whatever has changed, the closer look is at the shot that is shown now.
         let study = self.study();
         effect.or(study)
@@ -224,8 +223,16 @@ impl CoachPage {
         self.rest();
     }
 
+    /// Another shot is on the table, or none.
     pub(super) fn rest(&mut self) {
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
+        self.renew();
+    }
+
+    /// Whatever has changed, what goes with the shot is of the one that is shown now.
+    fn renew(&mut self) {
+        self.forget_own_stroke();
+        self.renew_lesson();
     }
 }

@@ -242,8 +242,11 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
     let Some(chance) = chance(proposal, query) else {
         return Message::good(format!("makes the point ({}{took})", shot.source));
     };
-    let cause = proposal.risk.and_then(|risk| risk.main_cause()).filter(|cause| *cause != Cause::Hand);
-    let cause = cause.map_or(String::new(), |cause| format!("; missed mostly by {cause}"));
+    let cause = match proposal.risk.and_then(|risk| risk.main_cause()) {
+        Some(Cause::Table) => "; the table is the main risk: F7 measures it",
+        Some(Cause::Placing) => "; the balls' places are the main risk",
+        Some(Cause::Hand) | None => "",
+    };
     Message::good(format!("{} makes it {chance}{cause}", skill_word(query.skill)))
 }
 

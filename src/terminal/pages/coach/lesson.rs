@@ -1,10 +1,13 @@
 //! The lesson on diamond systems over the coach's table: one system after the other, with the shot's own numbers where one
 //! applies to it, else with an example's.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::{
     coach::systems::{Applied, Guide, System},
+    table::Table,
     terminal::{AdviceState, pages::coach::CoachPage},
 };
 
@@ -17,6 +20,8 @@ pub struct Lesson {
     pub is_of_shot: bool,
     /// The way of a ball that is played so, m.
     pub path: Vec<DVec2>,
+    /// The table on which it is.
+    pub table: Arc<Table>,
 }
 
 impl CoachPage {
@@ -47,11 +52,14 @@ impl CoachPage {
         self.lesson = next.and_then(|system| self.lesson_on(*system));
     }
 
-    /// Keeps the lesson's numbers those of the shot that is shown.
+    /// Keeps the lesson's numbers those of the shot that is shown, on the table that is played on.
     pub(super) fn renew_lesson(&mut self) {
         let Some(lesson) = &self.lesson else { return };
         let current = self.of_shot(lesson.applied.system);
-        if lesson.is_of_shot != current.is_some() || current.is_some_and(|applied| *applied != lesson.applied) {
+        let is_other = !Arc::ptr_eq(&lesson.table, &self.balls.present().table)
+            || lesson.is_of_shot != current.is_some()
+            || current.is_some_and(|applied| *applied != lesson.applied);
+        if is_other {
             self.lesson = self.lesson_on(lesson.applied.system);
         }
     }
@@ -67,7 +75,27 @@ impl CoachPage {
         let own = self.of_shot(system).cloned();
         let is_of_shot = own.is_some();
         let applied = own.or_else(|| Applied::example(system, self.table()))?;
-        let path = applied.path(self.table());
-        Some(Lesson { applied, is_of_shot, path })
+        let table = Arc::clone(&self.balls.present().table);
+        Some(Lesson { path: applied.path(&table), applied, is_of_shot, table })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        table::Layout,
+        terminal::{CoachAction, CoachQuery},
+    };
+
+    #[test]
+    fn an_example_is_of_the_table_that_is_played_on() {
+        let [first, second] = ["match", "textbook"].map(|name| Table::preset(name).unwrap());
+        let mut page = CoachPage::new(first.clone(), Layout::opening(&first), 1).unwrap();
+        page.update(CoachAction::NextSystem);
+        let before = page.lesson().unwrap().path.clone();
+        page.take_query(&second, CoachQuery::default());
+        assert_ne!(page.lesson().unwrap().path, before);
+        assert_eq!(*page.lesson().unwrap().table, second);
     }
 }

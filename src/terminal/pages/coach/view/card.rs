@@ -76,10 +76,10 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     rows.push(side_words(proposal, coach));
     rows.push(height_words(proposal, coach));
     rows.push(format!("{} {}", pace_word(words.table_lengths), short(words.table_lengths, 1)));
-    rows.push(match cue_degrees(proposal) {
-        None => "level cue".to_owned(),
-        Some(degrees) if words.is_level => format!("low cue {degrees}\u{b0}"),
-        Some(degrees) => format!("raised {degrees}\u{b0}"),
+    rows.push(match fixed(words.elevation_deg, 0) {
+        _ if words.has_level_cue() => "level cue".to_owned(),
+        degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
+        degrees => format!("raised {degrees}\u{b0}"),
     });
     let mark = |mark: crate::coach::Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
@@ -104,10 +104,10 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         Some(English::Reverse) => ", reverse",
         None => "",
     };
-    let cue = match cue_degrees(proposal) {
-        None => "level".to_owned(),
-        Some(degrees) if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
-        Some(degrees) => format!("raised {degrees}\u{b0}"),
+    let cue = match fixed(words.elevation_deg, 0) {
+        _ if words.has_level_cue() => "level".to_owned(),
+        degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
+        degrees => format!("raised {degrees}\u{b0}"),
     };
     let mark = |mark: crate::coach::Mark| format!("{} rail {}", rail_word(mark.rail), fixed(mark.diamond, 2));
     vec![
@@ -119,12 +119,6 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         ("from", mark(words.behind)),
         ("to", mark(words.ahead)),
     ]
-}
-
-/// Elevation in degrees, where there is any.
-fn cue_degrees(proposal: &Proposal) -> Option<String> {
-    let degrees = proposal.shot.words.elevation_deg;
-    (degrees >= 0.5).then(|| fixed(degrees, 0))
 }
 
 fn side_words(proposal: &Proposal, coach: &CoachPage) -> String {

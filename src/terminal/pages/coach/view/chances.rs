@@ -3,7 +3,7 @@
 use ratatui::{layout::Rect, text::Span};
 
 use crate::{
-    coach::words::pace_word,
+    coach::words::{fullness_word, pace_word},
     terminal::{
         AdviceState, Proposal,
         ui::{Ui, columns, cut, draw_nothing, draw_title, list, spell, wrap, write_right},
@@ -15,10 +15,6 @@ use crate::{
 const NUMBER_END: u16 = 2;
 const CHANCE_END: u16 = 9;
 const WORDS: u16 = 10;
-/// Shares of the ball from which on a hit is no longer thin, is thick, and is full.
-const THIN: f64 = 0.41;
-const THICK: f64 = 0.6;
-const FULL: f64 = 0.85;
 
 /// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`.
 pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: &mut Ui) {
@@ -122,14 +118,4 @@ pub fn sort_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
         }
     }
     spell(&text, ui.caps)
-}
-
-/// How much of a ball is hit, in a word.
-fn fullness_word(fullness: f64) -> &'static str {
-    match fullness {
-        _ if fullness < THIN => "thin",
-        _ if fullness < THICK => "half",
-        _ if fullness < FULL => "thick",
-        _ => "full",
-    }
 }

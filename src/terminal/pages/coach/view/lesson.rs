@@ -141,7 +141,8 @@ mod tests {
     fn the_way_begins_at_the_diamond_behind_and_ends_at_the_third_cushion() {
         let table = Table::default();
         let applied = crate::coach::systems::Applied::example(System::Corner5, &table).unwrap();
-        let lesson = Lesson { path: applied.path(&table), applied, is_of_shot: false };
+        let path = applied.path(&table);
+        let lesson = Lesson { path, applied, is_of_shot: false, table: table.clone().into() };
         let spots = lesson_spots(&lesson, &Theme::new(crate::terminal::Depth::Mono));
         let [first, last] = [spots[0].place, spots[spots.len() - 1].place].map(|place| diamonds(&table, place));
         assert!(first.distance(DVec2::new(8.225, -0.225)) < 0.01, "{first}");

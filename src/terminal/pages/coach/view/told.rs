@@ -19,81 +19,80 @@ use crate::{
     },
 };
 
-/// Draws the panel. What has no room is left out from the end, but for the line of aim, which the title has then.
+/// Draws the panel. The line of aim stands in the title, or where that has no room for it in a row; what else has no room is left
+/// out from the end.
 pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) {
     let (words, units, cue_ball) = (&proposal.shot.words, coach.units, coach.cue_ball());
     let part = |text: String, style| (spell(&text, ui.caps), style);
-    let parts = [
-        part(words.sentence(cue_ball, units), ui.theme.text().add_modifier(ui.theme.strong)),
-        part(words.course(cue_ball, units), ui.theme.accent()),
-        part(words.aim(units), ui.theme.text()),
-    ];
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
-    let (mut lines, count) = lay_out(&parts, width, rows);
+    let [titles @ .., bare] = titles(coach, proposal, ui);
+    // A blank on either side.
+    let fits = |title: &Vec<Span>| title.iter().map(Span::width).sum::<usize>() <= width;
+    let title = titles.into_iter().find(fits);
+    let aim = title.is_none().then(|| part(words.aim(units), ui.theme.text()));
+    let tries = [words.course(cue_ball, units), words.short_course(cue_ball, units)].map(|course| {
+        let sentence = part(words.sentence(cue_ball, units), ui.theme.text().add_modifier(ui.theme.strong));
+        [Some(sentence), Some(part(course, ui.theme.accent())), aim.clone()].into_iter().flatten().collect()
+    });
+    let mut lines = lay_out(&tries, width, rows);
     let why = coach.shown().and_then(|advised: &AdviceState| why_words(advised, ui));
-    if let Some(why) = why.filter(|_| count == parts.len() && lines.len() < rows) {
+    if let Some(why) = why.filter(|_| lines.len() < rows) {
         let lines_of_why = cut(wrap(&why, width), rows - lines.len(), width, ui.caps);
         lines.extend(lines_of_why.into_iter().map(|line| Line::styled(line, ui.theme.faint())));
     }
-    let mut title = title(proposal, ui);
-    if count < parts.len() {
-        let aim = [
-            Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()),
-            Span::styled(format!("aim {}", aim_words(coach, proposal, ui)), ui.theme.text()),
-        ];
-        let wide: usize = title.iter().chain(&aim).map(Span::width).sum();
-        // Half of it would mislead; the shot's numbers beside this panel have it too.
-        if wide < width {
-            title.extend(aim);
-        }
-    }
-    let inner = draw_title(title, area, ui);
+    let inner = draw_title(title.unwrap_or(bare), area, ui);
     for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
         ui.buffer.set_line(inner.x + 1, row, line, inner.width.saturating_sub(2));
     }
 }
 
-/// The line of aim in few words: where the cue comes from and where it points, as diamonds or millimetres along the rails.
-fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> String {
-    let words = &proposal.shot.words;
-    let mark = |mark: Mark| {
-        let place = match coach.units.place {
-            PlaceUnit::Diamonds => fixed(mark.diamond, 2),
-            PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * mark.diamond, 0)),
-        };
-        format!("{} {place}", rail_word(mark.rail))
+/// The titles, the longest first: the pattern's name, how often the shot is made, and the line of aim; the last without that.
+fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>>; 4] {
+    let dash = || Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint());
+    let name = proposal.shot.pattern.map(|pattern| {
+        Span::styled(spell(pattern.name, ui.caps), ui.theme.text().add_modifier(ui.theme.strong))
+    });
+    let [long, short] = aim_words(coach, proposal, ui).map(|words| Span::styled(words, ui.theme.text()));
+    let title = |is_wide: bool, aim: Option<&Span<'static>>| {
+        let chance = chance_span(proposal, is_wide, ui);
+        let parts = [name.clone(), Some(chance), aim.cloned()].into_iter().flatten();
+        parts.flat_map(|part| [dash(), part]).skip(1).collect()
     };
-    format!("{} {} {}", mark(words.behind), ui.caps.pick("→", ">"), mark(words.ahead))
+    [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }
 
-/// The pattern's name, and how often the shot is made by whom.
-fn title(proposal: &Proposal, ui: &Ui) -> Vec<Span<'static>> {
-    let mut title = Vec::new();
-    if let Some(pattern) = proposal.shot.pattern {
-        let name = spell(pattern.name, ui.caps);
-        title.push(Span::styled(name, ui.theme.text().add_modifier(ui.theme.strong)));
-        title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
-    }
-    title.push(chance_span(proposal, true, ui));
-    title
+/// The line of aim in few words, and in fewer: where the cue comes from and where it points, as diamonds or millimetres along
+/// the rails.
+fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
+    let words = &proposal.shot.words;
+    let (is_mm, diamond) = (coach.units.place == PlaceUnit::Mm, coach.table().diamond());
+    let place = |mark: Mark| match is_mm {
+        true => format!("{} mm", fixed(1e3 * diamond * mark.diamond, 0)),
+        false => fixed(mark.diamond, 2),
+    };
+    let [behind, ahead] = [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place(mark)));
+    let unit = if is_mm { "" } else { "diamond " };
+    [
+        format!("aim from {unit}{} {} to {} {}", behind.1, behind.0, ahead.1, ahead.0),
+        format!("aim {} {} {} {} {}", behind.0, behind.1, ui.caps.pick("→", ">"), ahead.0, ahead.1),
+    ]
 }
 
-/// As many of the parts as `rows` hold, each from a new row or else one behind the other, and how many these are. The first two
-/// are always there, cut at their end.
-fn lay_out(parts: &[(String, Style)], width: usize, rows: usize) -> (Vec<Line<'static>>, usize) {
-    for count in (2..=parts.len()).rev() {
-        let apart: Vec<Line> = parts[..count]
+/// The first of the tries that `rows` hold, each part from a new row or else one behind the other; the last, cut at its end, where
+/// none has room.
+fn lay_out(tries: &[Vec<(String, Style)>], width: usize, rows: usize) -> Vec<Line<'static>> {
+    for parts in tries {
+        let apart: Vec<Line> = parts
             .iter()
             .flat_map(|(text, style)| wrap(text, width).into_iter().map(|line| Line::styled(line, *style)))
             .collect();
-        let layouts = [apart, flow(&parts[..count], width)];
-        if let Some(lines) = layouts.into_iter().find(|lines| lines.len() <= rows) {
-            return (lines, count);
+        if let Some(lines) = [apart, flow(parts, width)].into_iter().find(|lines| lines.len() <= rows) {
+            return lines;
         }
     }
-    let mut lines = flow(&parts[..parts.len().min(2)], width);
+    let mut lines = tries.last().map_or_else(Vec::new, |parts| flow(parts, width));
     lines.truncate(rows);
-    (lines, 2)
+    lines
 }
 
 /// Texts one behind the other, each in its style.
@@ -125,17 +124,17 @@ mod tests {
         texts.iter().map(|text| ((*text).to_owned(), Style::new())).collect()
     }
 
-    fn laid_out(parts: &[&str], width: usize, rows: usize) -> (Vec<String>, usize) {
-        let (lines, count) = lay_out(&texts(parts), width, rows);
-        (lines.iter().map(ToString::to_string).collect(), count)
+    fn laid_out(tries: &[&[&str]], width: usize, rows: usize) -> Vec<String> {
+        let tries: Vec<_> = tries.iter().map(|parts| texts(parts)).collect();
+        lay_out(&tries, width, rows).iter().map(ToString::to_string).collect()
     }
 
     #[test]
-    fn parts_stand_apart_where_there_is_room_and_flow_where_there_is_less() {
-        let parts = ["one two three", "four", "five six"];
-        assert_eq!(laid_out(&parts, 9, 4).0, ["one two", "three", "four", "five six"]);
-        assert_eq!(laid_out(&parts, 10, 3), (vec!["one two".into(), "three four".into(), "five six".into()], 3));
-        assert_eq!(laid_out(&parts, 10, 2), (vec!["one two".into(), "three four".into()], 2));
-        assert_eq!(laid_out(&parts, 10, 1), (vec!["one two".into()], 2), "what has no room at all is cut");
+    fn parts_stand_apart_where_there_is_room_flow_where_there_is_less_and_are_shorter_where_there_is_least() {
+        let tries = [&["one two three", "four", "five six"][..], &["one two three", "four"]];
+        assert_eq!(laid_out(&tries, 9, 4), ["one two", "three", "four", "five six"]);
+        assert_eq!(laid_out(&tries, 10, 3), ["one two", "three four", "five six"]);
+        assert_eq!(laid_out(&tries, 10, 2), ["one two", "three four"]);
+        assert_eq!(laid_out(&tries, 10, 1), ["one two"], "what has no room at all is cut");
     }
 }
