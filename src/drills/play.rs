@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
-    coach::errors,
+    coach::{Verdict, errors},
     game::{Point, Rule, Tally},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
-    simulation::{Event, Observer, simulate},
+    simulation::{Event, Observer, Recording, simulate},
     table::{Layout, Table},
 };
 
@@ -39,10 +39,8 @@ pub struct Played {
     pub stroke: CueInputs,
     /// Whether the tip slipped off the ball: then no ball moves, and there is no point.
     pub miscue: bool,
-    /// What was asked of it.
-    pub point: Point,
-    /// What the cue ball did.
-    pub tally: Tally,
+    /// What came of it.
+    pub verdict: Verdict,
     /// Whether it made the point.
     pub made: bool,
     /// Where the balls came to rest, m.
@@ -56,8 +54,18 @@ impl Played {
         let miscue = stroke.is_miscue(table);
         let end =
             if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
-        let point = Point::of(rule, table, layout);
-        Self { stroke, miscue, point, tally: watcher.0, made: point.is_made(&watcher.0), end }
+        let verdict = Verdict { point: Point::of(rule, table, layout), tally: watcher.0, miss: None };
+        Self { stroke, miscue, verdict, made: verdict.is_made(), end }
+    }
+
+    /// The same where it is told how a ball was missed, which takes a second look.
+    fn with_miss(self, rule: Rule, table: &Table, layout: &Layout) -> Self {
+        if self.made || self.miscue {
+            return self;
+        }
+        let recording = Recording::new(table, layout, &self.stroke);
+        let verdict = recording.map_or(self.verdict, |recording| Verdict::of(rule, table, layout, &recording));
+        Self { verdict, ..self }
     }
 }
 
@@ -120,7 +128,7 @@ impl Session {
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
         let stroke = self.skill.stroke(table.radius, &meant, &errors);
-        let played = Played::of(exercise.rule, &table, &layout, stroke);
+        let played = Played::of(exercise.rule, &table, &layout, stroke).with_miss(exercise.rule, &table, &layout);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),
             meant: Some(meant),
@@ -172,8 +180,24 @@ impl Attempt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Room;
+    use crate::{
+        coach::{Skill, words::LengthUnit},
+        drills::{Exercise, Goal, Venue},
+        table::{CueBall, Room},
+    };
     use glam::DVec2;
+
+    #[test]
+    fn a_miss_says_by_how_much_and_on_which_side_a_ball_was_passed() {
+        // Yellow lies 10 cm to the left of the way, red far behind.
+        let layout = Layout::parse("-1,0 0,0.1 -1.3,-0.6", &Table::default()).unwrap();
+        let exercise = Exercise::own("passed", Rule::StraightRail, "match", layout);
+        let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise], Skill::PERFECT, 1);
+        let played = session.play(CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 }, false).unwrap();
+        let told = |unit| played.words(CueBall::White, unit);
+        assert_eq!(told(LengthUnit::Metres), "No point: no ball was met, passed yellow by 3.9 cm on the right");
+        assert!(told(LengthUnit::Feet).ends_with("passed yellow by 1.5 in on the right"));
+    }
 
     #[test]
     fn a_rail_raises_the_cue_that_is_meant_level_and_a_cue_without_room_is_refused() {

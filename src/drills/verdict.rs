@@ -2,7 +2,7 @@
 
 use super::{Played, difference};
 use crate::{
-    coach::{Verdict, words::LengthUnit},
+    coach::words::LengthUnit,
     physics::CueInputs,
     table::{CueBall, Table},
 };
@@ -14,11 +14,11 @@ const ANOTHER_SHOT: f64 = 12.0;
 
 impl Played {
     /// Whether it made the point, and what was missing if it did not, for who plays with `cue_ball`.
-    pub fn verdict(&self, cue_ball: CueBall) -> String {
+    pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
         if self.miscue {
             return "No point: the tip slipped off the ball".to_owned();
         }
-        Verdict { point: self.point, tally: self.tally, miss: None }.words(cue_ball, LengthUnit::default())
+        self.verdict.words(cue_ball, unit)
     }
 }
 

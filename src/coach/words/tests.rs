@@ -1,7 +1,7 @@
 //! The sentence of known shots.
 
 use super::*;
-use crate::table::CueBall;
+use crate::{physics::with_room, table::CueBall};
 
 fn words(layout: &str, cue: &str) -> ShotWords {
     let table = Table::preset("textbook").unwrap();
@@ -16,4 +16,33 @@ fn a_shot_is_told_as_a_player_says_it() {
     assert!(sentence.starts_with("Red, half full on the left; two tips of "), "{sentence}");
     assert!(sentence.contains("right at 2 o'clock, one tip above centre; "), "{sentence}");
     assert!(sentence.ends_with("table lengths), level cue."), "{sentence}");
+}
+
+#[test]
+fn the_course_ends_with_how_the_second_ball_is_met_as_the_cue_ball_comes_on() {
+    let course = |layout: &str, cue: &str| words(layout, cue).course(CueBall::White, Units::default());
+    let told = course("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
+    assert!(told.starts_with("Yellow \u{2013} ") && told.ends_with(" \u{2013} red, half on the right."), "{told}");
+    let mirrored = course("-1,0 0,-0.02 0.6,-0.1", "0,0.3,0,0,4");
+    assert_eq!(mirrored, told.replace("right", "left"));
+    let short = words("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4").short_course(CueBall::White, Units::default());
+    assert_eq!(short, told.replace(", half on the right", ""));
+    assert_eq!(course("-0.7,0 0.9,0.5 0,-0.03075", "0,0,0,10,0.3"), ".", "what meets nothing has no course");
+}
+
+#[test]
+fn a_cue_as_low_as_the_rail_behind_it_allows_is_level_but_one_over_a_near_rail_is_not() {
+    let table = Table::preset("match").unwrap();
+    let told = |layout: &str, raised: f64| {
+        let layout = Layout::parse(layout, &table).unwrap();
+        let level = CueInputs::parse("0,0,0,0,2").unwrap();
+        let low = with_room(&table, &layout, &level).unwrap();
+        assert!(low.theta > 0.0, "{low:?}");
+        let cue = CueInputs { theta: low.theta + raised.to_radians(), ..low };
+        ShotWords::of(&table, &layout, &cue).unwrap().sentence(CueBall::White, Units::default())
+    };
+    let (middle, at_the_rail) = ("-0.7,0 0.9,0.5 0.5,-0.3", "-1.38,0 0.9,0.5 0.5,-0.3");
+    assert!(told(middle, 0.0).ends_with(", level cue."), "{}", told(middle, 0.0));
+    assert!(told(middle, 4.0).contains(", cue raised "), "{}", told(middle, 4.0));
+    assert!(told(at_the_rail, 0.0).ends_with(", cue as level as it can be."), "{}", told(at_the_rail, 0.0));
 }

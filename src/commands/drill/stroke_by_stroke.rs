@@ -9,11 +9,11 @@ use super::{
     score::{Score, layout_text, plural, shot_text, words},
 };
 use crate::{
-    coach::{Coach, Request},
+    coach::{Coach, Request, words::LengthUnit},
     commands::{
         Failure,
         input::ByTable,
-        output::{json_line, line, tell},
+        output::{json_line, line, tell, units},
         recommend::coach_for,
     },
     drills::{
@@ -208,7 +208,8 @@ impl<'a> StrokeByStroke<'a> {
 
         let by = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
-        let (verdict, run) = (played.verdict(cue_ball), self.session.run());
+        let unit = if self.options.json { LengthUnit::default() } else { units().length };
+        let (verdict, run) = (played.words(cue_ball, unit), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue));
         if self.options.json {
             let turn = AttemptLine {

@@ -13,7 +13,9 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::{Coach, Kind, Pattern, Request, ShotWords, Technique, Units, Verdict, Why, aim, margins, why},
+    coach::{
+        Coach, Kind, Pattern, Request, ShotWords, Technique, Units, Verdict, Why, aim, margins, systems::guide, why,
+    },
     game::Point,
     learning::evaluation::SuccessRate,
     physics::CueInputs,
@@ -168,6 +170,10 @@ impl Conversation {
                 let aim = aim(talk.table(), talk.layout(), &shot.cue).ok();
                 speech::stroke(talk.table(), &shot.cue, aim.as_ref(), talk.cue_ball())
             }),
+            Order::System => self.about_the_shot(|talk, shot| {
+                talk.recorded(shot, |recording| speech::system(guide(talk.table(), recording).as_ref()))
+            }),
+            Order::Words => speech::words(self.table()),
             Order::Tell(all) => self.about_the_shot(|talk, shot| {
                 talk.recorded(shot, |recording| {
                     let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), recording);
@@ -247,7 +253,9 @@ impl Conversation {
         self.about_the_shot(|talk, shot| {
             let mut lines = Vec::new();
             let (cue_ball, units) = (talk.cue_ball(), talk.units);
-            if let Ok(technique) = Technique::of(talk.table(), talk.layout(), &shot.cue) {
+            let recording = Recording::new(talk.table(), talk.layout(), &shot.cue).ok();
+            if let Some(recording) = &recording {
+                let technique = Technique::of_recorded(talk.table(), recording);
                 let words = ShotWords::of_technique(talk.table(), talk.layout(), &shot.cue, &technique);
                 lines.extend([words.sentence(cue_ball, units), words.course(cue_ball, units), words.aim(units)]);
                 let pattern = Pattern::of(&technique);
@@ -256,6 +264,8 @@ impl Conversation {
             lines.push(speech::chance(shot.kind, shot.rate, talk.request.skill, cue_ball));
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
             lines.extend(why.map(|why| why.words(cue_ball, units)));
+            let system = recording.filter(|_| shot.kind.is_some()).and_then(|shot| guide(talk.table(), &shot));
+            lines.extend(system.map(|system| format!("{system}.")));
             lines.join("\n")
         })
     }
@@ -277,6 +287,7 @@ const NO_SHOT: &str = "There is no shot yet; say shot to ask for one.";
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Instant;
 
     fn talk(lines: &str) -> String {
         let table = Table::default();
@@ -304,6 +315,40 @@ mod tests {
         }
         let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
         assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+    }
+
+    #[test]
+    fn the_system_of_a_shot_is_told_and_what_the_words_mean() {
+        let said = talk("system\nwords\nrule three-cushion\nballs 2d,2.6d 2d,2d 6d,2d\nshot\nsystem");
+        assert!(said.contains("There is no shot yet") && said.contains("3.1 millimetres each"), "{said}");
+        let told = said.lines().last().unwrap();
+        let is_told = told.contains("Aim through the diamond") || told.starts_with("Parallel shift");
+        assert!(is_told || told == "No diamond system describes this shot.", "{said}");
+    }
+
+    /// Why a shot leads, and which system describes it, is worked out after the search: in less time than that of the search, which
+    /// a player has set. Counted in shots, since machines differ.
+    #[test]
+    fn the_reasons_take_no_longer_than_a_short_search() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let coach = Coach::new(table.clone()).unwrap();
+        let request = Request { simulations: 4000, budget: Duration::from_mins(1), ..Request::default() };
+        let advice = coach.recommend(&layout, &request).unwrap();
+        let timed = |work: &dyn Fn()| {
+            let start = Instant::now();
+            work();
+            start.elapsed()
+        };
+        // The least of three: what else runs on the machine only adds to a time.
+        let least = |work: &dyn Fn()| (0..3).map(|_| timed(work)).min().unwrap();
+        let record = || Recording::new(&table, &layout, &advice.cue).unwrap();
+        let shots = least(&|| (0..500).for_each(|_| drop(record())));
+        let reasons = least(&|| {
+            why(request.shooter(), request.rule, &table, &layout, &advice, 0).unwrap();
+            drop(guide(&table, &record()));
+        });
+        assert!(reasons < 4 * shots, "{reasons:?} for the reasons, {shots:?} for 500 shots");
     }
 
     #[test]

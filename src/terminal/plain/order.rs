@@ -39,6 +39,10 @@ pub enum Order {
     Margins,
     /// Where the tip meets the ball, the speed and the direction, in numbers.
     Numbers,
+    /// What a player counts on the diamonds for it.
+    System,
+    /// What the words for a shot mean.
+    Words,
     /// Which balls and cushions are met in it, or with `true` all that happens, and what comes of it.
     Tell(bool),
     /// Balls as it leaves them.
@@ -60,6 +64,8 @@ pub const HELP: &[(&str, &str)] = &[
     ("shot", "ask the coach for a shot; an empty line does the same"),
     ("other", "the next of the other shots"),
     ("numbers", "the shot in millimetres, metres a second and degrees"),
+    ("system", "what a player counts on the diamonds for the shot, and what that is on this table"),
+    ("words", "what the words for a shot mean: tips, o'clock, full, table lengths, diamonds"),
     ("tell", "what the balls meet in the shot, and what comes of it"),
     ("tell all", "the same, and where they begin to roll and stop"),
     ("margins", "how far off the shot may be, and where to aim"),
@@ -94,6 +100,8 @@ impl FromStr for Order {
             [] | ["shot"] => Self::Shot,
             ["other"] => Self::Other,
             ["numbers"] => Self::Numbers,
+            ["system"] => Self::System,
+            ["words"] => Self::Words,
             ["tell"] => Self::Tell(false),
             ["tell", "all"] => Self::Tell(true),
             ["margins"] => Self::Margins,

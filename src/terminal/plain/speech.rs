@@ -1,7 +1,7 @@
 //! Sentences about balls and shots, for ears.
 
 use crate::{
-    coach::{Aim, Input, Kind, Margin, Skill, Way},
+    coach::{Aim, Input, Kind, Margin, Skill, Way, systems::Guide, words::TIP},
     learning::evaluation::SuccessRate,
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
@@ -59,6 +59,36 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
         }));
     }
     lines.join("\n")
+}
+
+/// What a player counts on the diamonds for a shot.
+pub fn system(guide: Option<&Guide>) -> String {
+    match guide {
+        None => "No diamond system describes this shot.".to_owned(),
+        Some(Guide::System(applied)) => {
+            let system = applied.system;
+            let side = if system.is_running() { "running side" } else { "no side" };
+            format!(
+                "{applied}.\nIn words: {}, with {side}: {}. Aim through the diamond on the wood.",
+                system.track(),
+                system.rule()
+            )
+        }
+        Some(shift) => format!("{shift}."),
+    }
+}
+
+/// What the words for a shot mean.
+pub fn words(table: &Table) -> String {
+    let tip = fixed(1e3 * TIP * table.radius, 1);
+    format!(
+        "Tips: how far the cue's tip is from the middle of the ball, {tip} millimetres each; above and below, or of left and right side.\n\
+         O'clock: in which direction from the middle, as you look along the cue.\n\
+         Running side makes the way off the first cushion longer, reverse side shorter.\n\
+         Full: how much of the ball is covered as the cue ball comes on; on the left is its left half.\n\
+         Table lengths: how far a ball would run that is struck so in the middle; up the table and back is two.\n\
+         Diamonds: counted from the lower left corner, 0 to 8 along the long rails, 0 to 4 up the short ones."
+    )
 }
 
 /// What sort of shot, and how often the player makes it.

@@ -4,9 +4,13 @@ use glam::DVec2;
 use ratatui::layout::Rect;
 
 use crate::{
+    coach::words::TIP,
     physics::CueInputs,
     table::Table,
-    terminal::ui::{Dot, Ink, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark},
+    terminal::{
+        ui::{Dot, Ink, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark},
+        words::fixed,
+    },
 };
 
 /// Radius of the tip's contact as it is drawn, in ball radii; a real one is smaller than a sub-pixel.
@@ -17,9 +21,17 @@ const TIP_RADIUS: f64 = 0.17;
 const TIP_WEIGHT: u8 = 24;
 const FACE_WEIGHT: u8 = 3;
 
-/// Draws the panel: where the tip meets the ball in the stroke `cue`, if there is one.
-pub fn draw_tip(cue: Option<&CueInputs>, table: &Table, area: Rect, ui: &mut Ui) {
-    let inner = draw_title("Tip", area, ui);
+/// Draws the panel: where the tip meets the ball in the stroke `cue`, if there is one. Where a shot is told in tips, the title
+/// says `how_long` one is.
+pub fn draw_tip(cue: Option<&CueInputs>, how_long: bool, table: &Table, area: Rect, ui: &mut Ui) {
+    let tip = format!("{} mm", fixed(1e3 * TIP * table.radius, 0));
+    let title = match area.width {
+        _ if !how_long => "Tip".to_owned(),
+        // A blank on either side, behind the rule.
+        width if width > 14 => format!("1 tip = {tip}"),
+        _ => format!("Tip = {tip}"),
+    };
+    let inner = draw_title(title, area, ui);
     // In radii, right and up as the shooter sees it: positive `a` is on the left.
     let tip = cue.map(|cue| DVec2::new(-cue.a, cue.b));
     draw_face(tip, Some(table.miscue_limit.sqrt()), face_in(inner), ui);

@@ -6,7 +6,7 @@ use super::{
 };
 use carom::{
     table::Table,
-    terminal::{AdviceState, App, Mapping, Overlay, PageId},
+    terminal::{AdviceState, App, KeyContext, Mapping, Overlay, PageId},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
@@ -58,6 +58,20 @@ fn a_ball_goes_where_the_mouse_is_and_one_step_takes_all_of_it_back() {
     let player = player.press("u");
     assert_eq!(*player.app.layout(), start);
     assert!(player.press("u").text(120, 40).contains("there is nothing to take back"));
+}
+
+#[test]
+fn beside_a_stroke_of_the_players_own_the_wheel_turns_the_pace_and_a_ball_that_is_taken_leaves_the_stroke() {
+    let player = at_the_table(Player::new().press("Enter").answer().press("w S-Up"));
+    let (before, start) = (player.app.playback().speed(), *player.app.layout());
+    let cell = mapping().to_cell(start.balls[0]);
+    let player = player.point(MouseEventKind::ScrollUp, cell);
+    assert!(player.app.playback().speed() > before && player.app.place() == KeyContext::OwnStroke);
+    let player = player.point(PRESS, cell);
+    assert_eq!((player.app.place(), *player.app.layout()), (KeyContext::Coach, start));
+    let player = player.point(DRAG, (cell.0 + 8, cell.1)).point(RELEASE, (cell.0 + 8, cell.1));
+    assert!(player.app.layout().balls[0].x > start.balls[0].x + 0.1);
+    assert_eq!(*player.press("u").app.layout(), start);
 }
 
 #[test]

@@ -22,7 +22,9 @@ const KEYS: usize = 22;
 
 /// Each is a paragraph.
 const COACH_NOTES: [&str; 6] = [
-    "Places are measured from the middle of the table, x to the right, y up. The dots are the predicted paths; rings are \
+    "Places are measured from the middle of the table, x to the right, y up; diamonds from the lower left corner, 0 to 8 along \
+     the long rails and 0 to 4 up the short ones, as the corners say. 1, 2, 3 on the rails are the cue ball's cushions. A kiss is \
+     where balls meet that should not, and in how many strokes that spoils the point. The dots are the predicted paths; rings are \
      where the cue ball first meets each ball and where the balls stop. While a shot plays, a ball trails bright dots for 0.4 s; \
      those before them are pale. On a small screen the balls are drawn larger than they are; they roll \
      and touch at their true size.",
@@ -33,7 +35,10 @@ const COACH_NOTES: [&str; 6] = [
      errors.",
     "The plan: dots show where the balls stop in 100 attempts, as far as they make the point, and the cue ball's way in the \
      next shot, if all goes as meant.",
-    "Tip: the cue ball from behind the cue; in its grey part the tip would slip off. Sight: the first object ball as the cue \
+    "Tip: the cue ball from behind the cue; in its grey part the tip would slip off. Side and height are counted in tips, a tenth \
+     of the ball's radius each, 3 mm: three tips of left at 10 o'clock is 9 mm left of the middle and somewhat above it. Running side \
+     makes the way off the first cushion longer, reverse side shorter. Table lengths: how far a ball would run that is struck so in the \
+     middle; once up the table and back is two. Sight: the first object ball as the cue \
      ball comes on, and how much of it that covers. Spin, while a shot plays: the cue ball from behind along its way, with the \
      place where a level cue would have to meet it to give it the spin that it has at its speed; a rolling ball has it two \
      fifths above the middle.",

@@ -165,8 +165,9 @@ impl CoachPage {
         self.place_balls();
     }
 
-    /// Leaves the shot, which is paused.
+    /// Leaves the shot, which is paused, and a stroke of the player's own beside it.
     fn place_balls(&mut self) {
+        self.compared = None;
         self.playback.pause();
         self.mode = Mode::Placing;
     }

@@ -194,7 +194,7 @@ const POSITIONS: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
-    bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("recommend", 1)), "ask the coach for a shot"),
+    bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("ask", 1)), "ask the coach for a shot"),
     bind(Balls, W::Interrupted, &[letter('c', A::Resume)], Some(("go on", 1)),
         "go on with the exam that was left, or from where the last session ended"),
     bind(Shot, W::Trained, &[letter('b', A::Bundled)], Some(("bundled", 1)),

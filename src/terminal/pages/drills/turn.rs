@@ -8,7 +8,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::Skill,
+    coach::{Skill, words::LengthUnit},
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
     learning::evaluation::SuccessRate,
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
@@ -261,10 +261,10 @@ impl Turn {
     }
 
     /// The result of the watched stroke, once it may be shown.
-    pub fn verdict(&self) -> Option<Message> {
+    pub fn verdict(&self, unit: LengthUnit) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let Outcome { played, .. } = &watched.outcome;
-        let text = played.verdict(self.cue_ball);
+        let text = played.words(self.cue_ball, unit);
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 

@@ -1,4 +1,4 @@
-//! The numbers of the cue ball's cushions, at the rails where it meets them.
+//! Numbers at the rails: of the cue ball's cushions, where it meets them, and from where on diamonds are counted.
 
 use glam::DVec2;
 use ratatui::style::Modifier;
@@ -21,6 +21,18 @@ pub fn draw_cushions(words: &ShotWords, table: &Table, mapping: &Mapping, ui: &m
     let cushions = words.before.iter().chain(&words.between).take(NUMBERED);
     for (cell, number) in cells(cushions, table, mapping).into_iter().zip(1..) {
         ui.buffer.set_string(cell.0, cell.1, number.to_string(), style);
+    }
+}
+
+/// Writes how many diamonds away the lower left corner is, from which they are counted, at that corner and at both beside it.
+pub fn draw_counts(table: &Table, mapping: &Mapping, ui: &mut Ui) {
+    let (bed, outer) = (mapping.bed, mapping.outer());
+    let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
+    let style = ui.theme.text().fg(ui.theme.sight).bg(back);
+    let [long, short] = [table.length, table.width].map(|side| (side / table.diamond()).round().to_string());
+    let (right, below) = (outer.right() - 1, bed.bottom());
+    for (x, y, count) in [(outer.x, below, "0"), (right, below, &*long), (outer.x, bed.y - 1, &*short)] {
+        ui.buffer.set_stringn(x, y, count, 1, style);
     }
 }
 

@@ -16,7 +16,11 @@ use crate::{
         ui::{
             Theme, Ui,
             sprites::Sprite,
-            table::{cushions::draw_cushions, rails::draw_rails, scene::Scene},
+            table::{
+                cushions::{draw_counts, draw_cushions},
+                rails::draw_rails,
+                scene::Scene,
+            },
         },
     },
 };
@@ -62,10 +66,12 @@ pub struct TableView<'a> {
     pub front: usize,
     /// Whether the paths of the object balls are left out, for something else that there is to see.
     pub is_lean: bool,
-    /// Whether the cushions of the shot are numbered on the rails.
+    /// Whether the cushions of the shot are numbered on the rails, and the corners with the diamonds that are counted to there.
     pub is_numbered: bool,
     /// What else is drawn, below the paths and the balls, the first lowest.
     pub spots: &'a [Spot],
+    /// Words at a place, where there is something to see.
+    pub note: Option<(DVec2, &'a str)>,
     /// Where a film shows the balls at the same moment: outlines below the balls. The outlines of what lies ahead in the
     /// shot are left out then.
     pub film: Option<[DVec2; BALLS]>,
@@ -90,6 +96,7 @@ impl<'a> TableView<'a> {
             is_lean: false,
             is_numbered: true,
             spots: &[],
+            note: None,
             film: None,
             theme: ui.theme,
             caps: ui.caps,
@@ -115,8 +122,9 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let time = if view.is_moving { view.time } else { 0.0 };
     let scene = Scene { view, mapping, time, balls, sprite, clear };
     paint::paint(&scene, ui);
-    if let Some(shot) = view.shot.filter(|_| view.is_numbered) {
-        draw_cushions(&shot.words, view.table, &mapping, ui);
+    if view.is_numbered {
+        draw_counts(view.table, &mapping, ui);
+        view.shot.inspect(|shot| draw_cushions(&shot.words, view.table, &mapping, ui));
     }
     ways::draw_words(&scene, ui);
 }

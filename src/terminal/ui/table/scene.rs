@@ -189,6 +189,7 @@ mod tests {
             is_lean: false,
             is_numbered: false,
             spots: &[],
+            note: None,
             film: None,
             theme: &theme,
             caps: Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true },

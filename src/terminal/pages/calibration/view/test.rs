@@ -77,7 +77,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
 /// The tip, and the stroke in numbers below it.
 fn draw_stroke(table: &Table, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     let cue = &sketch.cue;
-    draw_tip(Some(cue), table, Rect { height: area.height.saturating_sub(WORDS), ..area }, ui);
+    draw_tip(Some(cue), false, table, Rect { height: area.height.saturating_sub(WORDS), ..area }, ui);
     let offset = |value: f64, word: &str| match word {
         "mid" => None,
         word => Some(format!("{}R {word}", fixed(value.abs(), 1))),
@@ -115,7 +115,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     spots.extend(cue.map(|place| Spot { place, is_ball: false, color: ui.theme.cue, letter: sign }));
     let marks = sketch.places.iter().flatten();
     spots.extend(marks.map(|place| Spot { place: *place, is_ball: true, color: ui.theme.mark, letter: 'o' }));
-    let view = TableView { spots: &spots, ..TableView::new(table, &sketch.layout, ui) };
+    let view = TableView { spots: &spots, is_numbered: false, ..TableView::new(table, &sketch.layout, ui) };
     draw_table(&view, area, ui);
     number_rails(table, &mapping, ui);
     number_marks(test, sketch, &mapping, ui);

@@ -13,9 +13,11 @@ mod plan;
 mod shot;
 mod told;
 
+use glam::DVec2;
 use ratatui::layout::{Position, Rect};
 
 use crate::{
+    coach::words::TipUnit,
     table::BALLS,
     terminal::{
         AdviceState, Mapping, Mode, Shot, View,
@@ -59,6 +61,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     if let Some(lesson) = lesson {
         spots = lesson_spots(lesson, ui.theme);
     }
+    let kiss = kiss_note(coach);
     let view = TableView {
         // An example is not of these balls.
         shot: coach.shot().map(AsRef::as_ref).filter(|_| lesson.is_none_or(|lesson| lesson.is_of_shot)),
@@ -72,6 +75,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         // Those of a system are there then.
         is_numbered: lesson.is_none(),
         spots: &spots,
+        note: kiss.as_ref().map(|(place, words)| (*place, words.as_str())),
         ..TableView::new(coach.table(), coach.layout(), ui)
     };
     draw_table(&view, panes.table, ui);
@@ -88,6 +92,13 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     draw_status(&message, area.status, ui)
 }
 
+/// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
+fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
+    let advised = coach.shown().filter(|advised| advised.chosen() == 0 && coach.what_if().is_none());
+    let kiss = advised.filter(|_| coach.told().is_some() && coach.view == View::Shot)?.why.as_ref()?.kiss?;
+    Some((kiss.place, format!("kiss {} %", percent(kiss.share))))
+}
+
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
 /// far as there is room.
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
@@ -97,7 +108,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         return draw_own_stroke(coach, what_if, panes, ui);
     }
     let told = coach.told().filter(|_| chosen == View::Shot);
-    let is_beside = panes.shot.y < panes.info.y;
+    let is_beside = panes.is_beside();
     for (view, area) in views(chosen, panes) {
         match coach.lesson().filter(|_| view == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
@@ -127,7 +138,8 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         Some(proposal) => draw_card(proposal, coach, panes.shot, ui),
         None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, ui),
     }
-    draw_tip(shot.map(|shot| &shot.cue), table, panes.tip, ui);
+    let how_long = shot.is_some() && !coach.is_in_numbers && coach.units.tip == TipUnit::Tips;
+    draw_tip(shot.map(|shot| &shot.cue), how_long, table, panes.tip, ui);
     let time = coach.watched().map(|_| coach.playback.readout);
     match shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius)) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
@@ -158,9 +170,9 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), Panes::new(coach.table(), area).table)
 }
 
-/// What the mouse points at; nothing while something is asked, or a stroke is set.
+/// What the mouse points at; nothing while something is asked.
 pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
-    if coach.question().is_some() || coach.what_if().is_some() {
+    if coach.question().is_some() {
         return None;
     }
     let area = area.screen;
@@ -170,7 +182,7 @@ pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target
     }
     let panes = Panes::new(coach.table(), area);
     let (_, panel) = views(coach.view, &panes).find(|(view, _)| *view == View::Chances)?;
-    let advised = coach.shown().filter(|_| panel.contains(at))?;
+    let advised = coach.shown().filter(|_| panel.contains(at) && coach.what_if().is_none())?;
     choice_at(advised, panel, at.y).map(Target::Shot)
 }
 

@@ -70,6 +70,11 @@ impl Panes {
         if area.width >= ALL_BELOW_WIDTH && is_large { below } else { beside }
     }
 
+    /// Whether a column of panels stands beside the table; else all stand below.
+    pub const fn is_beside(&self) -> bool {
+        self.shot.y < self.info.y
+    }
+
     /// All rows but the first, which is the header's, and the last two, for news and keys.
     fn middle(area: Rect) -> Rect {
         Rect::new(area.x, area.y + 1, area.width, area.height.saturating_sub(3))

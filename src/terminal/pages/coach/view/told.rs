@@ -49,9 +49,10 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
 /// The titles, the longest first: the pattern's name, how often the shot is made, and the line of aim; the last without that.
 fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>>; 4] {
     let dash = || Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint());
-    let name = proposal.shot.pattern.map(|pattern| {
-        Span::styled(spell(pattern.name, ui.caps), ui.theme.text().add_modifier(ui.theme.strong))
-    });
+    let name = proposal
+        .shot
+        .pattern
+        .map(|pattern| Span::styled(spell(pattern.name, ui.caps), ui.theme.text().add_modifier(ui.theme.strong)));
     let [long, short] = aim_words(coach, proposal, ui).map(|words| Span::styled(words, ui.theme.text()));
     let title = |is_wide: bool, aim: Option<&Span<'static>>| {
         let chance = chance_span(proposal, is_wide, ui);

@@ -3,16 +3,19 @@
 use glam::DVec2;
 use ratatui::layout::Rect;
 
-use crate::terminal::{
-    Capabilities, Shot,
-    pages::drills::{
-        DrillsPage, Lesson, Meets, Sight, Turn,
-        view::{draw_header, panels, panes::Panes, score, separator},
-    },
-    shot::Meeting,
-    ui::{
-        Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip,
-        draw_what_if,
+use crate::{
+    coach::words::{LengthUnit, TipUnit},
+    terminal::{
+        Capabilities, Shot,
+        pages::drills::{
+            DrillsPage, Lesson, Meets, Sight, Turn,
+            view::{draw_header, panels, panes::Panes, score, separator},
+        },
+        shot::Meeting,
+        ui::{
+            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip,
+            draw_what_if,
+        },
     },
 };
 
@@ -44,7 +47,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     draw_table(&view, panes.table, ui);
     panels::draw_stroke(turn, panes.stroke, ui);
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
-    draw_tip(Some(meant), &turn.table, panes.tip, ui);
+    draw_tip(Some(meant), what_if.is_some() && drills.units.tip == TipUnit::Tips, &turn.table, panes.tip, ui);
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
     match spin {
@@ -64,7 +67,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         None => panels::draw_aim(turn, panes.aim, ui),
     }
     score::draw(drills, turn, panes.score, ui);
-    standing(turn)
+    standing(turn, drills.units.length)
 }
 
 /// What counts, how hard it is, and how it is repeated.
@@ -112,11 +115,11 @@ fn spots(turn: &Turn, sight: &Sight, theme: &Theme, caps: Capabilities) -> Vec<S
     cue.filter(on_table).chain(line).chain([ghost]).collect()
 }
 
-fn standing(turn: &Turn) -> Message {
+fn standing(turn: &Turn, unit: LengthUnit) -> Message {
     if turn.is_waiting() {
         return Message::plain("the stroke is being played");
     }
-    if let Some(verdict) = turn.verdict() {
+    if let Some(verdict) = turn.verdict(unit) {
         return verdict;
     }
     Message::plain(match (turn.watched().is_some(), &turn.lesson) {

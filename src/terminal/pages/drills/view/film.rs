@@ -43,7 +43,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     draw_table(&view, panes.table, ui);
     let time = film.playback.readout;
     draw_stroke(scene, panes.stroke, ui);
-    draw_tip(scene.and_then(|scene| scene.stroke.as_ref()), table(), panes.tip, ui);
+    draw_tip(scene.and_then(|scene| scene.stroke.as_ref()), false, table(), panes.tip, ui);
     match scene.and_then(|scene| scene.shot.spin(time, table().radius)) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
