@@ -32,7 +32,7 @@ mod why;
 pub mod words;
 
 pub use advice::{Alternative, Improvement, Recommendation, Source, Suggestion};
-pub use aim::{Aim, Hit, Mark, aim, first_hit, hit, line_of_aim};
+pub use aim::{Aim, Hit, Mark, aim, first_hit, line_of_aim};
 pub use coach::{Coach, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
@@ -44,6 +44,6 @@ pub use scatter::{Scatter, scatter};
 pub use self_play::{Inning, inning};
 pub use skill::{Growth, Skill, SkillError};
 pub use technique::{Cushion, PATTERNS, Pattern, Technique};
-pub use verdict::{Miss, Passed, Verdict, cushion_words};
+pub use verdict::{Miss, Passed, Verdict};
 pub use why::{Difference, Kiss, Why, why};
 pub use words::{ShotWords, Units};

@@ -136,7 +136,7 @@ impl Verdict {
 }
 
 /// A number of cushions in words.
-pub fn cushion_words(count: u32) -> String {
+fn cushion_words(count: u32) -> String {
     let unit = if count == 1 { "cushion" } else { "cushions" };
     format!("{} {unit}", number_word(count))
 }

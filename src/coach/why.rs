@@ -263,8 +263,8 @@ impl Why {
         parts.push(second.map_or_else(
             || "nothing else makes the point".to_owned(),
             |second| {
-                let made = second.make_probability.map_or_else(String::new, |rate| format!(" {}", percent(rate)));
-                format!("shot 2{made} ({})", second.parts(names))
+                let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
+                format!("shot 2 ({}){made}", second.parts(names))
             },
         ));
         parts.extend(self.aim_deg.map(|width| {

@@ -6,7 +6,7 @@ pub use patterns::{PATTERNS, Pattern};
 
 use serde::Serialize;
 
-use super::{Hit, Mark, first_hit, hit};
+use super::{Hit, Mark, aim::hit, first_hit};
 use crate::{
     game::Tally,
     physics::CueInputs,

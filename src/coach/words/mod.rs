@@ -11,8 +11,9 @@ mod units;
 use glam::DVec2;
 use serde::Serialize;
 
-pub(super) use numbers::{FULL, THICK, THIN};
-pub use numbers::{clock, fullness_word, number_word};
+use numbers::clock;
+pub use numbers::fullness_word;
+pub(super) use numbers::{FULL, THICK, THIN, number_word};
 pub use pace::{pace_word, table_lengths};
 pub(super) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};

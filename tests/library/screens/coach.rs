@@ -10,9 +10,11 @@ use super::{
     player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at},
 };
 use carom::{
+    coach::{Difference, Kiss, Why},
     physics::CueInputs,
     terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
 };
+use glam::DVec2;
 use proptest::prelude::*;
 use ratatui::{layout::Size, style::Color};
 
@@ -62,7 +64,7 @@ fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
     let text = player.text(120, 40);
-    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "Cue from "] {
+    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "aim top 1.52 "] {
         assert!(text.contains(part), "{part}\n{text}");
     }
     // At the smaller size the sentence, the card beside the table, and the line of aim in the title or in a row.
@@ -72,11 +74,70 @@ fn a_shot_is_recommended() {
     {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    assert!(["aim top 1.5", "Cue from 1.5"].iter().any(|aim| text.contains(aim)), "{text}");
+    assert!(
+        ["aim top 1.5", "Cue from 1.5", "aim from diamond 1.52 top"].iter().any(|aim| text.contains(aim)),
+        "{text}"
+    );
     // The thesis' numbers are one key away.
     let text = player.press("N").text(120, 40);
     for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
         assert!(text.contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_before_the_stroke() {
+    let second = Difference {
+        pattern: Some("one cushion, reverse"),
+        first_ball: Some(2),
+        fuller: -0.2,
+        harder: 0.5,
+        make_probability: Some(0.59),
+        aim_deg: Some(0.65),
+    };
+    let mut why = Why::default();
+    (why.make_probability, why.aim_deg, why.next_probability, why.second) =
+        (Some(0.94), Some(0.72), Some(0.8), Some(second));
+    why.kiss = Some(Kiss { share: 0.07, balls: [0, 2], place: DVec2::new(0.4, 0.3) });
+    for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
+        let mut player = Player::with(caps).press("Enter").answer();
+        let job = player.study.take().unwrap();
+        let player = player.tell(job.id, CoachNews::Why(Box::new(why.clone())));
+        let text = player.text(120, 40);
+        // Its lines may break anywhere; the last words are there.
+        assert!(text.contains("Why: made 94 %; shot 2 (") && text.contains("80 %."), "{text}");
+        player.shows(&["kiss with red 7 %"]);
+        let mut player = player;
+        for (keys, is_marked) in [("w", false), ("Esc", true), ("]", false), ("[", true), (".", false)] {
+            player = player.press(keys);
+            if is_marked {
+                player.shows(&["kiss with red 7 %"]);
+            } else {
+                player.is_silent_on("kiss with");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_screen_says_how_long_a_tip_is_where_tips_are_counted() {
+    let player = Player::new().press("Enter").answer();
+    assert!(player.text(80, 24).contains(" 1 tip = 3 mm ") && player.text(120, 40).contains(" Tip = 3 mm "));
+    player.press("N").is_silent_on("ip = 3 mm");
+    let mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("Enter").answer();
+    mm.is_silent_on("ip = 3 mm");
+}
+
+#[test]
+fn the_corners_say_from_where_diamonds_are_counted() {
+    for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
+        let player = Player::with(caps);
+        let text = player.text(80, 24);
+        let row = |number: usize| text.lines().nth(number).unwrap().chars().take(67).collect::<String>();
+        assert!(row(1).contains('4') && row(17).contains('0') && row(17).contains('8'), "{text}");
+        // A system has numbers of its own there.
+        let text = player.press("y").text(80, 24);
+        assert!(!text.lines().nth(1).unwrap().starts_with("\"4"), "{text}");
     }
 }
 
@@ -196,7 +257,7 @@ fn without_colours_letters_tell_everything() {
         }
         player.is_plain().shows(&["Events 2/31", "W white", "Y yellow", "R red"]);
         let player = player.press("2");
-        player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter recommend"]);
+        player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").studied();
         let signs = ["Margins", "-2.61   +0.54", "V    -1.27     any", "# point", "= too few", "X the stro"];
         let text = player.is_plain().text(120, 40);

@@ -68,7 +68,7 @@ fn letters_of_the_users_own_are_typed_and_their_keys_are_shown() {
 fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
     let player = Player::with_settings(TRUE_COLOUR, "[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
     let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().trim_matches('"').to_owned();
-    assert!(hints(&player).starts_with(" z recommend"), "{}", hints(&player));
+    assert!(hints(&player).starts_with(" z ask"), "{}", hints(&player));
     let player = player.press(":");
     assert!(hints(&player).starts_with(" Enter do it"), "{}", hints(&player));
     assert!(hints(&player).contains(" F9 close"), "{}", hints(&player));

@@ -369,7 +369,7 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
     let mut player = none.report(Report::Policy(folder, Ok(Arc::new(policy))));
     assert_eq!((player.app.place(), player.app.table()), (KeyContext::Coach, &thesis));
-    player.shows(&["no shot yet", "Enter recommend", "b bundled", NAME]);
+    player.shows(&["no shot yet", "Enter ask", "b bundled", NAME]);
     player = player.press("Enter");
     let job = player.asked.take().expect("the coach is asked");
     assert_eq!(job.query.rule, Rule::ThreeCushion);

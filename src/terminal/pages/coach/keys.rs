@@ -275,7 +275,7 @@ pub const COACH: &[Binding<A, W>] = &[
 pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::Anytime, &[letter(' ', A::PlayPause), key(Enter, A::PlayPause)], Some(("play", 1)),
         "play and pause your stroke"),
-    bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("coach's shot", 1)),
+    bind(Stroke, W::Anytime, &[key(Esc, A::LeaveStroke), letter('w', A::LeaveStroke)], Some(("coach", 1)),
         "leave your stroke; the coach's shot is as it was"),
 ], [
     bind(Stroke, W::StrokeChanged, &[letter('u', A::StrokeBack), letter('z', A::StrokeBack)], Some(("undo", 1)),

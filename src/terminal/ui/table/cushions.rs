@@ -26,12 +26,12 @@ pub fn draw_cushions(words: &ShotWords, table: &Table, mapping: &Mapping, ui: &m
 
 /// Writes how many diamonds away the lower left corner is, from which they are counted, at that corner and at both beside it.
 pub fn draw_counts(table: &Table, mapping: &Mapping, ui: &mut Ui) {
-    let (bed, outer) = (mapping.bed, mapping.outer());
+    let bed = mapping.bed;
     let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
     let style = ui.theme.text().fg(ui.theme.sight).bg(back);
     let [long, short] = [table.length, table.width].map(|side| (side / table.diamond()).round().to_string());
-    let (right, below) = (outer.right() - 1, bed.bottom());
-    for (x, y, count) in [(outer.x, below, "0"), (right, below, &*long), (outer.x, bed.y - 1, &*short)] {
+    let (left, right, below) = (bed.x - 1, bed.right(), bed.bottom());
+    for (x, y, count) in [(left, below, "0"), (right, below, &*long), (left, bed.y - 1, &*short)] {
         ui.buffer.set_stringn(x, y, count, 1, style);
     }
 }

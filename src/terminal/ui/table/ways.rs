@@ -6,7 +6,10 @@ use std::collections::HashSet;
 use glam::DVec2;
 use ratatui::style::{Color, Style};
 
-use crate::terminal::ui::{Ui, columns, table::scene::Scene};
+use crate::terminal::{
+    Glyphs,
+    ui::{Ui, columns, table::scene::Scene},
+};
 
 /// Distance of the two ways from which on the words stand there, m: two balls.
 const APART: f64 = 0.12;
@@ -46,7 +49,8 @@ fn draw_note(scene: &Scene, ui: &mut Ui) {
     let (cell, color) = (scene.mapping.to_cell(place), ui.theme.mark);
     let pictures: Cells = pictures(scene).collect();
     if !pictures.contains(&cell) {
-        write(ui.caps.pick("\u{d7}", "x"), &[cell], color, ui);
+        // The letters of ways are others.
+        write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
     let mut taken = pictures.clone();
     scene.each_dot(|_, place, _| {

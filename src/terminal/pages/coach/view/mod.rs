@@ -96,7 +96,12 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
     let advised = coach.shown().filter(|advised| advised.chosen() == 0 && coach.what_if().is_none());
     let kiss = advised.filter(|_| coach.told().is_some() && coach.view == View::Shot)?.why.as_ref()?.kiss?;
-    Some((kiss.place, format!("kiss {} %", percent(kiss.share))))
+    let names = coach.cue_ball().names();
+    let balls = match kiss.balls {
+        [0, other] | [other, 0] => format!("kiss with {}", names[other]),
+        [one, other] => format!("{} and {} kiss", names[one], names[other]),
+    };
+    Some((kiss.place, format!("{balls} {} %", percent(kiss.share))))
 }
 
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as

@@ -26,8 +26,8 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     let part = |text: String, style| (spell(&text, ui.caps), style);
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
     let [titles @ .., bare] = titles(coach, proposal, ui);
-    // A blank on either side.
-    let fits = |title: &Vec<Span>| title.iter().map(Span::width).sum::<usize>() <= width;
+    // A blank on either side, behind the rule.
+    let fits = |title: &Vec<Span>| title.iter().map(Span::width).sum::<usize>() < width;
     let title = titles.into_iter().find(fits);
     let aim = title.is_none().then(|| part(words.aim(units), ui.theme.text()));
     let tries = [words.course(cue_ball, units), words.short_course(cue_ball, units)].map(|course| {
