@@ -216,8 +216,6 @@ impl Why {
     /// In one line, for who plays with `cue_ball`.
     pub fn words(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
-        let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-        let degrees = |width: f64| format!("{}\u{b0}", short(width, 2));
         let mut parts = Vec::new();
         let second = self.second.as_ref();
         let other = second.and_then(|second| second.make_probability);
@@ -255,29 +253,46 @@ impl Why {
     /// The same in few words, for who plays with `cue_ball`, and how the next shot differs first.
     pub fn brief(&self, cue_ball: CueBall) -> String {
         let names = cue_ball.names();
-        let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-        let degrees = |width: f64| format!("{}\u{b0}", short(width, 2));
-        let second = self.second.as_ref();
-        let mut parts = Vec::new();
-        parts.extend(self.make_probability.map(|rate| format!("made {}", percent(rate))));
-        parts.push(second.map_or_else(
+        let made = self.make_probability.map(|rate| format!("made {}", percent(rate)));
+        let second = self.second.as_ref().map_or_else(
             || "nothing else makes the point".to_owned(),
             |second| {
                 let made = second.make_probability.map_or_else(String::new, |rate| format!(": {}", percent(rate)));
                 format!("shot 2 ({}){made}", second.parts(names))
             },
-        ));
+        );
+        let parts: Vec<String> = made.into_iter().chain([second]).chain(self.facts(cue_ball)).collect();
+        format!("{}.", parts.join("; "))
+    }
+
+    /// The part of it that a list of the shots with their chances does not say; `None` where there is nothing.
+    pub fn beside_the_list(&self, cue_ball: CueBall) -> Option<String> {
+        let facts = self.facts(cue_ball);
+        (!facts.is_empty()).then(|| format!("{}.", facts.join("; ")))
+    }
+
+    fn facts(&self, cue_ball: CueBall) -> Vec<String> {
+        let names = cue_ball.names();
+        let mut parts = Vec::new();
         parts.extend(self.aim_deg.map(|width| {
-            let other = second.and_then(|second| second.aim_deg);
-            let there = other.map_or_else(String::new, |width| format!(", there {}", degrees(width)));
+            let other = self.second.as_ref().and_then(|second| second.aim_deg);
+            let there = other.map_or_else(String::new, |width| format!(", shot 2's {}", degrees(width)));
             format!("the aim may be {} off in all{there}", degrees(width))
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             format!("{} and {} kiss in {}", names[one], names[other], percent(share))
         }));
         parts.extend(self.next_probability.map(|next| format!("the next point {}", percent(next))));
-        format!("{}.", parts.join("; "))
+        parts
     }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+fn degrees(width: f64) -> String {
+    format!("{}\u{b0}", short(width, 2))
 }
 
 impl Difference {

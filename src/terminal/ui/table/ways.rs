@@ -57,8 +57,9 @@ fn draw_note(scene: &Scene, ui: &mut Ui) {
         taken.insert(scene.mapping.to_cell(place));
     });
     let width = columns(text) as u16;
-    // Rather over a way than nowhere.
-    let found = [&taken, &pictures].into_iter().find_map(|taken| free(scene, width, beside(cell, width, 2), taken));
+    // Rather over a way than far off.
+    let tries = [(&taken, 1), (&pictures, 1), (&pictures, 3)];
+    let found = tries.into_iter().find_map(|(taken, rows)| free(scene, width, beside(cell, width, rows), taken));
     if let Some(cells) = found {
         write(text, &cells, color, ui);
     }

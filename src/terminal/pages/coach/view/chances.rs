@@ -56,17 +56,23 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: 
         row += 1;
     }
     let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
-    if let Some(words) = why_words(advised, ui) {
-        write_lines(&words, rest, ui);
+    if let Some(words) = list_words(advised, ui) {
+        let why = if advised.chosen() == 0 { "Why" } else { "Why shot 1 leads" };
+        write_lines(&format!("{why}: {words}"), rest, ui);
     }
 }
 
 /// Draws a panel of why the first shot leads; `false` where that is not known.
 pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
-    let Some(why) = &advised.why else { return false };
+    let Some(words) = list_words(advised, ui) else { return false };
     let inner = draw_title(Span::styled("Why shot 1 leads", ui.theme.text()), area, ui);
-    write_lines(&spell(&why.brief(ui.theme.cue_ball), ui.caps), inner, ui);
+    write_lines(&words, inner, ui);
     true
+}
+
+/// What the list does not say of why the first shot leads, once that is known.
+fn list_words(advised: &AdviceState, ui: &Ui) -> Option<String> {
+    Some(spell(&advised.why.as_ref()?.beside_the_list(ui.theme.cue_ball)?, ui.caps))
 }
 
 /// Writes as much as there is room for.
