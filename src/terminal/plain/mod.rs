@@ -346,7 +346,7 @@ mod tests {
         let shots = least(&|| (0..500).for_each(|_| drop(record())));
         let reasons = least(&|| {
             why(request.shooter(), request.rule, &table, &layout, &advice, 0).unwrap();
-            drop(guide(&table, &record()));
+            guide(&table, &record()).inspect(|guide| assert!(!guide.to_string().is_empty()));
         });
         assert!(reasons < 4 * shots, "{reasons:?} for the reasons, {shots:?} for 500 shots");
     }

@@ -67,9 +67,8 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
     let (is_mm, diamond) = (coach.units.place == PlaceUnit::Mm, coach.table().diamond());
-    let place = |mark: Mark| match is_mm {
-        true => format!("{} mm", fixed(1e3 * diamond * mark.diamond, 0)),
-        false => fixed(mark.diamond, 2),
+    let place = |mark: Mark| {
+        if is_mm { format!("{} mm", fixed(1e3 * diamond * mark.diamond, 0)) } else { fixed(mark.diamond, 2) }
     };
     let [behind, ahead] = [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place(mark)));
     let unit = if is_mm { "" } else { "diamond " };
