@@ -55,6 +55,12 @@ pub struct Hit {
     pub left: bool,
 }
 
+/// Below this share of the ball covered it is hit thin, from the second on thick, and from the third on so full that a
+/// rolling ball goes on ahead. A half-ball hit lies between the first two.
+pub const THIN: f64 = 0.41;
+pub const THICK: f64 = 0.6;
+pub const FULL: f64 = 0.85;
+
 /// The aim of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Aim {

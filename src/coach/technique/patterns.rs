@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_3;
 
 use super::Technique;
 use crate::{
-    coach::words::{FULL, THICK, THIN},
+    coach::aim::{FULL, THICK, THIN},
     simulation::Rail,
 };
 

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use numbers::clock;
 pub use numbers::fullness_word;
-pub(super) use numbers::{FULL, THICK, THIN, number_word};
+pub(super) use numbers::number_word;
 pub use pace::{pace_word, table_lengths};
 pub(super) use sentence::capital;
 pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};

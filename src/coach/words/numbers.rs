@@ -1,5 +1,7 @@
 //! Fullness, tips and the clock in words.
 
+use crate::coach::aim::{FULL, THICK, THIN};
+
 /// Sixteenths of a ball as players say them, from a graze to full.
 const SIXTEENTHS: [&str; 17] = [
     "a graze",
@@ -26,12 +28,6 @@ pub fn fullness_words(fullness: f64) -> (&'static str, bool) {
     let sixteenths = (16.0 * fullness.clamp(0.0, 1.0)).round() as usize;
     (SIXTEENTHS[sixteenths], sixteenths == 16)
 }
-
-/// Shares of the ball from which on a hit is no longer thin, is thick, and is so full that a rolling ball goes on ahead. A half-ball
-/// hit lies between the first two.
-pub const THIN: f64 = 0.41;
-pub const THICK: f64 = 0.6;
-pub const FULL: f64 = 0.85;
 
 /// How much of a ball is hit, in a word.
 pub fn fullness_word(fullness: f64) -> &'static str {
