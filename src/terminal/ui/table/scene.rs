@@ -68,7 +68,8 @@ pub struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    fn is_clear(&self, place: DVec2) -> bool {
+    /// Whether no ball hides a place.
+    pub fn is_clear(&self, place: DVec2) -> bool {
         self.balls.iter().all(|ball| ball.distance(place) > self.clear)
     }
 

@@ -48,7 +48,7 @@ fn draw_note(scene: &Scene, ui: &mut Ui) {
     let Some((place, text)) = scene.view.note.filter(|(place, _)| scene.mapping.is_on_bed(*place)) else { return };
     let (cell, color) = (scene.mapping.to_cell(place), ui.theme.mark);
     let pictures: Cells = pictures(scene).collect();
-    if !pictures.contains(&cell) {
+    if scene.is_clear(place) {
         // The letters of ways are others.
         write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
