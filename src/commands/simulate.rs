@@ -90,7 +90,7 @@ struct GivenImpulse {
 impl GivenImpulse {
     fn impulse(&self) -> Result<Impulse, Failure> {
         match self.velocity[..] {
-            [x, y] | [x, y, 0.0] => Ok(Impulse { velocity: DVec2::new(x, y), spin: DVec3::from_array(self.spin) }),
+            [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), DVec3::from_array(self.spin))),
             [_, _, up] => Err(Failure::wrong_input(format_args!(
                 "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth"
             ))),

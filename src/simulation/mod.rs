@@ -11,6 +11,7 @@ mod cushions;
 mod engine;
 mod events;
 mod extrapolation;
+mod hops;
 mod impacts;
 mod playback;
 mod predict;

@@ -61,7 +61,7 @@ impl Recording {
 
     /// Before anything is played.
     fn empty(table: &Table) -> Self {
-        let impulse = Impulse { velocity: DVec2::ZERO, spin: DVec3::ZERO };
+        let impulse = Impulse::on_cloth(DVec2::ZERO, DVec3::ZERO);
         Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 }
     }
 
@@ -225,7 +225,7 @@ mod tests {
     fn a_ball_that_only_spins_is_played_and_an_impossible_motion_or_layout_is_refused() {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let impulse = |velocity, spin| Impulse { velocity, spin };
+        let impulse = Impulse::on_cloth;
         let play = |layout: &Layout, impulse: &Impulse| Recording::with_impulse(&table, layout, impulse);
         let still = play(&layout, &impulse(DVec2::ZERO, DVec3::ZERO)).unwrap();
         assert_eq!((still.duration(), still.events().len(), still.final_layout()), (0.0, 0, layout));

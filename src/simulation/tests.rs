@@ -46,7 +46,7 @@ fn played(table: &Table, from: DVec2, velocity: DVec2, spin: DVec3, second: Opti
 fn among(table: &Table, balls: [DVec2; 3], velocity: DVec2, spin: DVec3) -> (Course, DVec2) {
     let layout = Layout::new(balls);
     let mut course = Course::default();
-    let end = simulate(table, &layout, &Impulse { velocity, spin }, &mut course);
+    let end = simulate(table, &layout, &Impulse::on_cloth(velocity, spin), &mut course);
     (course, end.balls[0].position)
 }
 

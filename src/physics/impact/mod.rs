@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 pub use ball_ball::{BallImpact, collide_balls};
-pub use cushion::{Cushion, Cushions, collide_rail};
+pub use cushion::{Cushion, Cushions, RailImpulse, collide_rail};
 pub use simultaneous::{ImpactLaw, collide_together};
 
 /// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.

@@ -63,7 +63,7 @@ impl Trace {
         let still = crate::physics::BallState::at_rest(glam::DVec2::ZERO);
         Self {
             constants: Constants::of(table),
-            impulse: Impulse { velocity: glam::DVec2::ZERO, spin: glam::DVec3::ZERO },
+            impulse: Impulse::on_cloth(glam::DVec2::ZERO, glam::DVec3::ZERO),
             events: Vec::new(),
             pieces: [const { Vec::new() }; BALLS],
             kept_until: f64::INFINITY,
