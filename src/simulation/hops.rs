@@ -38,6 +38,11 @@ pub struct Hops {
     rub: f64,
     /// The landing at which no slip is left, counted from none; `None` if the ball still slides after the last hop.
     sticks: Option<u32>,
+    /// The restitution's logarithm.
+    decay: f64,
+    /// How long all of it lasts, s, and the velocity along the cloth at the end, m/s.
+    duration: f64,
+    last: DVec2,
 }
 
 impl Hops {
@@ -62,8 +67,16 @@ impl Hops {
             slip: size,
             rub,
             sticks: None,
+            decay: (e - 1.0).ln_1p(),
+            duration: 0.0,
+            last: DVec2::ZERO,
         };
         hops.sticks = hops.sticking();
+        hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
+        hops.last = match hops.sticks {
+            Some(_) => hops.rolling(),
+            None => hops.rubbed(rub / (1.0 - e)).0,
+        };
         hops
     }
 
@@ -74,7 +87,7 @@ impl Hops {
 
     /// `n ln e`.
     fn power(&self, count: u32) -> f64 {
-        f64::from(count) * (self.cloth.restitution - 1.0).ln_1p()
+        f64::from(count) * self.decay
     }
 
     /// `eⁿ`.
@@ -95,7 +108,7 @@ impl Hops {
             return None;
         }
         // The logarithm may be off by one.
-        let near = (left.ln() / e.ln()).ceil().min(1e6) as u32;
+        let near = (left.ln() / self.decay).ceil().min(1e6) as u32;
         (near.saturating_sub(2)..=near + 1).find(|&landing| self.powers(landing + 1) >= least)
     }
 
@@ -106,8 +119,7 @@ impl Hops {
 
     /// Duration of all of it, s.
     pub fn duration(&self) -> f64 {
-        let e = self.cloth.restitution;
-        self.first + self.per_speed() * self.landing * e / (1.0 - e)
+        self.duration
     }
 
     /// The velocity along the cloth when no slip is left, m/s.
@@ -194,13 +206,13 @@ impl Hops {
         }
         let since = (t - self.first) / (self.per_speed() * self.landing * e);
         let left = (1.0 - e).mul_add(-since, 1.0);
-        if left <= 0.0 { u32::MAX } else { 1 + (left.ln() / e.ln()).floor().clamp(0.0, 1e9) as u32 }
+        if left <= 0.0 { u32::MAX } else { 1 + (left.ln() / self.decay).floor().clamp(0.0, 1e9) as u32 }
     }
 
     /// Position, velocity and spin `t` seconds after the start.
     pub fn state_after(&self, t: f64) -> SpatialState {
         let landings = self.landings(t);
-        if landings == u32::MAX || t >= self.duration() {
+        if landings == u32::MAX || t >= self.duration {
             return self.end().into();
         }
         let arc = self.arc(landings);
@@ -215,7 +227,7 @@ impl Hops {
     /// The greatest speed along the cloth from that arc on, m/s.
     pub fn fastest(&self, arc: &Arc) -> f64 {
         // Velocities lie on a line: the longest stands at one of its ends.
-        arc.velocity.truncate().length().max(self.end().velocity.length())
+        arc.velocity.truncate().length_squared().max(self.last.length_squared()).sqrt()
     }
 
     /// Gravitational acceleration, m/s².

@@ -110,7 +110,8 @@ impl Recording {
     fn end_with(&mut self, end: &End) {
         for (ball, segments) in self.kept.segments.iter_mut().enumerate() {
             let BallState { position, spin, .. } = end.balls[ball];
-            segments.push(Segment { start: end.time, spin, ..Segment::at_rest(position) });
+            let motion = if end.off_table[ball] { Motion::OffTable } else { Motion::Stationary };
+            segments.push(Segment { start: end.time, spin, motion, ..Segment::at_rest(position) });
         }
         self.duration = end.time;
     }

@@ -1,6 +1,8 @@
 //! Collision of two balls (thesis 2.2.2).
 
-use super::{super::SpatialState, BallState, contact_twist};
+use glam::DVec2;
+
+use super::{super::SpatialState, BallState, contact_twist, opening_in_space};
 use crate::table::{Fade, SlipFriction, Table};
 
 /// The law of two balls' impacts, as a table has it.
@@ -40,30 +42,44 @@ impl BallImpact {
         self.resolve_by_speed(radius, first, second)
     }
 
-    /// The same for balls of which one at least is in the air: the line of centres has any direction.
-    pub fn resolve_in_space(&self, radius: f64, first: &mut SpatialState, second: &mut SpatialState) {
-        let n = (first.position - second.position).normalize();
+    /// The same for balls of which one at least is in the air: the line of centres has any direction. They part with the speed
+    /// `slowest` at least, m/s. Returns the speed with which they have approached, m/s, negative if they do not.
+    pub fn resolve_in_space(
+        &self,
+        radius: f64,
+        slowest: f64,
+        first: &mut SpatialState,
+        second: &mut SpatialState,
+    ) -> f64 {
+        let mut n = (first.position - second.position).normalize();
+        if n.truncate() == DVec2::ZERO {
+            // Nothing says to which side a ball leaves the top of another; that it does not stay there is all that is known.
+            n.x = f64::EPSILON;
+        }
         let apart = first.velocity - second.velocity;
         let approach = -apart.dot(n);
-        if approach <= 0.0 {
-            return;
+        if approach < 0.0 {
+            return approach;
         }
         let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
-        let normal = 0.5 * (1.0 + restitution) * approach;
+        let across = apart + approach * n;
+        let [opening, left] = opening_in_space(approach, restitution, slowest, across.length());
+        let normal = 0.5 * (approach + opening);
         // Equation (21), of which the part along n is none.
-        let slip = apart.reject_from_normalized(n) - radius * (first.spin + second.spin).cross(n);
+        let slip = across - radius * (first.spin + second.spin).cross(n);
         let size = slip.length();
         let friction = self.by_slip.map_or(self.friction, |law| Some(law.at(size)));
         let factor = match friction {
             Some(mu) if 7.0 * mu * normal < size => mu * normal / size,
             _ => 1.0 / 7.0,
         };
-        let change = normal * n - factor * slip;
+        let change = normal * n - factor * slip - 0.5 * (1.0 - left) * across;
         first.velocity += change;
         second.velocity -= change;
         let twist = (2.5 / radius * factor) * n.cross(slip);
         first.spin += twist;
         second.spin += twist;
+        approach
     }
 
     #[inline(never)]
@@ -142,7 +158,7 @@ mod tests {
             let mut other = ball(2.0 * radius * n, [-0.2, 0.1], [3.0, 0.0, -9.0]);
             let [mut a, mut b] = [one, other].map(SpatialState::from);
             law.resolve(radius, &mut one, &mut other);
-            law.resolve_in_space(radius, &mut a, &mut b);
+            law.resolve_in_space(radius, 0.0, &mut a, &mut b);
             for (plane, space) in [(one, a), (other, b)] {
                 assert!(plane.velocity.distance(space.velocity.truncate()) < 1e-14, "{name}");
                 assert!(plane.spin.distance(space.spin) < 1e-11, "{name}");

@@ -70,7 +70,7 @@ impl Trace {
             event_count: 0,
             contact_steps: 0,
             steps: 0,
-            end: End { time: 0.0, balls: [still; BALLS] },
+            end: End { time: 0.0, balls: [still; BALLS], off_table: [false; BALLS] },
             finished: true,
             seconds: 0.0,
             started: Instant::now(),

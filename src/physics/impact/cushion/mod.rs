@@ -109,11 +109,12 @@ impl Cushion {
     }
 
     /// The same for a ball in the air, which meets the nose in the direction `d` from its centre, a unit vector: with the
-    /// cloth out of reach all models are an impact with Coulomb's friction.
-    pub fn resolve_in_space(&self, radius: f64, d: DVec3, ball: &mut SpatialState) {
+    /// cloth out of reach all models are an impact with Coulomb's friction. It leaves with the speed `slowest` at least, m/s.
+    /// Returns the speed of its approach, m/s, negative if there is none.
+    pub fn resolve_in_space(&self, radius: f64, slowest: f64, d: DVec3, ball: &mut SpatialState) -> f64 {
         let stick_slip = if let Law::Nose { stick_slip, .. } = self.law { stick_slip } else { StickSlip::Sharp };
         let restitution = self.restitution_at(ball.velocity.dot(d));
-        nose::collide_in_space(radius, restitution, self.friction, stick_slip, d, ball);
+        nose::collide_in_space(radius, [restitution, self.friction, slowest], stick_slip, d, ball)
     }
 
     /// Sine and cosine of the height at which the nose meets a ball on the cloth, as seen from its centre.

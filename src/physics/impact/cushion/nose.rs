@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{super::super::SpatialState, BallState};
+use super::{super::{super::SpatialState, opening_in_space}, BallState};
 
 /// How friction passes from slipping to sticking.
 #[derive(Clone, Copy, Debug)]
@@ -43,24 +43,27 @@ impl StickSlip {
     }
 }
 
-/// The collision of a ball in the air with a nose in the direction `d` from its centre, a unit vector.
+/// The collision of a ball in the air with a nose in the direction `d` from its centre, a unit vector; it leaves with the speed
+/// `slowest` at least. Returns the speed of its approach, m/s, negative if there is none.
 pub(super) fn collide_in_space(
     radius: f64,
-    restitution: f64,
-    friction: f64,
+    [restitution, friction, slowest]: [f64; 3],
     stick_slip: StickSlip,
     d: DVec3,
     ball: &mut SpatialState,
-) {
+) -> f64 {
     let approach = ball.velocity.dot(d);
-    if approach <= 0.0 {
-        return;
+    if approach < 0.0 {
+        return approach;
     }
-    let normal = (1.0 + restitution) * approach;
-    let slip = ball.velocity - approach * d + radius * ball.spin.cross(d);
+    let across = ball.velocity - approach * d;
+    let [opening, left] = opening_in_space(approach, restitution, slowest, across.length());
+    let normal = approach + opening;
+    let slip = across + radius * ball.spin.cross(d);
     let rub = -stick_slip.factor(friction * normal, slip.length()) * slip;
-    ball.velocity += rub - normal * d;
+    ball.velocity += rub - normal * d - (1.0 - left) * across;
     ball.spin += 2.5 / radius * d.cross(rub);
+    approach
 }
 
 /// Velocity and spin after the collision; `[sine, cosine]` of the nose's height, `n` the normal into the table. Returns

@@ -85,6 +85,7 @@ pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) ->
             let deceleration = Numbers::<f64>::of(table).band(v.length()).0;
             work(1.4 * deceleration, v.length(), deceleration)
         }
-        Motion::Stationary | Motion::Resting => 0.0,
+        // In the air nothing is lost.
+        Motion::Stationary | Motion::Resting | Motion::Flying | Motion::OffTable => 0.0,
     }
 }
