@@ -55,7 +55,7 @@ impl Played {
         let mut watcher = Watcher::default();
         let miscue = stroke.is_miscue(table);
         let end =
-            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
+            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout(table) };
         let point = Point::of(rule, table, layout);
         Self { stroke, miscue, point, tally: watcher.0, made: point.is_made(&watcher.0), end }
     }

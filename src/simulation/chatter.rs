@@ -243,7 +243,10 @@ mod tests {
                 velocity: glam::DVec2::new(-1e-9, -up),
                 spin: glam::DVec3::new(-100.0, 100.0, 0.0),
             };
-            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3).expect("the chatter ends").as_slice().to_vec()
+            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
+                .expect("the chatter ends")
+                .as_slice()
+                .to_vec()
         };
         let other = Contact::with_cushion(0, glam::DVec2::NEG_Y);
         assert_eq!(ends(3e-9), [contact]);

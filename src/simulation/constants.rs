@@ -11,6 +11,8 @@ use crate::{
 /// A table's numbers in the form in which the engine uses them; divisions are done here, once a shot.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants {
+    /// Length of the playing area, m.
+    pub length: f64,
     /// Ball radius R, m.
     pub radius: f64,
     /// `1/R`, 1/m.
@@ -45,6 +47,7 @@ impl Constants {
         let tolerance = Tolerance::of(table);
         let (sliding, rolling) = (sliding_deceleration(table), rolling_deceleration(table));
         Self {
+            length: table.length,
             radius: table.radius,
             per_radius: 1.0 / table.radius,
             diameter: 2.0 * table.radius,

@@ -34,9 +34,9 @@ pub struct End {
 }
 
 impl End {
-    /// Where the balls are.
-    pub fn layout(&self) -> Layout {
-        Layout::new(self.balls.map(|ball| ball.position))
+    /// Where the balls are; those that have left the table are on their spots.
+    pub fn layout(&self, table: &Table) -> Layout {
+        Layout::new(self.balls.map(|ball| ball.position)).with_spotted(table.length, table.radius, self.off_table)
     }
 }
 

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     aloft::Nose,
+    chatter::Chatters,
     contact_mode::ContactMode,
     contacts::PAIRS,
     engine::{Ball, Engine, Meeting, either, only},
@@ -13,7 +14,7 @@ use super::{
     segment::Course,
 };
 use crate::{
-    physics::{Motion, SpatialState},
+    physics::{Contact, Motion, SpatialState},
     table::BALLS,
 };
 
@@ -32,14 +33,14 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[cold]
     pub(super) fn launch_in_space(&mut self, index: usize, now: f64, state: &SpatialState) -> ControlFlow<()> {
         let low = state.position.z <= 0.0;
+        let was_low = self.is_on_cloth(index);
         let cloth = match self.cloth {
             Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_bounce => cloth,
             _ => {
                 self.launch(index, now, &state.from_above());
-                return ControlFlow::Continue(());
+                return if was_low { ControlFlow::Continue(()) } else { self.tell(now, EventKind::Lands(index)) };
             }
         };
-        let jumps = self.is_on_cloth(index);
         let hops = Hops::new(&self.constants, &cloth, state);
         let segment = Segment {
             start: now,
@@ -54,7 +55,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             self.balls[index].mode = ContactMode::Free;
             self.tell(now, EventKind::ContactEnds(index))?;
         }
-        if jumps { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
+        if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
     }
 
     /// The end of a ball's hops.
@@ -93,7 +94,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let cushion = *self.law.cushions.at(rail);
         let to_nose = Nose::of(&cushion, c.radius).from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
-            let segment = Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.from_above().position) };
+            let segment =
+                Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.from_above().position) };
             self.set(index, segment, f64::INFINITY);
             self.tell(now, EventKind::LeavesTable(index))?;
             return self.look_ahead_of(now, index);
@@ -101,7 +103,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
         self.answer(&mut state);
-        self.tell_impact(now, EventKind::BallRail(index, rail), approach > c.tolerance.slow_bounce)?;
+        let contact = Contact::with_cushion(index, rail.normal());
+        let told = self.is_told(now, &contact, approach);
+        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
         self.launch_in_space(index, now, &state)?;
         self.look_ahead_of(now, index)
     }
@@ -128,12 +132,19 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         for index in [first, second] {
             self.close(index, now);
         }
-        self.tell_impact(now, EventKind::BallBall(first, second), approach > c.tolerance.slow_bounce)?;
+        let told = self.is_told(now, &Contact::of_balls(first, second), approach);
+        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
         for (index, state) in [(first, &mut one), (second, &mut other)] {
             self.answer(state);
             self.launch_in_space(index, now, state)?;
         }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+    }
+
+    /// Whether an impact in the air is told, and not one of many with which a ball slides off another or off a nose.
+    fn is_told(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
+        approach > self.constants.tolerance.slow_bounce
+            || !self.chatters.get_or_insert_with(|| Box::new(Chatters::new())).bounce(contact, now)
     }
 
     /// The cloth's answer to a ball on it that has been struck downwards.

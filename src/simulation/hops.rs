@@ -143,10 +143,7 @@ impl Hops {
     /// The same when the cloth has rubbed by so much, m/s.
     fn rubbed(&self, rubbed: f64) -> (DVec2, DVec3) {
         let impulse = -rubbed * self.direction;
-        (
-            self.start.velocity.truncate() + impulse,
-            self.start.spin + turned_by_cloth(self.radius, impulse).extend(0.0),
-        )
+        (self.start.velocity.truncate() + impulse, self.start.spin + turned_by_cloth(self.radius, impulse).extend(0.0))
     }
 
     /// Centre at the landing with this number, m.

@@ -141,7 +141,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         });
         let c = self.constants;
         let collapsed = self.rounds > MOST_ROUNDS;
-        let contacts = touching(&c, &states, self.on_cloth(), |opening| opening < -c.tolerance.opening || (collapsed && opening <= 0.0));
+        let contacts = touching(&c, &states, self.on_cloth(), |opening| {
+            opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
+        });
         if contacts.as_slice().len() < 2 {
             return ControlFlow::Continue(false);
         }

@@ -150,9 +150,21 @@ impl Recording {
         })
     }
 
-    /// Where the balls come to rest.
+    /// Where the balls come to rest; those that have left the table are on their spots.
     pub fn final_layout(&self) -> Layout {
-        Layout::new(self.positions(self.duration))
+        let Constants { length, radius, .. } = self.constants;
+        Layout::new(self.positions(self.duration)).with_spotted(length, radius, self.off_table())
+    }
+
+    /// Which balls leave the table.
+    pub fn off_table(&self) -> [bool; BALLS] {
+        std::array::from_fn(|ball| self.motion(ball, self.duration) == Motion::OffTable)
+    }
+
+    /// How high a ball is over its place on the cloth at time `t`, s: in metres.
+    pub fn height(&self, ball: usize, t: f64) -> f64 {
+        let (segment, after) = self.segment(ball, t);
+        segment.hops().map_or(0.0, |hops| hops.state_after(after).position.z)
     }
 
     /// The recorded segments of a ball, in order of time; each holds until the next one starts.

@@ -110,7 +110,8 @@ impl Resting {
         next_step: f64,
     ) -> Outcome {
         let Tolerance { slack, .. } = constants.tolerance;
-        let mut contacts = touching(constants, balls, on_cloth, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
+        let mut contacts =
+            touching(constants, balls, on_cloth, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
         let mut free = *balls;
         let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) =

@@ -80,7 +80,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             let other = &self.balls[other].segment;
             let at_rest = other.motion == Motion::Stationary;
             // Most pairs end here: one ball passes another, which lies still.
-            if at_rest && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && !flies && way.clears(other.position, apart))) {
+            if at_rest
+                && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && !flies && way.clears(other.position, apart)))
+            {
                 self.times[BALLS + pair] = f64::INFINITY;
                 self.pairs[pair] = Meeting::unseen(now, true);
             } else {

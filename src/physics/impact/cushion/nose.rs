@@ -7,7 +7,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{super::{super::SpatialState, opening_in_space}, BallState};
+use super::{
+    super::{super::SpatialState, opening_in_space},
+    BallState,
+};
 
 /// How friction passes from slipping to sticking.
 #[derive(Clone, Copy, Debug)]
