@@ -88,6 +88,52 @@ fn a_level_ish_stroke_hops_by_a_millimetre() {
     assert!(hop.highest() > 0.0005 && hop.highest() < 0.005, "{}", hop.highest());
 }
 
+/// Coriolis (1835): a massé ends up rolling along the line from where the ball stands to where the cue points on the cloth,
+/// however the cloth rubs, in the squeeze of the stroke, in landings or in between.
+#[test]
+fn a_masse_bends_the_way_that_coriolis_constructs() {
+    let table = Table { width: 20.0, length: 40.0, ..flying("textbook") };
+    for (a, b, degrees, speed) in [(0.3, 0.1, 60.0, 3.0), (-0.4, -0.1, 75.0, 4.0), (0.25, -0.3, 45.0, 2.0), (-0.2, 0.3, 30.0, 5.0)] {
+        let cue = CueInputs { a, b, theta: f64::to_radians(degrees), phi: 0.0, speed };
+        // The tip over the place where the ball stands, in radii: b is a height, and what is left of a radius points back.
+        let tip = [-(1.0 - a * a - b * b).sqrt(), a, 1.0 + b];
+        let aim = DVec2::new(tip[0] + tip[2] / cue.theta.tan(), tip[1]);
+        let layout = Layout::new([DVec2::ZERO, DVec2::new(-19.0, 9.0), DVec2::new(-19.0, -9.0)]);
+        let shot = Recording::new(&table, &layout, &cue).unwrap();
+        let rolls = shot.segments(0).iter().find(|segment| segment.motion == Motion::Rolling).unwrap();
+        let turn = rolls.velocity.angle_to(aim).to_degrees();
+        assert!(turn.abs() < 1e-6, "{degrees} degrees: {} instead of {aim}, {turn} off", rolls.velocity);
+        let begins = shot.segments(0)[0].velocity.to_angle().to_degrees();
+        assert!((begins - rolls.velocity.to_angle().to_degrees()).abs() > 1.0, "it bends");
+    }
+}
+
+/// A shot that nothing lifts is computed as on a table whose balls stay on the cloth.
+#[test]
+fn level_strokes_give_the_same_bits_whether_or_not_balls_can_fly() {
+    for preset in ["textbook", "match"] {
+        let flat = Table { flight: None, ..Table::preset(preset).unwrap() };
+        let table = flying(preset);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
+        let mut lifted = 0;
+        for _ in 0..3000 {
+            let layout = Layout::random(&table, &mut rng);
+            let (a, b, phi, speed) =
+                (rng.random_range(-0.5..0.5), rng.random_range(-0.5..0.2), rng.random_range(-3.0..3.0), rng.random_range(0.3..7.0));
+            let cue = CueInputs { a, b, theta: 0.0, phi, speed };
+            let [one, other] = [&flat, &table].map(|table| Recording::new(table, &layout, &cue).unwrap());
+            if kinds(&other).iter().any(|kind| matches!(kind, EventKind::Jumps(_))) {
+                lifted += 1;
+                continue;
+            }
+            assert_eq!(one.events(), other.events());
+            assert_eq!(one.final_layout(), other.final_layout());
+        }
+        println!("{preset}: {lifted} of 3000 climb a nose");
+        assert!(lifted < 300, "only much follow climbs a nose: {lifted}");
+    }
+}
+
 #[test]
 fn a_ball_shot_over_the_rail_leaves_the_table() {
     let table = flying("match");
