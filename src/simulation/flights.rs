@@ -35,7 +35,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let low = state.position.z <= 0.0;
         let was_low = self.is_on_cloth(index);
         let cloth = match self.cloth {
-            Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_bounce => cloth,
+            Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
             _ => {
                 self.launch(index, now, &state.from_above());
                 return if was_low { ControlFlow::Continue(()) } else { self.tell(now, EventKind::Lands(index)) };
@@ -137,6 +137,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         for (index, state) in [(first, &mut one), (second, &mut other)] {
             self.answer(state);
             self.launch_in_space(index, now, state)?;
+            if !told && self.is_on_cloth(index) && self.balls[index].mode == ContactMode::Free {
+                self.balls[index].mode = ContactMode::Bouncing;
+                self.tell(now, EventKind::ContactBegins(index))?;
+            }
         }
         self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
     }

@@ -93,7 +93,9 @@ fn a_level_ish_stroke_hops_by_a_millimetre() {
 #[test]
 fn a_masse_bends_the_way_that_coriolis_constructs() {
     let table = Table { width: 20.0, length: 40.0, ..flying("textbook") };
-    for (a, b, degrees, speed) in [(0.3, 0.1, 60.0, 3.0), (-0.4, -0.1, 75.0, 4.0), (0.25, -0.3, 45.0, 2.0), (-0.2, 0.3, 30.0, 5.0)] {
+    for (a, b, degrees, speed) in
+        [(0.3, 0.1, 60.0, 3.0), (-0.4, -0.1, 75.0, 4.0), (0.25, -0.3, 45.0, 2.0), (-0.2, 0.3, 30.0, 5.0)]
+    {
         let cue = CueInputs { a, b, theta: f64::to_radians(degrees), phi: 0.0, speed };
         // The tip over the place where the ball stands, in radii: b is a height, and what is left of a radius points back.
         let tip = [-(1.0 - a * a - b * b).sqrt(), a, 1.0 + b];
@@ -118,8 +120,12 @@ fn level_strokes_give_the_same_bits_whether_or_not_balls_can_fly() {
         let mut lifted = 0;
         for _ in 0..3000 {
             let layout = Layout::random(&table, &mut rng);
-            let (a, b, phi, speed) =
-                (rng.random_range(-0.5..0.5), rng.random_range(-0.5..0.2), rng.random_range(-3.0..3.0), rng.random_range(0.3..7.0));
+            let (a, b, phi, speed) = (
+                rng.random_range(-0.5..0.5),
+                rng.random_range(-0.5..0.2),
+                rng.random_range(-3.0..3.0),
+                rng.random_range(0.3..7.0),
+            );
             let cue = CueInputs { a, b, theta: 0.0, phi, speed };
             let [one, other] = [&flat, &table].map(|table| Recording::new(table, &layout, &cue).unwrap());
             if kinds(&other).iter().any(|kind| matches!(kind, EventKind::Jumps(_))) {

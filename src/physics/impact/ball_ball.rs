@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{super::SpatialState, BallState, contact_twist, opening_in_space};
+use super::{super::SpatialState, BallState, contact_twist, opening_in_space, raised};
 use crate::table::{Fade, SlipFriction, Table};
 
 /// The law of two balls' impacts, as a table has it.
@@ -63,7 +63,7 @@ impl BallImpact {
         }
         let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
         let across = apart + approach * n;
-        let [opening, left] = opening_in_space(approach, restitution, slowest, across.length());
+        let opening = opening_in_space(approach, restitution, slowest);
         let normal = 0.5 * (approach + opening);
         // Equation (21), of which the part along n is none.
         let slip = across - radius * (first.spin + second.spin).cross(n);
@@ -73,7 +73,8 @@ impl BallImpact {
             Some(mu) if 7.0 * mu * normal < size => mu * normal / size,
             _ => 1.0 / 7.0,
         };
-        let change = normal * n - factor * slip - 0.5 * (1.0 - left) * across;
+        let after = across - 2.0 * factor * slip;
+        let change = normal * n - factor * slip + 0.5 * raised(opening, slowest, after, n);
         first.velocity += change;
         second.velocity -= change;
         let twist = (2.5 / radius * factor) * n.cross(slip);

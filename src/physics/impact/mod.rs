@@ -11,23 +11,24 @@ pub use ball_ball::{BallImpact, collide_balls};
 pub use cushion::{Cushion, Cushions, RailImpulse, collide_rail};
 pub use simultaneous::{ImpactLaw, collide_together};
 
-/// How an impact in the air opens that closes with `approach` and has `across` speed beside it, m/s: its opening speed, and the
-/// share of the speed across that remains.
-///
-/// A ball that comes to lie on a nose or on another ball slides off it in bounces that get lower without end. None opens more
-/// slowly than `slowest`: what that takes comes from the motion across, so that no energy is gained, and the bounces stay some
-/// ten-millionths of a metre high.
-fn opening_in_space(approach: f64, restitution: f64, slowest: f64, across: f64) -> [f64; 2] {
-    let opening = restitution * approach;
-    if opening >= slowest {
-        return [opening, 1.0];
-    }
-    let missing = slowest * slowest - approach * approach;
+/// The speed with which an impact in the air opens that closes with `approach`, m/s. One slower than `slowest` loses nothing: a
+/// ball that comes to lie on a nose or on another ball slides off it in bounces that would get lower without end.
+fn opening_in_space(approach: f64, restitution: f64, slowest: f64) -> f64 {
+    (restitution * approach).max(approach.min(slowest))
+}
+
+/// What changes the motion `across + opening n` after such an impact so that it opens with `slowest`, m/s: what that takes comes
+/// from the motion across, so that no energy is gained.
+fn raised(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
+    let missing = slowest * slowest - opening * opening;
     if missing <= 0.0 {
-        return [slowest, 1.0];
+        return DVec3::ZERO;
     }
-    let left = across * across - missing;
-    if left <= 0.0 { [approach.hypot(across), 0.0] } else { [slowest, left.sqrt() / across] }
+    let (had, left) = (across.length_squared(), across.length_squared() - missing);
+    if left <= 0.0 {
+        return (opening.hypot(had.sqrt()) - opening) * n - across;
+    }
+    (slowest - opening) * n - (1.0 - (left / had).sqrt()) * across
 }
 
 /// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.

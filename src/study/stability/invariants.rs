@@ -12,6 +12,7 @@ use crate::{
 };
 
 use super::{
+    aloft,
     audit::audit,
     figures::Figures,
     polynomial::{MAX_DEGREE, least},
@@ -46,6 +47,10 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         return figures;
     }
     order(trace, &mut figures);
+    if trace.pieces.iter().flatten().any(|piece| piece.segment.motion == Motion::Flying) {
+        aloft::measure(table, shot, trace, &mut figures);
+        return figures;
+    }
     jumps(shot, trace, &mut figures);
     for pieces in &trace.pieces {
         for piece in pieces {
