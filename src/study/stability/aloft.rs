@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    audit::free_loss,
+    audit::{Doubt, free_loss},
     figures::Figures,
     polynomial::{MAX_DEGREE, least},
     shot::Shot,
@@ -284,7 +284,8 @@ fn gains(table: &Table, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
             at[ball] = next;
         }
         figures.gained.note(after - before, time);
-        let allowed = ROUNDING * before + 8.0 * f64::EPSILON * time * (1.0 + before);
+        let rests = balls.iter().flatten().any(|stretch| stretch.motion == Motion::Resting);
+        let allowed = Doubt { energy: 2.0 * before, time, rests, ..Doubt::default() }.of_a_gain(table);
         figures.energy.note((after - before).max(0.0) / allowed.max(f64::MIN_POSITIVE), time);
     }
 }

@@ -24,7 +24,7 @@ use super::{
     trace::{Piece, Trace},
 };
 use course::Course;
-use doubt::Doubt;
+pub(super) use doubt::Doubt;
 pub(super) use laws::free_loss;
 use moment::{Moment, Taken};
 use motion::Contact;
