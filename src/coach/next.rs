@@ -69,7 +69,7 @@ pub fn end_of(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> {
     }
     let mut whole = Whole { tally: Tally::default(), patience: StepBudget(task.patience), task, given_up: false };
     let end = simulate(table, layout, &strike(table, &stroke), &mut whole);
-    (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout())
+    (task.point().is_made(&whole.tally) && !whole.given_up).then(|| end.layout(table))
 }
 
 /// Watches a shot to its end, or until it takes too long.

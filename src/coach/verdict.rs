@@ -194,6 +194,7 @@ mod tests {
             cushions: all,
             cushions_before_first: before,
             cushions_before_second: all,
+            ..Tally::default()
         };
         let three = Point::from(Rule::ThreeCushion);
         assert_eq!(told(three, tally(0, 3), CueBall::White), "Point: red, three cushions, yellow");

@@ -90,7 +90,7 @@ struct GivenImpulse {
 impl GivenImpulse {
     fn impulse(&self) -> Result<Impulse, Failure> {
         match self.velocity[..] {
-            [x, y] | [x, y, 0.0] => Ok(Impulse { velocity: DVec2::new(x, y), spin: DVec3::from_array(self.spin) }),
+            [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), DVec3::from_array(self.spin))),
             [_, _, up] => Err(Failure::wrong_input(format_args!(
                 "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth"
             ))),
@@ -274,6 +274,12 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 }
 
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
+    if steps.is_some() && table.flight.is_some() {
+        return Err(Failure::wrong_input(format_args!(
+            "--method steps keeps balls on the cloth; the table \"{}\" has a section [flight]: leave it out, or take --method events",
+            table.name
+        )));
+    }
     match steps {
         None => Ok((bounded::play(table, layout, cue)?, None)),
         Some(steps) => {

@@ -53,7 +53,7 @@ impl Played {
         let mut watcher = Watcher::default();
         let miscue = stroke.is_miscue(table);
         let end =
-            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout() };
+            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout(table) };
         let verdict = Verdict { point: Point::of(rule, table, layout), tally: watcher.0, miss: None };
         Self { stroke, miscue, verdict, made: verdict.is_made(), end }
     }

@@ -113,7 +113,7 @@ impl Reward {
             Self::R2 | Self::R4 => {
                 let mut all = Meetings::<3>::new(steps);
                 let end = simulate(table, layout, &impulse, &mut all);
-                self.value(table, &all.tally, &end.layout())
+                self.value(table, &all.tally, &end.layout(table))
             }
         }
     }
@@ -182,8 +182,7 @@ impl<const ENOUGH: u8> Observer for Meetings<ENOUGH> {
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
-        let met = u8::from(self.tally.met[0]) + u8::from(self.tally.met[1]);
-        if met >= ENOUGH { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if ENOUGH <= 2 && self.tally.is_decided(ENOUGH) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {

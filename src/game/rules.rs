@@ -81,6 +81,10 @@ pub struct Tally {
     pub cushions_before_first: u32,
     /// Cushions that it had hit when it met its second object ball.
     pub cushions_before_second: u32,
+    /// Whether a ball has left the table, which is a foul by every rule: no point.
+    pub left_table: bool,
+    /// How many balls are in the air.
+    pub aloft: u8,
 }
 
 impl Tally {
@@ -99,8 +103,21 @@ impl Tally {
                     self.cushions_before_first = self.cushions;
                 }
             }
+            EventKind::Jumps(_) => self.aloft += 1,
+            EventKind::Lands(_) => self.aloft -= 1,
+            EventKind::LeavesTable(_) => {
+                self.aloft -= 1;
+                self.left_table = true;
+            }
             _ => {}
         }
+    }
+
+    /// Whether nothing that counts can happen any more: the cue ball has met so many balls and none is in the air, or one has
+    /// left the table.
+    pub fn is_decided(&self, enough: u8) -> bool {
+        let met = u8::from(self.met[0]) + u8::from(self.met[1]);
+        self.left_table || (met >= enough && self.aloft == 0)
     }
 
     /// Whether the cue ball has met an object ball.
@@ -116,7 +133,7 @@ impl Tally {
     /// Whether this is a point by the rule, whichever ball came first; it can still become one until both object balls are met.
     /// [`super::Point`] knows what else an opening asks for.
     pub fn is_point(&self, rule: Rule) -> bool {
-        self.met_both() && self.cushions_before_second >= rule.cushions()
+        self.met_both() && self.cushions_before_second >= rule.cushions() && !self.left_table
     }
 }
 
@@ -132,7 +149,7 @@ impl Observer for Referee {
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
-        if self.tally.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if self.tally.is_decided(2) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 

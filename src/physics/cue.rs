@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
+use super::{Cloth, SpatialState};
 use crate::table::Table;
 
 /// Fastest cue that is accepted, m/s. The fastest human break shots stay below 20 m/s.
@@ -172,19 +173,32 @@ impl CueInputs {
 /// What a stroke gives the cue ball: the equivalent ball impulse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Impulse {
-    /// Initial velocity `V0`, m/s. The vertical part is dropped since z is frozen.
+    /// Initial velocity `V0` along the cloth, m/s.
     pub velocity: DVec2,
     /// Initial angular velocity `w0`, rad/s.
     pub spin: DVec3,
+    /// Upward velocity after the cloth's answer, m/s: zero on a table that keeps its balls on the cloth.
+    #[serde(skip_serializing_if = "is_none")]
+    pub lift: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it")]
+fn is_none(lift: &f64) -> bool {
+    *lift == 0.0
 }
 
 impl Impulse {
+    /// A motion along the cloth.
+    pub const fn on_cloth(velocity: DVec2, spin: DVec3) -> Self {
+        Self { velocity, spin, lift: 0.0 }
+    }
+
     /// Checks that both are numbers and not out of all proportion. A ball at rest is accepted: it stays where it lies.
     ///
     /// # Errors
     /// The first problem found.
     pub fn validate(&self) -> Result<(), ImpulseError> {
-        let Self { velocity, spin } = *self;
+        let Self { velocity, spin, .. } = *self;
         let is_within = |length: f64, most: f64| (0.0..=most).contains(&length);
         if !is_within(velocity.length(), MAX_BALL_SPEED) {
             return Err(ImpulseError::Velocity { x: velocity.x, y: velocity.y });
@@ -209,7 +223,8 @@ pub fn squirt(table: &Table, a: f64) -> f64 {
 }
 
 /// Velocity and spin of the cue ball just after the stroke (thesis equations 9, 15 and 16), along the direction in which
-/// the ball squirts.
+/// the ball squirts. Where balls can leave the cloth, the downward part of (15) presses the ball into it and the cloth
+/// answers at the same moment: it rubs, and gives a part of the speed back.
 pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     let (a, b) = (cue.a, cue.b);
     let c = (1.0 - cue.tip_offset_squared()).max(0.0).sqrt();
@@ -220,14 +235,21 @@ pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     let force = 2.0 * cue.speed / (1.0 + table.ball_mass / table.cue_mass + 2.5 * (a * a + lever * lever));
     // F R / I with I = 2/5 m R².
     let torque = 2.5 * force / table.radius;
-    Impulse {
-        velocity: force * cos_theta * DVec2::new(cos_phi, sin_phi),
-        spin: torque
-            * DVec3::new(
-                -lever * sin_phi - a * sin_theta * cos_phi,
-                lever * cos_phi - a * sin_theta * sin_phi,
-                -a * cos_theta,
-            ),
+    let velocity = force * cos_theta * DVec2::new(cos_phi, sin_phi);
+    let spin = torque
+        * DVec3::new(
+            -lever * sin_phi - a * sin_theta * cos_phi,
+            lever * cos_phi - a * sin_theta * sin_phi,
+            -a * cos_theta,
+        );
+    match Cloth::of(table) {
+        Some(cloth) if sin_theta > 0.0 => {
+            let pressed = velocity.extend(-force * sin_theta);
+            let mut ball = SpatialState { position: DVec3::ZERO, velocity: pressed, spin };
+            cloth.answer(table.radius, &mut ball);
+            Impulse { velocity: ball.velocity.truncate(), spin: ball.spin, lift: ball.velocity.z }
+        }
+        _ => Impulse::on_cloth(velocity, spin),
     }
 }
 
@@ -235,7 +257,7 @@ pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
 /// ball does not move, or the tip would have to meet it beside its outline. Spin about the ball's way, which a level cue
 /// does not give, is left out.
 pub fn level_stroke(table: &Table, impulse: &Impulse) -> Option<CueInputs> {
-    let Impulse { velocity, spin } = *impulse;
+    let Impulse { velocity, spin, .. } = *impulse;
     let speed = velocity.length();
     let ahead = velocity.try_normalize()?;
     // (15) and (16) at theta = 0: w R is 5/2 of the speed and the tip's place.
@@ -282,14 +304,14 @@ mod tests {
                 assert!(wanted.iter().zip(found).all(|(one, other)| (one - other).abs() < 1e-12), "{found:?}");
             }
         }
-        let motion = |speed: f64, side| Impulse { velocity: DVec2::X * speed, spin: DVec3::Z * side };
+        let motion = |speed: f64, side| Impulse::on_cloth(DVec2::X * speed, DVec3::Z * side);
         assert_eq!(level_stroke(&Table::default(), &motion(0.0, 10.0)), None);
         assert_eq!(level_stroke(&Table::default(), &motion(0.1, 10.0)), None, "a = -1.2");
     }
 
     #[test]
     fn a_motion_that_no_ball_has_is_refused_with_its_numbers() {
-        let impulse = |velocity, spin| Impulse { velocity, spin };
+        let impulse = Impulse::on_cloth;
         let still = impulse(DVec2::ZERO, DVec3::ZERO);
         assert_eq!(still.validate(), Ok(()));
         let refused = |impulse: Impulse| impulse.validate().unwrap_err().to_string();

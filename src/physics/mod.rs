@@ -3,6 +3,7 @@
 mod contact;
 mod cue;
 mod cue_room;
+mod flight;
 mod impact;
 mod motion;
 mod rolling;
@@ -16,7 +17,10 @@ pub use cue::{CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, 
 #[cfg(test)]
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
-pub use impact::{BallImpact, Cushion, Cushions, ImpactLaw, collide_balls, collide_rail, collide_together};
+pub use flight::{Cloth, SpatialState, turned_by_cloth};
+pub use impact::{
+    BallImpact, Cushion, Cushions, ImpactLaw, RailImpulse, collide_balls, collide_rail, collide_together,
+};
 pub use motion::{
     BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, sliding_deceleration, slip, spin_deceleration,
 };

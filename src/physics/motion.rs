@@ -15,6 +15,10 @@ pub enum Motion {
     Sliding,
     /// Pressed against a cushion or another ball.
     Resting,
+    /// In the air, or hopping.
+    Flying,
+    /// It has left the table.
+    OffTable,
 }
 
 /// Where a ball is and how it moves at one moment.

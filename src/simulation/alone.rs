@@ -52,9 +52,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 let n = rail.normal();
                 let mut state = segment.state_after(constants, *rail_after);
                 state.position += (-n.abs().dot(constants.reach) - state.position.dot(n)) * n;
-                self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
-                // What might be part of a chatter.
-                if state.velocity.dot(n) <= constants.tolerance.slow_bounce {
+                let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
+                // What might be part of a chatter, or leaves the cloth.
+                if state.velocity.dot(n) <= constants.tolerance.slow_bounce || impulse.climb > constants.lifts {
                     break;
                 }
                 (after, lasts_after) = Segment::free(constants, next, &state);
@@ -121,7 +121,7 @@ impl Course {
     fn of(ball: &Ball) -> Self {
         let &Segment { start, position, velocity, half_acceleration, spin, motion, .. } = &ball.segment;
         Self {
-            segment: Segment { start, position, velocity, half_acceleration, spin, motion, curve: None },
+            segment: Segment { start, position, velocity, half_acceleration, spin, motion, course: None },
             lasts: ball.lasts,
             rail_after: ball.rail_after,
             rail: ball.rail,

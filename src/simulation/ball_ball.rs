@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::{
     Constants, Segment,
+    aloft::balls_ahead_in_space,
     predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
     roots::{first_crossing, first_crossing_of_quartic, horner},
     savings::Savings,
@@ -25,8 +26,12 @@ pub fn balls_ahead<S: Savings>(
     horizon: f64,
     may_rest: bool,
 ) -> Ahead {
-    if first.curve.is_some() || second.curve.is_some() {
-        return curved_balls_ahead(constants, first, second, now, horizon);
+    if first.course.is_some() || second.course.is_some() {
+        return if first.motion == Motion::Flying || second.motion == Motion::Flying {
+            balls_ahead_in_space(constants, [first, second], now, horizon)
+        } else {
+            curved_balls_ahead(constants, first, second, now, horizon)
+        };
     }
     let (t1, t2) = (now - first.start, now - second.start);
     let d = first.position_after(t1) - second.position_after(t2);

@@ -111,11 +111,17 @@ impl Chatters {
 }
 
 /// A contact that bounces with some speed, and all others that its bounces are coupled to.
-fn coupled(constants: &Constants, balls: &[BallState; BALLS], contact: &Contact, speed: f64) -> Contacts {
+fn coupled(
+    constants: &Constants,
+    balls: &[BallState; BALLS],
+    on_cloth: [bool; BALLS],
+    contact: &Contact,
+    speed: f64,
+) -> Contacts {
     let slow = COUPLING * speed.abs();
     let high =
         (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.coupled_gap);
-    let mut contacts = nearly_touching(constants, balls, high, |opening| opening.abs() <= slow);
+    let mut contacts = nearly_touching(constants, balls, on_cloth, high, |opening| opening.abs() <= slow);
     // It has met, whatever rounding says of its gap.
     contacts.retain(|_, other| other != contact);
     contacts.push(*contact);
@@ -131,6 +137,7 @@ pub fn settles(
     law: &ImpactLaw,
     contact: &Contact,
     balls: &[BallState; BALLS],
+    on_cloth: [bool; BALLS],
     shrinking: f64,
 ) -> Option<Contacts> {
     let tolerance = &constants.tolerance;
@@ -141,7 +148,7 @@ pub fn settles(
         return Some(alone);
     }
     // What the bounces open holds on average, and slips that they make are none.
-    let mut contacts = coupled(constants, balls, contact, speed);
+    let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
     // What is in flight does not press, and to stop it its contact would have to pull.
     let flies = |other: &Contact| other != contact && other.opening_speed(balls) > tolerance.slowest_bounce;
     contacts.retain(|_, other| other.shares_a_ball(contact) && !flies(other));
@@ -236,7 +243,10 @@ mod tests {
                 velocity: glam::DVec2::new(-1e-9, -up),
                 spin: glam::DVec3::new(-100.0, 100.0, 0.0),
             };
-            settles(&table, &constants, &law, &contact, &balls, 0.3).expect("the chatter ends").as_slice().to_vec()
+            settles(&table, &constants, &law, &contact, &balls, [true; BALLS], 0.3)
+                .expect("the chatter ends")
+                .as_slice()
+                .to_vec()
         };
         let other = Contact::with_cushion(0, glam::DVec2::NEG_Y);
         assert_eq!(ends(3e-9), [contact]);

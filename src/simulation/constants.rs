@@ -11,6 +11,8 @@ use crate::{
 /// A table's numbers in the form in which the engine uses them; divisions are done here, once a shot.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants {
+    /// Length of the playing area, m.
+    pub length: f64,
     /// Ball radius R, m.
     pub radius: f64,
     /// `1/R`, 1/m.
@@ -33,6 +35,8 @@ pub struct Constants {
     pub tilt: DVec2,
     /// `5 mu_sp g / 2R`, rad/s².
     pub spinning: f64,
+    /// Upward velocity above which a rail lifts a ball off the cloth, m/s: infinity where balls stay on it.
+    pub lifts: f64,
     /// What counts as nothing.
     pub tolerance: Tolerance,
 }
@@ -40,8 +44,10 @@ pub struct Constants {
 impl Constants {
     /// Works out the numbers of `table`.
     pub fn of(table: &Table) -> Self {
+        let tolerance = Tolerance::of(table);
         let (sliding, rolling) = (sliding_deceleration(table), rolling_deceleration(table));
         Self {
+            length: table.length,
             radius: table.radius,
             per_radius: 1.0 / table.radius,
             diameter: 2.0 * table.radius,
@@ -53,7 +59,8 @@ impl Constants {
             even: table.tilt == DVec2::ZERO && table.rolling_growth == 0.0,
             tilt: table.tilt,
             spinning: spin_deceleration(table),
-            tolerance: Tolerance::of(table),
+            lifts: if table.flight.is_some() { tolerance.slow_bounce } else { f64::INFINITY },
+            tolerance,
         }
     }
 }

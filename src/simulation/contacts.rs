@@ -12,27 +12,38 @@ pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 /// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
 pub const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
 
-/// All contacts of the balls whose opening speed, m/s, is `wanted`.
-pub fn touching(constants: &Constants, balls: &State, wanted: impl Fn(f64) -> bool) -> Contacts {
-    nearly_touching(constants, balls, constants.tolerance.touching, wanted)
+/// All contacts of the balls `on_cloth` whose opening speed, m/s, is `wanted`.
+pub fn touching(
+    constants: &Constants,
+    balls: &State,
+    on_cloth: [bool; BALLS],
+    wanted: impl Fn(f64) -> bool,
+) -> Contacts {
+    nearly_touching(constants, balls, on_cloth, constants.tolerance.touching, wanted)
 }
 
 /// The same for gaps up to some size, m.
-pub fn nearly_touching(constants: &Constants, balls: &State, widest: f64, wanted: impl Fn(f64) -> bool) -> Contacts {
+pub fn nearly_touching(
+    constants: &Constants,
+    balls: &State,
+    on_cloth: [bool; BALLS],
+    widest: f64,
+    wanted: impl Fn(f64) -> bool,
+) -> Contacts {
     let mut contacts = Contacts::NONE;
     let mut add = |gap: f64, contact: Contact| {
         if gap <= widest && wanted(contact.opening_speed(balls)) {
             contacts.push(contact);
         }
     };
-    for index in 0..balls.len() {
+    for index in (0..BALLS).filter(|&index| on_cloth[index]) {
         for rail in Rail::ALL {
             let normal = rail.normal();
             let contact = Contact::with_cushion(index, normal);
             add(gap(constants, balls, &contact), contact);
         }
     }
-    for (first, second) in PAIRS {
+    for (first, second) in PAIRS.into_iter().filter(|&(first, second)| on_cloth[first] && on_cloth[second]) {
         let contact = Contact::of_balls(first, second);
         add(gap(constants, balls, &contact), contact);
     }

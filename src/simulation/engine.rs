@@ -14,7 +14,7 @@ use super::{
     savings::{All, Savings},
 };
 use crate::{
-    physics::{BallState, ImpactLaw, Impulse, Motion},
+    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, SpatialState},
     table::{BALLS, Layout, Table},
 };
 
@@ -29,12 +29,14 @@ pub struct End {
     pub time: f64,
     /// The balls at that time.
     pub balls: [BallState; BALLS],
+    /// Which of them have left the table; they are where they did.
+    pub off_table: [bool; BALLS],
 }
 
 impl End {
-    /// Where the balls are.
-    pub fn layout(&self) -> Layout {
-        Layout::new(self.balls.map(|ball| ball.position))
+    /// Where the balls are; those that have left the table are on their spots.
+    pub fn layout(&self, table: &Table) -> Layout {
+        Layout::new(self.balls.map(|ball| ball.position)).with_spotted(table.length, table.radius, self.off_table)
     }
 }
 
@@ -101,6 +103,8 @@ pub(super) struct Engine<'a, S, O> {
     pub(super) table: &'a Table,
     pub(super) constants: Constants,
     pub(super) law: ImpactLaw,
+    /// The cloth, where balls can leave it.
+    pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
     pub(super) pairs: [Meeting; 3],
@@ -129,6 +133,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
+            cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),
             pairs: [Meeting::unseen(0.0, false); 3],
@@ -149,8 +154,17 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     fn run(&mut self, impulse: &Impulse) -> f64 {
         let cue_ball =
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
-        self.launch(0, 0.0, &cue_ball);
-        let mut flow = self.look_ahead_of(0.0, 0);
+        let mut flow = ControlFlow::Continue(());
+        if impulse.lift > 0.0 {
+            let mut cue_ball = SpatialState::from(cue_ball);
+            cue_ball.velocity.z = impulse.lift;
+            flow = self.launch_in_space(0, 0.0, &cue_ball);
+        } else {
+            self.launch(0, 0.0, &cue_ball);
+        }
+        if flow.is_continue() {
+            flow = self.look_ahead_of(0.0, 0);
+        }
         let mut now = 0.0;
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
@@ -168,8 +182,11 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             flow = match source.checked_sub(BALLS) {
                 Some(pair) => self.collide(pair, next),
                 None if self.balls[source].rail_after < self.balls[source].lasts => self.rebound(source, next),
-                None if self.balls[source].segment.motion == Motion::Resting => self.rest_on(next),
-                None => self.change_motion(source, next),
+                None => match self.balls[source].segment.motion {
+                    Motion::Resting => self.rest_on(next),
+                    Motion::Flying => self.stay_on_cloth(source, next),
+                    _ => self.change_motion(source, next),
+                },
             };
             now = next;
         }
@@ -263,12 +280,13 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         }
         let balls = std::array::from_fn(|index| {
             let mut state = self.state(index, time);
-            if self.balls[index].segment.motion == Motion::Stationary {
+            if matches!(self.balls[index].segment.motion, Motion::Stationary | Motion::OffTable) {
                 state.velocity = DVec2::ZERO;
             }
             state
         });
-        End { time, balls }
+        let off_table = std::array::from_fn(|index| self.balls[index].segment.motion == Motion::OffTable);
+        End { time, balls, off_table }
     }
 }
 

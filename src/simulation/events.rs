@@ -21,6 +21,12 @@ pub enum EventKind {
     ContactBegins(usize),
     /// A ball is free again.
     ContactEnds(usize),
+    /// A ball leaves the cloth.
+    Jumps(usize),
+    /// A ball that was in the air stays on the cloth from now on: its hops have ended.
+    Lands(usize),
+    /// A ball has come down on the rail or beyond it, and is out of play.
+    LeavesTable(usize),
 }
 
 impl EventKind {
@@ -33,6 +39,9 @@ impl EventKind {
             Self::RollingStationary(_) => "rolling-stationary",
             Self::ContactBegins(_) => "contact-begins",
             Self::ContactEnds(_) => "contact-ends",
+            Self::Jumps(_) => "jumps",
+            Self::Lands(_) => "lands",
+            Self::LeavesTable(_) => "leaves-table",
         }
     }
 
@@ -44,7 +53,10 @@ impl EventKind {
             | Self::SlidingRolling(ball)
             | Self::RollingStationary(ball)
             | Self::ContactBegins(ball)
-            | Self::ContactEnds(ball) => (ball, None),
+            | Self::ContactEnds(ball)
+            | Self::Jumps(ball)
+            | Self::Lands(ball)
+            | Self::LeavesTable(ball) => (ball, None),
         }
     }
 

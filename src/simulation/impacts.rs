@@ -11,7 +11,9 @@ use super::{
     savings::Savings,
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, MAX_CONTACTS, collide_together, stop_by_impulses},
+    physics::{
+        ActiveSet, BallState, Contact, Contacts, MAX_CONTACTS, Motion, SpatialState, collide_together, stop_by_impulses,
+    },
     table::BALLS,
 };
 
@@ -26,6 +28,9 @@ const MOST_ROUNDS: u32 = 64;
 impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        if self.balls[index].segment.motion == Motion::Flying {
+            return self.rebound_in_space(index, now);
+        }
         if self.is_crowded(now) && self.collide_at_once(now)? {
             return ControlFlow::Continue(());
         }
@@ -40,7 +45,12 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         state.position += (-n.abs().dot(self.constants.reach) - state.position.dot(n)) * n;
         let c = &self.constants;
         let before = state;
-        self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
+        let impulse = self.law.cushions.at(rail).resolve(c.radius, n, &mut state);
+        if impulse.climb > c.lifts {
+            let mut climbing = SpatialState::from(state);
+            climbing.velocity.z = impulse.climb;
+            return self.climb(index, now, &climbing, freed.is_some());
+        }
         let mut told = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
@@ -71,6 +81,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             return ControlFlow::Continue(());
         }
         let (first, second) = PAIRS[pair];
+        if !self.is_on_cloth(first) || !self.is_on_cloth(second) {
+            return self.collide_in_space(pair, now);
+        }
         let Meeting { since, after, .. } = self.pairs[pair];
         let mut changed = only(first);
         changed[second] = true;
@@ -128,7 +141,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         });
         let c = self.constants;
         let collapsed = self.rounds > MOST_ROUNDS;
-        let contacts = touching(&c, &states, |opening| opening < -c.tolerance.opening || (collapsed && opening <= 0.0));
+        let contacts = touching(&c, &states, self.on_cloth(), |opening| {
+            opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
+        });
         if contacts.as_slice().len() < 2 {
             return ControlFlow::Continue(false);
         }
@@ -219,7 +234,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         bounced: &[(usize, BallState)],
     ) -> Option<Contacts> {
         let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
-        settles(self.table, &self.constants, &self.law, contact, &self.states_with(now, freed, bounced), shrinking)
+        let states = self.states_with(now, freed, bounced);
+        settles(self.table, &self.constants, &self.law, contact, &states, self.on_cloth(), shrinking)
     }
 
     /// All balls now, some of them as given.

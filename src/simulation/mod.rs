@@ -1,6 +1,7 @@
 //! When things happen: event prediction, the engine, and playback of what it recorded.
 
 mod active_set;
+mod aloft;
 mod alone;
 mod ball_ball;
 mod chatter;
@@ -11,6 +12,8 @@ mod cushions;
 mod engine;
 mod events;
 mod extrapolation;
+mod flights;
+mod hops;
 mod impacts;
 mod playback;
 mod predict;
@@ -29,7 +32,8 @@ pub use crate::table::Rail;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, StepBudget};
+pub use hops::{Arc, Hops};
 pub use playback::{Recorder, Recording, ShotError};
 pub use savings::{All, Savings};
-pub use segment::{Curve, Segment};
+pub use segment::{Course, Curve, Segment};
 pub use tolerance::Tolerance;

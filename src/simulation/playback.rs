@@ -61,7 +61,7 @@ impl Recording {
 
     /// Before anything is played.
     fn empty(table: &Table) -> Self {
-        let impulse = Impulse { velocity: DVec2::ZERO, spin: DVec3::ZERO };
+        let impulse = Impulse::on_cloth(DVec2::ZERO, DVec3::ZERO);
         Self { constants: Constants::of(table), impulse, kept: Recorder::with_room(), duration: 0.0 }
     }
 
@@ -110,7 +110,8 @@ impl Recording {
     fn end_with(&mut self, end: &End) {
         for (ball, segments) in self.kept.segments.iter_mut().enumerate() {
             let BallState { position, spin, .. } = end.balls[ball];
-            segments.push(Segment { start: end.time, spin, ..Segment::at_rest(position) });
+            let motion = if end.off_table[ball] { Motion::OffTable } else { Motion::Stationary };
+            segments.push(Segment { start: end.time, spin, motion, ..Segment::at_rest(position) });
         }
         self.duration = end.time;
     }
@@ -149,9 +150,21 @@ impl Recording {
         })
     }
 
-    /// Where the balls come to rest.
+    /// Where the balls come to rest; those that have left the table are on their spots.
     pub fn final_layout(&self) -> Layout {
-        Layout::new(self.positions(self.duration))
+        let Constants { length, radius, .. } = self.constants;
+        Layout::new(self.positions(self.duration)).with_spotted(length, radius, self.off_table())
+    }
+
+    /// Which balls leave the table.
+    pub fn off_table(&self) -> [bool; BALLS] {
+        std::array::from_fn(|ball| self.motion(ball, self.duration) == Motion::OffTable)
+    }
+
+    /// How high a ball is over its place on the cloth at time `t`, s: in metres.
+    pub fn height(&self, ball: usize, t: f64) -> f64 {
+        let (segment, after) = self.segment(ball, t);
+        segment.hops().map_or(0.0, |hops| hops.state_after(after).position.z)
     }
 
     /// The recorded segments of a ball, in order of time; each holds until the next one starts.
@@ -225,7 +238,7 @@ mod tests {
     fn a_ball_that_only_spins_is_played_and_an_impossible_motion_or_layout_is_refused() {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let impulse = |velocity, spin| Impulse { velocity, spin };
+        let impulse = Impulse::on_cloth;
         let play = |layout: &Layout, impulse: &Impulse| Recording::with_impulse(&table, layout, impulse);
         let still = play(&layout, &impulse(DVec2::ZERO, DVec3::ZERO)).unwrap();
         assert_eq!((still.duration(), still.events().len(), still.final_layout()), (0.0, 0, layout));

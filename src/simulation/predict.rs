@@ -56,7 +56,7 @@ pub fn curved_cushion_ahead(
 }
 
 fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve.as_ref().map_or([DVec2::ZERO; 3], |curve| curve.position);
+    let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
     [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
 }
 
@@ -86,7 +86,7 @@ pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segme
 }
 
 /// How far a course with coefficients of these sizes can lead within `time`.
-fn travel(sizes: &[f64; 6], time: f64) -> f64 {
+pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
     sizes[1..].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
 }
 
@@ -118,7 +118,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, sca
 }
 
 /// A segment's coefficients about the time `now`.
-fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
+pub fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
     let mut c = coefficients(segment);
     let shift = now - segment.start;
     if shift != 0.0 {
@@ -135,7 +135,7 @@ fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::segment::Course, *};
     use crate::physics::Motion;
 
     #[test]
@@ -149,7 +149,7 @@ mod tests {
             velocity: DVec2::new(1.0, 2.0),
             half_acceleration: DVec2::new(-0.5, 0.1),
             motion: Motion::Resting,
-            curve: Some(Box::new(curve)),
+            course: Some(Box::new(Course::Contact(curve))),
             ..Segment::at_rest(DVec2::new(0.1, 0.2))
         };
         let c = shifted(&segment, 1.25);

@@ -8,7 +8,7 @@ use super::{
     engine::{Engine, MOST_STEPS},
     resting::{Outcome, Resting},
     savings::Savings,
-    segment::still,
+    segment::{Course, still},
 };
 use crate::{
     physics::{BallState, Motion},
@@ -78,7 +78,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             let segment = &mut self.balls[index].segment;
             if segment.start == resting.start {
                 let (half_acceleration, curve) = resting.course(index);
-                (segment.half_acceleration, segment.curve) = (half_acceleration, Some(Box::new(curve)));
+                segment.half_acceleration = half_acceleration;
+                segment.course = Some(Box::new(Course::Contact(curve)));
             }
         }
     }
@@ -111,8 +112,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         };
         self.contact_step()?;
         let previous = self.resting.take().or(self.ended.take());
+        let on_cloth = self.on_cloth();
+        let previous = previous.as_deref();
         self.resting =
-            match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
+            match Resting::begin(self.table, &self.constants, now, &states, on_cloth, previous, self.next_step) {
                 Outcome::Rests(resting) => {
                     self.next_step = resting.next_step;
                     for index in (0..BALLS).filter(|&index| !resting.members[index]) {
@@ -178,7 +181,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             half_acceleration,
             spin: state.spin,
             motion: Motion::Resting,
-            curve: Some(Box::new(curve)),
+            course: Some(Box::new(Course::Contact(curve))),
         };
         if self.balls[index].segment.start < now {
             self.close(index, now);

@@ -105,11 +105,13 @@ impl Resting {
         constants: &Constants,
         start: f64,
         balls: &State,
+        on_cloth: [bool; BALLS],
         previous: Option<&Self>,
         next_step: f64,
     ) -> Outcome {
         let Tolerance { slack, .. } = constants.tolerance;
-        let mut contacts = touching(constants, balls, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
+        let mut contacts =
+            touching(constants, balls, on_cloth, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
         let mut free = *balls;
         let least_push = slack + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) =

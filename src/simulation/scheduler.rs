@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{
     Observer, Rail, Segment,
+    aloft::nose_ahead,
     ball_ball::{Triangle, balls_ahead},
     contact_mode::ContactMode,
     contacts::{PAIRS, PAIRS_OF},
@@ -38,6 +39,13 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         if S::BALLS_AT_REST && segment.motion == Motion::Stationary {
             return false;
         }
+        if segment.motion == Motion::Flying || segment.motion == Motion::OffTable {
+            if let Some((after, which)) = nose_ahead(&self.constants, &self.law.cushions, segment) {
+                (*rail_after, *rail) = (after, which);
+                self.times[index] = segment.start + after;
+            }
+            return false;
+        }
         let (ahead, which) = match &self.resting {
             Some(resting) if segment.motion == Motion::Resting => {
                 curved_cushion_ahead(&self.constants, segment, *lasts, |rail| resting.holds_at(index, rail))
@@ -64,6 +72,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         }
         let ball = &self.balls[index];
         let still = ball.segment.motion == Motion::Stationary;
+        let flies = ball.segment.motion == Motion::Flying;
         let horizon = self.times[index] - now;
         let way = Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
         let apart = self.constants.diameter + self.constants.tolerance.surely_apart;
@@ -71,7 +80,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             let other = &self.balls[other].segment;
             let at_rest = other.motion == Motion::Stationary;
             // Most pairs end here: one ball passes another, which lies still.
-            if at_rest && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && way.clears(other.position, apart))) {
+            if at_rest
+                && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && !flies && way.clears(other.position, apart)))
+            {
                 self.times[BALLS + pair] = f64::INFINITY;
                 self.pairs[pair] = Meeting::unseen(now, true);
             } else {
@@ -122,6 +133,9 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         self.pairs[index] = Meeting::unseen(now, may_rest);
         self.times[BALLS + index] = f64::INFINITY;
         if S::BALLS_AT_REST && a.motion == Motion::Stationary && b.motion == Motion::Stationary {
+            return;
+        }
+        if a.motion == Motion::OffTable || b.motion == Motion::OffTable {
             return;
         }
         if self.resting.as_ref().is_some_and(|resting| resting.holds_together((first, second))) {

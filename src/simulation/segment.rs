@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Constants;
-use crate::physics::{BallState, Motion, decayed_spin, roll_on_slope, slide_on_slope, slip};
+use super::{Constants, hops::Hops};
+use crate::physics::{BallState, Motion, SpatialState, decayed_spin, roll_on_slope, slide_on_slope, slip};
 
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -31,14 +31,24 @@ pub struct Segment {
     pub position: DVec2,
     /// Velocity at the start, m/s.
     pub velocity: DVec2,
-    /// Half the acceleration, which is constant but for [`Motion::Resting`], m/s²: `-k` of thesis equation (38).
+    /// Half the acceleration, which is constant but for [`Motion::Resting`] and [`Motion::Flying`], m/s²: `-k` of thesis
+    /// equation (38).
     pub half_acceleration: DVec2,
     /// Angular velocity at the start, rad/s.
     pub spin: DVec3,
     /// The equation of motion in force.
     pub motion: Motion,
-    /// What a resting contact adds to the course. It is kept apart, since it is rare and larger than all the rest.
-    pub curve: Option<Box<Curve>>,
+    /// What is more than a parabola on the cloth. It is kept apart, since it is rare and larger than all the rest.
+    pub course: Option<Box<Course>>,
+}
+
+/// A course that is more than a parabola on the cloth.
+#[derive(Clone, Copy, Debug)]
+pub enum Course {
+    /// That of a resting contact.
+    Contact(Curve),
+    /// That of a ball in the air.
+    Hops(Hops),
 }
 
 /// The part of a resting contact's course that is not a parabola: one step of its integration, as polynomials that meet
@@ -68,7 +78,7 @@ impl Segment {
             half_acceleration: DVec2::ZERO,
             spin: DVec3::ZERO,
             motion: Motion::Stationary,
-            curve: None,
+            course: None,
         }
     }
 
@@ -87,7 +97,7 @@ impl Segment {
             half_acceleration: DVec2::ZERO,
             spin: state.spin,
             motion: Motion::Stationary,
-            curve: None,
+            course: None,
         };
         let spin_squared = radius * radius * state.spin.truncate().length_squared();
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
@@ -174,41 +184,79 @@ impl Segment {
     /// Centre `t` seconds after the start, m.
     #[inline(always)]
     pub fn position_after(&self, t: f64) -> DVec2 {
-        let bend = match &self.curve {
-            None => self.half_acceleration,
-            Some(curve) => {
-                let [c3, c4, c5] = curve.position;
-                self.half_acceleration + t * (c3 + t * (c4 + t * c5))
-            }
-        };
-        self.position + t * (self.velocity + t * bend)
+        match &self.course {
+            None => self.position + t * (self.velocity + t * self.half_acceleration),
+            Some(course) => self.special_position(course, t),
+        }
     }
 
     /// Velocity `t` seconds after the start, m/s.
     #[inline(always)]
     pub fn velocity_after(&self, t: f64) -> DVec2 {
-        let bend = match &self.curve {
-            None => 2.0 * self.half_acceleration,
-            Some(curve) => {
-                let [c3, c4, c5] = curve.position;
-                2.0 * self.half_acceleration + t * (3.0 * c3 + t * (4.0 * c4 + 5.0 * t * c5))
+        match &self.course {
+            None => self.velocity + t * (2.0 * self.half_acceleration),
+            Some(course) => self.special_velocity(course, t),
+        }
+    }
+
+    #[inline(never)]
+    fn special_position(&self, course: &Course, t: f64) -> DVec2 {
+        match course {
+            Course::Contact(Curve { position: [c3, c4, c5], .. }) => {
+                let bend = self.half_acceleration + t * (c3 + t * (c4 + t * c5));
+                self.position + t * (self.velocity + t * bend)
             }
-        };
-        self.velocity + t * bend
+            Course::Hops(hops) => hops.state_after(t).position.truncate(),
+        }
+    }
+
+    #[inline(never)]
+    fn special_velocity(&self, course: &Course, t: f64) -> DVec2 {
+        match course {
+            Course::Contact(Curve { position: [c3, c4, c5], .. }) => {
+                let bend = 2.0 * self.half_acceleration + t * (3.0 * c3 + t * (4.0 * c4 + 5.0 * t * c5));
+                self.velocity + t * bend
+            }
+            Course::Hops(hops) => hops.state_after(t).velocity.truncate(),
+        }
+    }
+
+    /// The curve of a resting contact.
+    pub fn curve(&self) -> Option<&Curve> {
+        match self.course.as_deref() {
+            Some(Course::Contact(curve)) => Some(curve),
+            _ => None,
+        }
+    }
+
+    /// The flight of a ball in the air.
+    pub fn hops(&self) -> Option<&Hops> {
+        match self.course.as_deref() {
+            Some(Course::Hops(hops)) => Some(hops),
+            _ => None,
+        }
+    }
+
+    /// The same in space, `t` seconds after the start.
+    pub fn spatial_after(&self, constants: &Constants, t: f64) -> SpatialState {
+        self.hops().map_or_else(|| self.state_after(constants, t).into(), |hops| hops.state_after(t))
     }
 
     /// Angular velocity `t` seconds after the start, rad/s.
     #[inline(always)]
     pub fn spin_after(&self, constants: &Constants, t: f64) -> DVec3 {
-        if let Some(curve) = &self.curve {
-            let [c1, c2, c3] = curve.spin;
-            return self.spin + t * (c1 + t * (c2 + t * c3));
+        match self.course.as_deref() {
+            None => {}
+            Some(Course::Contact(Curve { spin: [c1, c2, c3], .. })) => {
+                return self.spin + t * (c1 + t * (c2 + t * c3));
+            }
+            Some(Course::Hops(hops)) => return hops.state_after(t).spin,
         }
         // w' = -5/R z×k while sliding (3), z×v'/R while rolling (6).
         let rate = match self.motion {
             Motion::Sliding => -5.0,
             Motion::Rolling => 2.0,
-            Motion::Stationary | Motion::Resting => 0.0,
+            Motion::Stationary | Motion::Resting | Motion::Flying | Motion::OffTable => 0.0,
         } * constants.per_radius;
         // A slope does not turn a sliding ball.
         let mut turning = self.half_acceleration;

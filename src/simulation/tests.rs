@@ -46,7 +46,7 @@ fn played(table: &Table, from: DVec2, velocity: DVec2, spin: DVec3, second: Opti
 fn among(table: &Table, balls: [DVec2; 3], velocity: DVec2, spin: DVec3) -> (Course, DVec2) {
     let layout = Layout::new(balls);
     let mut course = Course::default();
-    let end = simulate(table, &layout, &Impulse { velocity, spin }, &mut course);
+    let end = simulate(table, &layout, &Impulse::on_cloth(velocity, spin), &mut course);
     (course, end.balls[0].position)
 }
 
@@ -267,7 +267,7 @@ fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
             velocity: DVec2::new(0.4, closing),
             spin: DVec3::new(-80.0, 0.0, 0.0),
         };
-        let outcome = Resting::begin(&table, &constants, 0.0, &balls, None, f64::INFINITY);
+        let outcome = Resting::begin(&table, &constants, 0.0, &balls, [true; 3], None, f64::INFINITY);
         matches!(outcome, Outcome::Rests(resting) if resting.members[0])
     };
     assert!(rests(0.0) && rests(constants.tolerance.opening));

@@ -68,7 +68,7 @@ impl Method {
             Self::Engine => {
                 let mut events = Events::default();
                 let end = simulate(table, &shot.layout, &shot.impulse, &mut events);
-                Some(Run { events: events.0, end: end.layout(), unaccounted: None })
+                Some(Run { events: events.0, end: end.layout(table), unaccounted: None })
             }
             Self::Plain => plain(table, shot, by_extrema::<f64>),
             Self::ClosedForm => plain(table, shot, closed_form),
@@ -77,7 +77,7 @@ impl Method {
             Self::Steps(steps) => {
                 let mut events = Events::default();
                 let stepped = steps.simulate(table, &shot.layout, &shot.impulse, &mut events);
-                stepped.at_rest.then(|| Run { events: events.0, end: stepped.end.layout(), unaccounted: None })
+                stepped.at_rest.then(|| Run { events: events.0, end: stepped.end.layout(table), unaccounted: None })
             }
         }
     }

@@ -295,7 +295,11 @@ impl<'a, O: Observer> Stepper<'a, O> {
                 let spin = DVec2::ZERO.extend(spin.z);
                 self.launch(index, BallState { position, velocity: DVec2::ZERO, spin });
             }
-            EventKind::ContactBegins(_) | EventKind::ContactEnds(_) => {}
+            EventKind::ContactBegins(_)
+            | EventKind::ContactEnds(_)
+            | EventKind::Jumps(_)
+            | EventKind::Lands(_)
+            | EventKind::LeavesTable(_) => {}
         }
         self.observer.event(Event { time: self.now, kind })
     }
@@ -319,7 +323,7 @@ impl<'a, O: Observer> Stepper<'a, O> {
 
     fn finish(mut self) -> End {
         (0..BALLS).for_each(|index| self.close(index));
-        End { time: self.last_event, balls: self.balls.map(|ball| ball.state) }
+        End { time: self.last_event, balls: self.balls.map(|ball| ball.state), off_table: [false; BALLS] }
     }
 }
 

@@ -121,6 +121,26 @@ impl Layout {
         Self::new([other, cue_ball, red])
     }
 
+    /// The layout after balls have left the table, as UMB rules have it in three-cushion: the red ball comes on the far spot,
+    /// the cue ball of who plays next, ball 1, on the near spot, the other on the middle of the table; where another ball is in
+    /// the way, on the spot of that ball.
+    #[must_use]
+    pub fn with_spotted(&self, length: f64, radius: f64, off_table: [bool; BALLS]) -> Self {
+        let spots = [0.0, -0.25 * length, 0.25 * length].map(|x| DVec2::new(x, 0.0));
+        let (mut layout, mut waiting) = (*self, off_table);
+        for ball in [2, 1, 0].into_iter().filter(|&ball| off_table[ball]) {
+            let mask = |spot: usize| {
+                (0..BALLS).find(|&other| !waiting[other] && layout.balls[other].distance(spots[spot]) < 2.0 * radius)
+            };
+            // Two balls cannot be in the way of all three spots.
+            let places = [ball, mask(ball).unwrap_or(ball), 0, 1, 2];
+            let place = places.into_iter().find(|&spot| mask(spot).is_none()).unwrap_or(ball);
+            layout.balls[ball] = spots[place];
+            waiting[ball] = false;
+        }
+        layout
+    }
+
     /// A layout drawn uniformly from all that are possible on `table`.
     pub fn random(table: &Table, rng: &mut (impl Rng + ?Sized)) -> Self {
         let reach = table.reach();

@@ -3,6 +3,7 @@
 mod cue_ball;
 mod doubt;
 mod flaws;
+mod flight;
 mod layout;
 mod models;
 mod opening;
@@ -13,6 +14,7 @@ mod room;
 
 pub use cue_ball::{CueBall, UnknownCueBall};
 pub use doubt::{DoubtError, TableDoubt, TableSampler};
+pub use flight::Flight;
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
 pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};

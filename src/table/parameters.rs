@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 use super::{
-    DoubtError, Opening, Room, TableDoubt, flaws,
+    DoubtError, Flight, Opening, Room, TableDoubt, flaws,
     models::{Fade, Rails, SlipFriction, is_zero},
 };
 
@@ -93,6 +93,9 @@ pub struct Table {
     /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,
+    /// How balls leave the cloth and come down again; without this section they stay on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flight: Option<Flight>,
     /// The rails' model; without this section balls meet them at the height of their centre.
     #[serde(default, skip_serializing_if = "is_thesis_rail")]
     pub rail: Rails,
@@ -208,7 +211,9 @@ impl Table {
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
         }
-        if let Some((key, value, accepted)) = self.room.and_then(|room| room.flaw(self.radius)) {
+        let of_sections =
+            self.room.and_then(|room| room.flaw(self.radius)).or_else(|| self.flight.and_then(|flight| flight.flaw()));
+        if let Some((key, value, accepted)) = of_sections {
             return refuse(key, value, accepted);
         }
         if let Some(error) = self.doubt.as_ref().and_then(|doubt| doubt.validate().err()) {

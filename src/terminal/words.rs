@@ -31,6 +31,9 @@ pub fn event_words(kind: EventKind, cue_ball: CueBall) -> String {
         EventKind::RollingStationary(ball) => format!("{} stops", name(ball)),
         EventKind::ContactBegins(ball) => format!("{} contact begins", name(ball)),
         EventKind::ContactEnds(ball) => format!("{} contact ends", name(ball)),
+        EventKind::Jumps(ball) => format!("{} jumps", name(ball)),
+        EventKind::Lands(ball) => format!("{} lands", name(ball)),
+        EventKind::LeavesTable(ball) => format!("{} leaves the table", name(ball)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod documents;
 mod exercises;
+mod flights;
 mod house;
 mod physics_properties;
 mod reference;

@@ -66,6 +66,9 @@ fn renamed(kind: EventKind) -> EventKind {
         EventKind::RollingStationary(ball) => EventKind::RollingStationary(name(ball)),
         EventKind::ContactBegins(ball) => EventKind::ContactBegins(name(ball)),
         EventKind::ContactEnds(ball) => EventKind::ContactEnds(name(ball)),
+        EventKind::Jumps(ball) => EventKind::Jumps(name(ball)),
+        EventKind::Lands(ball) => EventKind::Lands(name(ball)),
+        EventKind::LeavesTable(ball) => EventKind::LeavesTable(name(ball)),
     }
 }
 

@@ -42,9 +42,9 @@ fn shots(table: &Table, seed: u64, count: usize) -> Vec<(Layout, Impulse)> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut draw = |limit: f64| rng.random_range(-limit..limit);
     let impulses: Vec<Impulse> = (0..count)
-        .map(|_| Impulse {
-            velocity: DVec2::new(draw(5.0), draw(5.0)),
-            spin: DVec3::new(draw(120.0), draw(120.0), draw(80.0)),
+        .map(|_| {
+            let velocity = DVec2::new(draw(5.0), draw(5.0));
+            Impulse::on_cloth(velocity, DVec3::new(draw(120.0), draw(120.0), draw(80.0)))
         })
         .collect();
     impulses.into_iter().map(|impulse| (Layout::random(table, &mut rng), impulse)).collect()

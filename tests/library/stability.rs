@@ -105,6 +105,12 @@ rows_as_tests! {
     smallest_table => "the smallest table, six ball radii wide",
     huge_table => "a table of one kilometre",
     tiny_and_huge_balls => "balls of one millimetre and of one metre",
+    grazing_from_above => "grazing a ball from above, relative depth 1e-12 to 1e-3",
+    landing_on_the_nose => "landing on the nose of a cushion",
+    landing_on_top => "landing exactly on a ball's top",
+    endless_hops => "endless hops, e_c = 0.99",
+    corner_from_the_air => "into the corner from the air",
+    steep_masse_in_flight => "massé at 89° and 8 m/s where balls can fly",
 }
 
 #[test]

@@ -48,7 +48,7 @@ impl Leg {
                     from: diamonds(table, from),
                     hits: [first, second, third].map(hit),
                     english: table.radius * before.spin.z * along.signum() / before.velocity.length(),
-                    motion: (before.position, Impulse { velocity: before.velocity, spin: before.spin }),
+                    motion: (before.position, Impulse::on_cloth(before.velocity, before.spin)),
                 });
             }
         }

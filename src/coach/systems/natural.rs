@@ -34,7 +34,7 @@ impl Natural {
         let velocity = self.speed * ahead;
         let spin: DVec3 =
             (self.roll * rolling_spin(table.radius, velocity)).extend(running * self.side * self.speed / table.radius);
-        hits(table, from, &Impulse { velocity, spin })
+        hits(table, from, &Impulse::on_cloth(velocity, spin))
     }
 }
 

@@ -83,7 +83,7 @@ impl Carom {
         let mut watcher = Watcher::default();
         let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut watcher);
         let tally = watcher.tally;
-        self.layout = end.layout();
+        self.layout = end.layout(&self.table);
         let hit = match self.reward {
             Reward::R1 | Reward::R1Difficulty | Reward::R2 => tally.met_any(),
             Reward::R3 | Reward::R4 => tally.met_both(),

@@ -1,6 +1,8 @@
 //! Collision of two balls (thesis 2.2.2).
 
-use super::{BallState, contact_twist};
+use glam::DVec2;
+
+use super::{super::SpatialState, BallState, contact_twist, opening_in_space, raised};
 use crate::table::{Fade, SlipFriction, Table};
 
 /// The law of two balls' impacts, as a table has it.
@@ -38,6 +40,47 @@ impl BallImpact {
             return collide_balls(radius, self.restitution, self.friction, first, second);
         }
         self.resolve_by_speed(radius, first, second)
+    }
+
+    /// The same for balls of which one at least is in the air: the line of centres has any direction. They part with the speed
+    /// `slowest` at least, m/s. Returns the speed with which they have approached, m/s, negative if they do not.
+    pub fn resolve_in_space(
+        &self,
+        radius: f64,
+        slowest: f64,
+        first: &mut SpatialState,
+        second: &mut SpatialState,
+    ) -> f64 {
+        let mut n = (first.position - second.position).normalize();
+        if n.truncate() == DVec2::ZERO {
+            // Nothing says to which side a ball leaves the top of another; that it does not stay there is all that is known.
+            n.x = f64::EPSILON;
+        }
+        let apart = first.velocity - second.velocity;
+        let approach = -apart.dot(n);
+        if approach < 0.0 {
+            return approach;
+        }
+        let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
+        let across = apart + approach * n;
+        let opening = opening_in_space(approach, restitution, slowest);
+        let normal = 0.5 * (approach + opening);
+        // Equation (21), of which the part along n is none.
+        let slip = across - radius * (first.spin + second.spin).cross(n);
+        let size = slip.length();
+        let friction = self.by_slip.map_or(self.friction, |law| Some(law.at(size)));
+        let factor = match friction {
+            Some(mu) if 7.0 * mu * normal < size => mu * normal / size,
+            _ => 1.0 / 7.0,
+        };
+        let after = across - 2.0 * factor * slip;
+        let change = normal * n - factor * slip + 0.5 * raised(opening, slowest, after, n);
+        first.velocity += change;
+        second.velocity -= change;
+        let twist = (2.5 / radius * factor) * n.cross(slip);
+        first.spin += twist;
+        second.spin += twist;
+        approach
     }
 
     #[inline(never)]
@@ -93,4 +136,36 @@ pub fn collide_balls(
     first.spin += twist;
     second.spin += twist;
     normal
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+
+    #[test]
+    fn in_space_balls_on_the_cloth_get_what_they_get_in_the_plane_but_for_the_lift() {
+        for name in crate::table::PRESETS {
+            let table = Table::preset(name).unwrap();
+            let (law, radius) = (BallImpact::of(&table), table.radius);
+            let ball = |position: DVec2, velocity: [f64; 2], spin: [f64; 3]| BallState {
+                position,
+                velocity: velocity.into(),
+                spin: DVec3::from_array(spin),
+            };
+            let n = DVec2::from_angle(0.7);
+            let mut one = ball(DVec2::ZERO, [2.0, 1.4], [-20.0, 50.0, 30.0]);
+            let mut other = ball(2.0 * radius * n, [-0.2, 0.1], [3.0, 0.0, -9.0]);
+            let [mut a, mut b] = [one, other].map(SpatialState::from);
+            law.resolve(radius, &mut one, &mut other);
+            law.resolve_in_space(radius, 0.0, &mut a, &mut b);
+            for (plane, space) in [(one, a), (other, b)] {
+                assert!(plane.velocity.distance(space.velocity.truncate()) < 1e-14, "{name}");
+                assert!(plane.spin.distance(space.spin) < 1e-11, "{name}");
+            }
+            assert_eq!(a.velocity.z, -b.velocity.z);
+            assert!(a.velocity.z != 0.0);
+        }
+    }
 }

@@ -8,8 +8,28 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 pub use ball_ball::{BallImpact, collide_balls};
-pub use cushion::{Cushion, Cushions, collide_rail};
+pub use cushion::{Cushion, Cushions, RailImpulse, collide_rail};
 pub use simultaneous::{ImpactLaw, collide_together};
+
+/// The speed with which an impact in the air opens that closes with `approach`, m/s. One slower than `slowest` loses nothing: a
+/// ball that comes to lie on a nose or on another ball slides off it in bounces that would get lower without end.
+fn opening_in_space(approach: f64, restitution: f64, slowest: f64) -> f64 {
+    (restitution * approach).max(approach.min(slowest))
+}
+
+/// What changes the motion `across + opening n` after such an impact so that it opens with `slowest`, m/s: what that takes comes
+/// from the motion across, so that no energy is gained.
+fn raised(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
+    let missing = slowest * slowest - opening * opening;
+    if missing <= 0.0 {
+        return DVec3::ZERO;
+    }
+    let (had, left) = (across.length_squared(), across.length_squared() - missing);
+    if left <= 0.0 {
+        return (opening.hypot(had.sqrt()) - opening) * n - across;
+    }
+    (slowest - opening) * n - (1.0 - (left / had).sqrt()) * across
+}
 
 /// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.
 #[inline]

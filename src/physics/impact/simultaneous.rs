@@ -115,7 +115,7 @@ pub fn collide_together(
 /// A single impact.
 fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> f64 {
     match contact.second {
-        None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
+        None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]).normal,
         Some(second) => {
             let (mut one, mut other) = (balls[contact.first], balls[second]);
             let impulse = law.balls.resolve(radius, &mut one, &mut other);

@@ -48,7 +48,7 @@ impl Motion {
     /// What a stroke would have to give a ball for this motion.
     pub fn impulse(&self, radius: f64) -> Impulse {
         let spin: DVec3 = spin_of_slip(radius, self.velocity, self.slip).extend(self.side / radius);
-        Impulse { velocity: self.velocity, spin }
+        Impulse::on_cloth(self.velocity, spin)
     }
 }
 

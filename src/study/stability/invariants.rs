@@ -12,6 +12,7 @@ use crate::{
 };
 
 use super::{
+    aloft,
     audit::audit,
     figures::Figures,
     polynomial::{MAX_DEGREE, least},
@@ -46,6 +47,10 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         return figures;
     }
     order(trace, &mut figures);
+    if trace.pieces.iter().flatten().any(|piece| piece.segment.motion == Motion::Flying) {
+        aloft::measure(table, shot, trace, &mut figures);
+        return figures;
+    }
     jumps(shot, trace, &mut figures);
     for pieces in &trace.pieces {
         for piece in pieces {
@@ -67,7 +72,7 @@ fn is_finite(trace: &Trace) -> bool {
             && piece.end.is_finite()
             && segment.spin.is_finite()
             && coefficients(segment).iter().all(|c| c.is_finite())
-            && segment.curve.as_ref().is_none_or(|curve| curve.spin.iter().all(|c| c.is_finite()))
+            && segment.curve().is_none_or(|curve| curve.spin.iter().all(|c| c.is_finite()))
     };
     trace.pieces.iter().flatten().all(piece_is_finite)
         && trace.events.iter().all(|event| event.time.is_finite())
@@ -105,7 +110,7 @@ fn jumps(shot: &Shot, trace: &Trace, figures: &mut Figures) {
 fn outside(constants: &Constants, piece: &Piece, figures: &mut Figures) {
     let Piece { segment, end } = piece;
     let course = coefficients(segment);
-    let count = if segment.curve.is_some() { 6 } else { 3 };
+    let count = if segment.curve().is_some() { 6 } else { 3 };
     let time = end - segment.start;
     for axis in 0..2 {
         let reach = constants.reach[axis];
@@ -115,7 +120,7 @@ fn outside(constants: &Constants, piece: &Piece, figures: &mut Figures) {
                 *room = side * c[axis];
             }
             room[0] += reach;
-            if room[0] > time * (room[1].abs() + time * room[2].abs()) && segment.curve.is_none() {
+            if room[0] > time * (room[1].abs() + time * room[2].abs()) && segment.curve().is_none() {
                 continue;
             }
             let found = least(&room[..count], time, PRECISION);
@@ -140,7 +145,7 @@ fn overlaps(constants: &Constants, first: &[Piece], second: &[Piece], figures: &
                 *d = *c1 - c2;
             }
             let time = until - from;
-            let curved = one.segment.curve.is_some() || other.segment.curve.is_some();
+            let curved = one.segment.curve().is_some() || other.segment.curve().is_some();
             if curved || d[0].length() - diameter <= time * (d[1].length() + time * d[2].length()) {
                 let terms = if curved { 6 } else { 3 };
                 let mut gap = [0.0; MAX_DEGREE + 1];
@@ -194,7 +199,7 @@ fn contacts(trace: &Trace, figures: &mut Figures) {
 }
 
 fn coefficients(segment: &Segment) -> [DVec2; 6] {
-    let [c3, c4, c5] = segment.curve.as_ref().map_or([DVec2::ZERO; 3], |curve| curve.position);
+    let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
     [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5]
 }
 
@@ -202,7 +207,7 @@ fn coefficients(segment: &Segment) -> [DVec2; 6] {
 fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
     let mut c = coefficients(segment);
     let shift = now - segment.start;
-    let highest = if segment.curve.is_some() { 5 } else { 2 };
+    let highest = if segment.curve().is_some() { 5 } else { 2 };
     if shift != 0.0 {
         // Repeated synthetic division.
         for low in 0..highest {

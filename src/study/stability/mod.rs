@@ -1,6 +1,7 @@
 //! Stability: what must hold in every shot, and shots made to break it.
 
 pub mod adversarial;
+mod aloft;
 mod audit;
 mod cases;
 mod draw;

@@ -63,14 +63,14 @@ impl Trace {
         let still = crate::physics::BallState::at_rest(glam::DVec2::ZERO);
         Self {
             constants: Constants::of(table),
-            impulse: Impulse { velocity: glam::DVec2::ZERO, spin: glam::DVec3::ZERO },
+            impulse: Impulse::on_cloth(glam::DVec2::ZERO, glam::DVec3::ZERO),
             events: Vec::new(),
             pieces: [const { Vec::new() }; BALLS],
             kept_until: f64::INFINITY,
             event_count: 0,
             contact_steps: 0,
             steps: 0,
-            end: End { time: 0.0, balls: [still; BALLS] },
+            end: End { time: 0.0, balls: [still; BALLS], off_table: [false; BALLS] },
             finished: true,
             seconds: 0.0,
             started: Instant::now(),

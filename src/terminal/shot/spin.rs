@@ -46,6 +46,8 @@ impl Spin {
             Motion::Sliding => "slides",
             Motion::Rolling => "rolls",
             Motion::Resting => "touches",
+            Motion::Flying => "flies",
+            Motion::OffTable => "off",
             Motion::Stationary if speed == 0.0 && side.abs() > STILL => "spins",
             Motion::Stationary => "",
         };

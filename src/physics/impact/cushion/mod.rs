@@ -4,9 +4,9 @@ mod equator;
 mod mathavan;
 mod nose;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use super::BallState;
+use super::{super::SpatialState, BallState};
 use crate::table::{Fade, Rail, RailModel, Rails, Table};
 pub use equator::collide_rail;
 use nose::StickSlip;
@@ -21,6 +21,16 @@ pub struct Cushion {
     /// The law of its impacts.
     law: Law,
     fade: Option<Fade>,
+}
+
+/// What a rail does to a ball besides changing its motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RailImpulse {
+    /// The impulse per mass along the line of the impact, m/s, which is zero or less for a ball that does not approach.
+    pub normal: f64,
+    /// Upward velocity that the ball would have, were nothing above the cloth to hold it, m/s: the friction of much follow
+    /// lets it climb the nose.
+    pub climb: f64,
 }
 
 /// What decides how an impact goes, worked out once a shot.
@@ -67,28 +77,51 @@ impl Cushion {
         Self { restitution: 0.0, law: Law::Equator, fade: None, ..self }
     }
 
-    /// Velocity and spin after a collision with this cushion, whose normal into the table is `n`. Returns the impulse per
-    /// mass along the line of the impact, m/s, which is zero or less for a ball that does not approach.
+    /// Velocity and spin after a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
     #[inline(always)]
-    pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> f64 {
+    pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> RailImpulse {
         match self.law {
-            Law::Equator if self.fade.is_none() => collide_rail(radius, self.restitution, self.friction, n, ball),
+            Law::Equator if self.fade.is_none() => {
+                let normal = collide_rail(radius, self.restitution, self.friction, n, ball);
+                RailImpulse { normal, climb: 0.0 }
+            }
             _ => self.resolve_at_height(radius, n, ball),
         }
     }
 
     #[inline(never)]
-    fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> f64 {
-        let approach = -ball.velocity.dot(n);
-        let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
-        match self.law {
-            Law::Equator => collide_rail(radius, restitution, self.friction, n, ball),
+    fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> RailImpulse {
+        let restitution = self.restitution_at(-ball.velocity.dot(n));
+        let [normal, climb] = match self.law {
+            Law::Equator => [collide_rail(radius, restitution, self.friction, n, ball), 0.0],
             Law::Nose { sine, cosine, stick_slip } => {
                 nose::collide(radius, restitution, self.friction, [sine, cosine], stick_slip, n, ball)
             }
             Law::Mathavan { sine, cosine, cloth } => {
-                mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball)
+                [mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball), 0.0]
             }
+        };
+        RailImpulse { normal, climb }
+    }
+
+    fn restitution_at(&self, approach: f64) -> f64 {
+        self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach))
+    }
+
+    /// The same for a ball in the air, which meets the nose in the direction `d` from its centre, a unit vector: with the
+    /// cloth out of reach all models are an impact with Coulomb's friction. It leaves with the speed `slowest` at least, m/s.
+    /// Returns the speed of its approach, m/s, negative if there is none.
+    pub fn resolve_in_space(&self, radius: f64, slowest: f64, d: DVec3, ball: &mut SpatialState) -> f64 {
+        let stick_slip = if let Law::Nose { stick_slip, .. } = self.law { stick_slip } else { StickSlip::Sharp };
+        let restitution = self.restitution_at(ball.velocity.dot(d));
+        nose::collide_in_space(radius, [restitution, self.friction, slowest], stick_slip, d, ball)
+    }
+
+    /// Sine and cosine of the height at which the nose meets a ball on the cloth, as seen from its centre.
+    pub fn nose(&self) -> [f64; 2] {
+        match self.law {
+            Law::Equator => [0.0, 1.0],
+            Law::Nose { sine, cosine, .. } | Law::Mathavan { sine, cosine, .. } => [sine, cosine],
         }
     }
 }

@@ -7,7 +7,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::BallState;
+use super::{
+    super::{super::SpatialState, opening_in_space, raised},
+    BallState,
+};
 
 /// How friction passes from slipping to sticking.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +24,53 @@ pub(super) enum StickSlip {
     },
 }
 
+impl StickSlip {
+    /// The friction's factor `f`, given `μ P/m` and the slip's size, m/s.
+    #[inline(always)]
+    fn factor(self, push: f64, slip: f64) -> f64 {
+        // Without slip there is no friction.
+        if slip <= 0.0 {
+            return 0.0;
+        }
+        match self {
+            Self::Sharp => {
+                let slips = push / slip;
+                if slips < 2.0 / 7.0 { slips } else { 2.0 / 7.0 }
+            }
+            Self::Smooth { most } => {
+                // The hyperbolic tangent at half the price of the library's; beyond that it is one.
+                let grown = (2.0 * push / (most * slip)).exp();
+                if grown < 1e17 { most * (grown - 1.0) / (grown + 1.0) } else { most }
+            }
+        }
+    }
+}
+
+/// The collision of a ball in the air with a nose in the direction `d` from its centre, a unit vector; it leaves with the speed
+/// `slowest` at least. Returns the speed of its approach, m/s, negative if there is none.
+pub(super) fn collide_in_space(
+    radius: f64,
+    [restitution, friction, slowest]: [f64; 3],
+    stick_slip: StickSlip,
+    d: DVec3,
+    ball: &mut SpatialState,
+) -> f64 {
+    let approach = ball.velocity.dot(d);
+    if approach < 0.0 {
+        return approach;
+    }
+    let across = ball.velocity - approach * d;
+    let opening = opening_in_space(approach, restitution, slowest);
+    let normal = approach + opening;
+    let slip = across + radius * ball.spin.cross(d);
+    let rub = -stick_slip.factor(friction * normal, slip.length()) * slip;
+    ball.velocity += rub - normal * d + raised(opening, slowest, across + rub, -d);
+    ball.spin += 2.5 / radius * d.cross(rub);
+    approach
+}
+
 /// Velocity and spin after the collision; `[sine, cosine]` of the nose's height, `n` the normal into the table. Returns
-/// `P/m`, m/s.
+/// `P/m` and the speed with which the ball would climb, were it free to, both m/s.
 pub(super) fn collide(
     radius: f64,
     restitution: f64,
@@ -31,11 +79,11 @@ pub(super) fn collide(
     stick_slip: StickSlip,
     n: DVec2,
     ball: &mut BallState,
-) -> f64 {
+) -> [f64; 2] {
     let approach = -ball.velocity.dot(n);
     let normal = (1.0 + restitution) * cosine * approach;
     if normal <= 0.0 {
-        return normal;
+        return [normal, 0.0];
     }
     let t = n.perp();
     let [spin_n, spin_t] = [n, t].map(|axis| ball.spin.truncate().dot(axis));
@@ -43,19 +91,7 @@ pub(super) fn collide(
     let slip_t = ball.velocity.dot(t) - radius * (cosine * ball.spin.z + sine * spin_n);
     let slip_up = radius * spin_t - sine * approach;
     let slip = (slip_t * slip_t + slip_up * slip_up).sqrt();
-    let factor = match stick_slip {
-        StickSlip::Sharp => {
-            let slips = friction * normal / slip;
-            if slips < 2.0 / 7.0 { slips } else { 2.0 / 7.0 }
-        }
-        StickSlip::Smooth { most } => {
-            // The hyperbolic tangent at half the price of the library's; beyond that it is one.
-            let grown = (2.0 * friction * normal / (most * slip)).exp();
-            if grown < 1e17 { most * (grown - 1.0) / (grown + 1.0) } else { most }
-        }
-    };
-    // Without slip there is no friction.
-    let factor = if slip > 0.0 { factor } else { 0.0 };
+    let factor = stick_slip.factor(friction * normal, slip);
     let (along, up) = (-factor * slip_t, -factor * slip_up);
     ball.velocity += (normal * cosine + up * sine) * n + along * t;
     let lever = 2.5 / radius;
@@ -64,5 +100,5 @@ pub(super) fn collide(
         lever * (up * t.y - along * sine * n.y),
         -lever * along * cosine,
     );
-    normal
+    [normal, up * cosine - normal * sine]
 }

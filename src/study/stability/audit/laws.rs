@@ -67,6 +67,10 @@ pub fn impact_loss_by_models(table: &Table, contact: &Contact, balls: &[BallStat
 
 /// The work of the cloth on a ball that moves freely for `time` seconds from `state` on, m²/s² (thesis equations 1 to 8).
 pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) -> f64 {
+    // In the air nothing is lost, nor by what is out of play.
+    if matches!(motion, Motion::Flying | Motion::OffTable) {
+        return 0.0;
+    }
     let (radius, g) = (table.radius, table.gravity);
     // The work of a force over a speed that it brings down at some rate, as long as there is any.
     let work = |force: f64, speed: f64, rate: f64| {
@@ -85,6 +89,6 @@ pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) ->
             let deceleration = Numbers::<f64>::of(table).band(v.length()).0;
             work(1.4 * deceleration, v.length(), deceleration)
         }
-        Motion::Stationary | Motion::Resting => 0.0,
+        Motion::Stationary | Motion::Resting | Motion::Flying | Motion::OffTable => 0.0,
     }
 }

@@ -24,7 +24,8 @@ use super::{
     trace::{Piece, Trace},
 };
 use course::Course;
-use doubt::Doubt;
+pub(super) use doubt::Doubt;
+pub(super) use laws::free_loss;
 use moment::{Moment, Taken};
 use motion::Contact;
 
@@ -157,7 +158,7 @@ impl Audit<'_> {
             }
             let state = piece.segment.state_after(&self.trace.constants, 0.0);
             let lost = course.first_energy - course.energy;
-            let taken = laws::free_loss(self.table, &state, piece.segment.motion, piece.end - now);
+            let taken = free_loss(self.table, &state, piece.segment.motion, piece.end - now);
             let doubt = Doubt { energy: course.first_energy, time: piece.end, ..Doubt::default() };
             self.note(figures, lost, lost - taken, &doubt, doubt.on_the_way(self.table, taken));
         }

@@ -128,7 +128,7 @@ fn size(along: &[f64]) -> f64 {
 /// Accelerations as if they were velocities.
 fn rate(course: &Segment, t: f64) -> BallState {
     let ([p3, p4, p5], [s1, s2, s3]) =
-        course.curve.as_ref().map_or_else(Default::default, |curve| (curve.position, curve.spin));
+        course.curve().map_or_else(Default::default, |curve| (curve.position, curve.spin));
     BallState {
         position: course.velocity_after(t),
         velocity: 2.0 * course.half_acceleration + t * (6.0 * p3 + t * (12.0 * p4 + 20.0 * t * p5)),

@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
 use crate::{
-    simulation::Rail,
+    simulation::{Course, Rail},
     study::stability::{Shot, Stroke, cases, random},
     table::{JUDGED, Layout},
 };
@@ -131,7 +131,8 @@ fn a_resting_contact_that_takes_too_much_is_seen() {
         let piece = piece_of(trace, Motion::Resting, false);
         let time = piece.end - piece.segment.start;
         let spin = 1e-6 * piece.segment.spin / time;
-        piece.segment.curve.as_mut().unwrap().spin[0] -= spin;
+        let Some(Course::Contact(curve)) = piece.segment.course.as_deref_mut() else { panic!("a contact") };
+        curve.spin[0] -= spin;
     };
     let left = unexplained(&table, &shot, drag);
     assert!(left > 10.0, "{left}");

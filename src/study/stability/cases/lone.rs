@@ -13,7 +13,7 @@ const OPERATIONS: f64 = 64.0;
 /// If the cue ball meets nothing, it must stop where the closed form says, to rounding; otherwise nothing is asked.
 pub fn stops_where_the_closed_form_says(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let meets = |event: &crate::simulation::Event| event.kind.balls().1.is_some() || event.kind.rail().is_some();
-    let rests = trace.pieces.iter().flatten().any(|piece| piece.segment.curve.is_some());
+    let rests = trace.pieces.iter().flatten().any(|piece| piece.segment.curve().is_some());
     if trace.events.iter().any(meets) || rests {
         return Ok(());
     }

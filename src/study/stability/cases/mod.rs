@@ -2,6 +2,7 @@
 
 mod chatter;
 mod cushion;
+mod flights;
 mod grazing;
 mod lone;
 mod pressed;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Case> {
         smooth_courses::CASES,
         strokes::CASES,
         tables::CASES,
+        flights::CASES,
     ]
     .concat()
 }

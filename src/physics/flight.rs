@@ -1,0 +1,127 @@
+//! Balls that leave the cloth: how it answers a ball that is pressed into it or comes down on it (thesis 6.1.3).
+
+use glam::{DVec2, DVec3};
+
+use super::{BallState, slip};
+use crate::table::Table;
+
+/// Where a ball is in space and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpatialState {
+    /// Centre, m; `z` is its height above where it is when the ball lies on the cloth.
+    pub position: DVec3,
+    /// Velocity, m/s.
+    pub velocity: DVec3,
+    /// Angular velocity, rad/s.
+    pub spin: DVec3,
+}
+
+impl From<BallState> for SpatialState {
+    fn from(ball: BallState) -> Self {
+        Self { position: ball.position.extend(0.0), velocity: ball.velocity.extend(0.0), spin: ball.spin }
+    }
+}
+
+impl SpatialState {
+    /// What of it is seen from above: the state of a ball on the cloth if it is there.
+    pub fn from_above(&self) -> BallState {
+        BallState { position: self.position.truncate(), velocity: self.velocity.truncate(), spin: self.spin }
+    }
+
+    /// Kinetic and potential energy per unit of mass, m²/s².
+    pub fn specific_energy(&self, radius: f64, gravity: f64) -> f64 {
+        0.5 * self.velocity.length_squared()
+            + 0.2 * radius * radius * self.spin.length_squared()
+            + gravity * self.position.z
+    }
+}
+
+/// The cloth as a ball meets it from above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cloth {
+    /// Coefficient of restitution `e_c`.
+    pub restitution: f64,
+    /// Coefficient of friction `mu_c`.
+    pub friction: f64,
+    /// Gravitational acceleration, m/s².
+    pub gravity: f64,
+}
+
+impl Cloth {
+    /// That of a table; `None` where balls never leave it.
+    pub fn of(table: &Table) -> Option<Self> {
+        table.flight.map(|flight| Self {
+            restitution: flight.restitution,
+            friction: flight.friction.unwrap_or(table.sliding_friction),
+            gravity: table.gravity,
+        })
+    }
+
+    /// Answers a ball that moves into the cloth: the normal impulse per mass is `(1 + e_c) |v_z|`, the friction `mu_c` times
+    /// that against the slip, up to no slip, which is two sevenths of it. A ball that moves upwards is left alone.
+    pub fn answer(&self, radius: f64, ball: &mut SpatialState) {
+        if ball.velocity.z >= 0.0 {
+            return;
+        }
+        let push = -(1.0 + self.restitution) * ball.velocity.z;
+        let u = slip(radius, ball.velocity.truncate(), ball.spin);
+        let size = u.length();
+        let friction = (self.friction * push).min(2.0 / 7.0 * size);
+        ball.velocity.z *= -self.restitution;
+        if size > 0.0 {
+            let against = u * (-friction / size);
+            ball.velocity += against.extend(0.0);
+            ball.spin += turned_by_cloth(radius, against).extend(0.0);
+        }
+    }
+}
+
+/// Change of the spin by an impulse per mass at the ball's lowest point, rad/s: `-5/(2R) z×J`.
+pub fn turned_by_cloth(radius: f64, impulse: DVec2) -> DVec2 {
+    (-2.5 / radius) * impulse.perp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RADIUS: f64 = 0.030_75;
+
+    fn cloth() -> Cloth {
+        Cloth { restitution: 0.5, friction: 0.2, gravity: 9.81 }
+    }
+
+    #[test]
+    fn a_ball_that_slips_fast_loses_mu_times_the_push_and_one_that_slips_little_rolls_on() {
+        let falling = |ahead: f64| SpatialState {
+            position: DVec3::ZERO,
+            velocity: DVec3::new(ahead, 0.0, -1.0),
+            spin: DVec3::new(0.0, 0.0, 7.0),
+        };
+        let mut fast = falling(3.0);
+        cloth().answer(RADIUS, &mut fast);
+        assert!(fast.velocity.abs_diff_eq(DVec3::new(3.0 - 0.2 * 1.5, 0.0, 0.5), 1e-15), "{fast:?}");
+        assert!((fast.spin - DVec3::new(0.0, 2.5 / RADIUS * 0.3, 7.0)).length() < 1e-12, "{fast:?}");
+        let mut slow = falling(0.5);
+        cloth().answer(RADIUS, &mut slow);
+        assert!(slip(RADIUS, slow.velocity.truncate(), slow.spin).length() < 1e-15);
+        assert!((slow.velocity.x - 5.0 / 7.0 * 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_cloth_never_gives_energy_and_leaves_a_rising_ball_alone() {
+        for (ahead, turns) in [(0.1, 60.0), (-2.0, -5.0), (4.0, 0.0)] {
+            let mut ball = SpatialState {
+                position: DVec3::ZERO,
+                velocity: DVec3::new(ahead, -0.3, -2.0),
+                spin: DVec3::new(turns, turns, 3.0),
+            };
+            let before = ball.specific_energy(RADIUS, 9.81);
+            cloth().answer(RADIUS, &mut ball);
+            assert!(ball.specific_energy(RADIUS, 9.81) < before);
+            let rising = ball;
+            cloth().answer(RADIUS, &mut ball);
+            assert_eq!(ball, rising);
+        }
+    }
+}

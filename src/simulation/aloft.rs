@@ -1,0 +1,209 @@
+//! What a ball in the air will meet: the noses of the cushions, the rails behind them, other balls.
+//!
+//! Between two landings a flight is a parabola in space, so that every gap is a polynomial of degree four; a course is gone
+//! through landing by landing, as far as there is anything within its reach.
+
+use glam::DVec3;
+
+use super::{
+    Constants, Rail, Segment,
+    hops::{Arc, Hops},
+    predict::{Ahead, polynomial_closes, shifted, travel},
+    roots::{MAX_DEGREE, first_crossing_of_quartic},
+};
+use crate::physics::{Cushion, Cushions};
+
+/// Landings that are gone through at most: after so many the hops of the liveliest cloth are lower than an atom.
+const MOST_LANDINGS: u32 = 4000;
+
+/// A nose as a ball in the air meets it: a line along the cushion.
+#[derive(Clone, Copy)]
+pub struct Nose {
+    /// Its height over the centre of a ball on the cloth, m.
+    height: f64,
+    /// How far it is beyond the centre of a ball on the cloth that touches it, m.
+    beyond: f64,
+}
+
+impl Nose {
+    pub fn of(cushion: &Cushion, radius: f64) -> Self {
+        let [sine, cosine] = cushion.nose();
+        Self { height: radius * sine, beyond: radius * cosine }
+    }
+
+    /// The way from a ball's centre to the nose of `rail`, m; one that points into the table has been passed over.
+    pub fn from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
+        let n = rail.normal();
+        let inwards = gap(constants, rail, centre) + self.beyond;
+        (-inwards * n).extend(self.height - centre.z)
+    }
+
+    /// When a ball on `arc` meets the nose of `rail`, or comes down on the rail behind it, s since the arc's beginning and not
+    /// after its end.
+    fn meets(&self, constants: &Constants, arc: &Arc, gravity: f64, rail: Rail) -> Option<f64> {
+        let (radius, tolerance) = (constants.radius, &constants.tolerance);
+        let lasts = arc.end - arc.begin;
+        let (climb, n) = (arc.velocity.z, rail.normal());
+        let approach = -arc.velocity.truncate().dot(n);
+        let gap = gap(constants, rail, arc.position);
+        if gap - (approach * lasts).max(0.0) > radius - self.beyond + tolerance.touching {
+            return None;
+        }
+        // Beside the nose, below it, and the square of the distance but for R², without cancellation.
+        let (beside, below) = (gap + self.beyond, self.height - arc.position.z);
+        let c = [
+            gap * (gap + 2.0 * self.beyond) - arc.position.z * (self.height + below),
+            -2.0 * (beside * approach + below * climb),
+            approach * approach + climb * climb + below * gravity,
+            -climb * gravity,
+            0.25 * gravity * gravity,
+        ];
+        let scale = 2.0 * radius;
+        let ahead = polynomial_closes(tolerance, &c, c[0] <= scale * tolerance.touching, scale, lasts);
+        if let Ahead::Meeting(time) = ahead
+            && beside > approach * time
+        {
+            return Some(time);
+        }
+        // Over the nose: it comes down on what is behind.
+        let above = climb * climb - 2.0 * gravity * (below + radius);
+        let down = (climb + above.max(0.0).sqrt()) / gravity;
+        (above >= 0.0 && (0.0..=lasts).contains(&down) && beside <= approach * down).then_some(down)
+    }
+}
+
+/// How far a ball is from touching the cushion, seen from above, m.
+fn gap(constants: &Constants, rail: Rail, centre: DVec3) -> f64 {
+    let n = rail.normal();
+    n.abs().dot(constants.reach) + centre.truncate().dot(n)
+}
+
+/// When and where the ball of a flying `segment` meets the nose of a cushion, or comes down behind it: s after the segment's
+/// start.
+pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment) -> Option<(f64, Rail)> {
+    let hops = segment.hops()?;
+    let duration = hops.duration();
+    for landings in 0..MOST_LANDINGS {
+        let arc = hops.arc(landings);
+        let rest = duration - arc.begin;
+        let within = arc.position.truncate().abs() + hops.fastest(&arc) * rest + constants.radius;
+        if rest <= 0.0 || within.cmplt(constants.reach).all() {
+            return None;
+        }
+        let mut first: Option<(f64, Rail)> = None;
+        for rail in Rail::ALL {
+            let nose = Nose::of(cushions.at(rail), constants.radius);
+            if let Some(time) = nose.meets(constants, &arc, hops.gravity(), rail)
+                && first.is_none_or(|(earliest, _)| time < earliest)
+            {
+                first = Some((time, rail));
+            }
+        }
+        if let Some((time, rail)) = first {
+            return Some((arc.begin + time, rail));
+        }
+    }
+    None
+}
+
+/// A course as it is gone through, piece by piece.
+struct Pieces<'a> {
+    segment: &'a Segment,
+    /// Time since the segment's start at which the search begins, s.
+    begin: f64,
+    flight: Option<(&'a Hops, u32)>,
+}
+
+impl<'a> Pieces<'a> {
+    fn new(segment: &'a Segment, now: f64) -> Self {
+        let begin = now - segment.start;
+        Self { segment, begin, flight: segment.hops().map(|hops| (hops, hops.landings(begin).min(MOST_LANDINGS))) }
+    }
+
+    /// Coefficients of the course about `after` seconds since the search's beginning, and when they end to hold, s since then.
+    fn piece(&self, after: f64) -> ([DVec3; 6], f64) {
+        let Some((hops, landings)) = self.flight else {
+            let on_cloth = shifted(self.segment, self.segment.start + self.begin + after);
+            return (on_cloth.map(|c| c.extend(0.0)), f64::INFINITY);
+        };
+        let arc = hops.arc(landings);
+        let since = self.begin + after - arc.begin;
+        let fall = DVec3::new(0.0, 0.0, -0.5 * hops.gravity());
+        let position = arc.position + since * (arc.velocity + since * fall);
+        let velocity = arc.velocity + 2.0 * since * fall;
+        ([position, velocity, fall, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], arc.end - self.begin)
+    }
+
+    /// How far the ball can get along the cloth within `time` of a piece, m.
+    fn farthest(&self, piece: &[DVec3; 6], time: f64) -> f64 {
+        match self.flight {
+            Some((hops, landings)) => hops.fastest(&hops.arc(landings)) * time,
+            None => travel(&piece.map(DVec3::length), time),
+        }
+    }
+
+    fn land(&mut self) {
+        if let Some((_, landings)) = &mut self.flight {
+            *landings += 1;
+        }
+    }
+}
+
+/// When two balls meet of which one at least is in the air, within `horizon` seconds of time `now`.
+pub fn balls_ahead_in_space(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> Ahead {
+    let mut balls = balls.map(|segment| Pieces::new(segment, now));
+    let mut after = 0.0;
+    while after < horizon {
+        let [(one, one_ends), (other, other_ends)] = [balls[0].piece(after), balls[1].piece(after)];
+        let d: [DVec3; 6] = std::array::from_fn(|power| one[power] - other[power]);
+        let rest = horizon - after;
+        let reach = balls[0].farthest(&one, rest) + balls[1].farthest(&other, rest);
+        if d[0].truncate().length() - constants.diameter > constants.tolerance.surely_apart + reach {
+            return Ahead::Nothing;
+        }
+        let ends = one_ends.min(other_ends).min(horizon);
+        if let Ahead::Meeting(time) = meet(constants, &d, ends - after) {
+            return Ahead::Meeting(after + time);
+        }
+        if ends >= horizon || balls.iter().any(|ball| ball.flight.is_some_and(|(_, count)| count >= MOST_LANDINGS)) {
+            return Ahead::Nothing;
+        }
+        for (ball, its) in balls.iter_mut().zip([one_ends, other_ends]) {
+            if its <= ends {
+                ball.land();
+            }
+        }
+        after = ends.max(after);
+    }
+    Ahead::Nothing
+}
+
+/// When two balls meet whose distance is `d[0] + t d[1] + …`, within `horizon` seconds.
+fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Ahead {
+    let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
+    let scale = 2.0 * diameter;
+    let closing = d[0].length() - diameter;
+    if horizon <= 0.0 || closing > tolerance.surely_apart + travel(&d.map(DVec3::length), horizon) {
+        return Ahead::Nothing;
+    }
+    let apart = d[0].length_squared() - diameter * diameter;
+    let touching = apart <= scale * tolerance.touching;
+    if d[3..].iter().all(|c| *c == DVec3::ZERO) {
+        let [d, v, k, ..] = *d;
+        let c = [2.0 * d.dot(v), v.length_squared() + 2.0 * d.dot(k), 2.0 * v.dot(k), k.length_squared()];
+        if touching {
+            return polynomial_closes(tolerance, &[apart, c[0], c[1], c[2], c[3]], true, scale, horizon);
+        }
+        let slope = [c[0], 2.0 * c[1], 3.0 * c[2], 4.0 * c[3]];
+        let value = |t: f64| (d + t * (v + t * k)).length_squared() - diameter * diameter;
+        return first_crossing_of_quartic(value, &slope, horizon).map_or(Ahead::Nothing, Ahead::Meeting);
+    }
+    let mut gap = [0.0; MAX_DEGREE + 1];
+    for i in 0..6 {
+        for j in 0..6 {
+            gap[i + j] += d[i].dot(d[j]);
+        }
+    }
+    gap[0] = apart;
+    polynomial_closes(tolerance, &gap, touching, scale, horizon)
+}

@@ -1,0 +1,160 @@
+//! Balls in the air as the engine plays them: how they leave the cloth, what they meet, and how they come to stay on it.
+
+use std::ops::ControlFlow;
+
+use super::{
+    EventKind, Observer, Segment,
+    aloft::Nose,
+    chatter::Chatters,
+    contact_mode::ContactMode,
+    contacts::PAIRS,
+    engine::{Ball, Engine, Meeting, either, only},
+    hops::Hops,
+    savings::Savings,
+    segment::Course,
+};
+use crate::{
+    physics::{Contact, Motion, SpatialState},
+    table::BALLS,
+};
+
+impl<S: Savings, O: Observer> Engine<'_, S, O> {
+    /// Whether a ball can touch what lies on the cloth or stands at its edge.
+    #[inline(always)]
+    pub(super) fn is_on_cloth(&self, index: usize) -> bool {
+        !matches!(self.balls[index].segment.motion, Motion::Flying | Motion::OffTable)
+    }
+
+    pub(super) fn on_cloth(&self) -> [bool; BALLS] {
+        std::array::from_fn(|index| self.is_on_cloth(index))
+    }
+
+    /// Sends a ball off on its course through the air, or along the cloth if it does not rise from it.
+    #[cold]
+    pub(super) fn launch_in_space(&mut self, index: usize, now: f64, state: &SpatialState) -> ControlFlow<()> {
+        let low = state.position.z <= 0.0;
+        let was_low = self.is_on_cloth(index);
+        let cloth = match self.cloth {
+            Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
+            _ => {
+                self.launch(index, now, &state.from_above());
+                return if was_low { ControlFlow::Continue(()) } else { self.tell(now, EventKind::Lands(index)) };
+            }
+        };
+        let hops = Hops::new(&self.constants, &cloth, state);
+        let segment = Segment {
+            start: now,
+            velocity: state.velocity.truncate(),
+            spin: state.spin,
+            motion: Motion::Flying,
+            course: Some(Box::new(Course::Hops(hops))),
+            ..Segment::at_rest(state.position.truncate())
+        };
+        self.set(index, segment, hops.duration());
+        if self.balls[index].mode != ContactMode::Free {
+            self.balls[index].mode = ContactMode::Free;
+            self.tell(now, EventKind::ContactEnds(index))?;
+        }
+        if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The end of a ball's hops.
+    #[cold]
+    pub(super) fn stay_on_cloth(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
+        self.close(index, now);
+        self.launch(index, now, &end);
+        self.tell(now, EventKind::Lands(index))?;
+        match self.balls[index].segment.motion {
+            Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index))?,
+            Motion::Stationary => self.tell(now, EventKind::RollingStationary(index))?,
+            _ => {}
+        }
+        self.look_ahead_of(now, index)
+    }
+
+    /// A ball that a cushion has lifted.
+    #[cold]
+    pub(super) fn climb(&mut self, index: usize, now: f64, state: &SpatialState, freed: bool) -> ControlFlow<()> {
+        self.close(index, now);
+        let rail = self.balls[index].rail;
+        self.tell(now, EventKind::BallRail(index, rail))?;
+        self.launch_in_space(index, now, state)?;
+        self.look_ahead(now, either(freed, self.freed_members(), only(index)))
+    }
+
+    /// A ball in the air meets the nose of a cushion, or comes down behind it.
+    #[cold]
+    pub(super) fn rebound_in_space(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+        self.steps += 1;
+        let Ball { rail_after, rail, .. } = self.balls[index];
+        let c = self.constants;
+        let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
+        self.close(index, now);
+        let cushion = *self.law.cushions.at(rail);
+        let to_nose = Nose::of(&cushion, c.radius).from(&c, rail, state.position);
+        if to_nose.truncate().dot(rail.normal()) >= 0.0 {
+            let segment =
+                Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.from_above().position) };
+            self.set(index, segment, f64::INFINITY);
+            self.tell(now, EventKind::LeavesTable(index))?;
+            return self.look_ahead_of(now, index);
+        }
+        let slowest = c.tolerance.slowest_in_air;
+        let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
+        self.answer(&mut state);
+        let contact = Contact::with_cushion(index, rail.normal());
+        let told = self.is_told(now, &contact, approach);
+        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
+        self.launch_in_space(index, now, &state)?;
+        self.look_ahead_of(now, index)
+    }
+
+    /// Two balls meet of which one at least is in the air.
+    #[cold]
+    pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
+        self.steps += 1;
+        let (first, second) = PAIRS[pair];
+        let Meeting { since, after, .. } = self.pairs[pair];
+        let mut changed = only(first);
+        changed[second] = true;
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
+        let c = self.constants;
+        let [mut one, mut other] = [first, second].map(|index| match &freed {
+            Some(states) if self.freed_members()[index] => SpatialState::from(states[index]),
+            _ => {
+                let segment = &self.balls[index].segment;
+                segment.spatial_after(&c, (since - segment.start) + after)
+            }
+        });
+        let slowest = c.tolerance.slowest_in_air;
+        let approach = self.law.balls.resolve_in_space(c.radius, slowest, &mut one, &mut other);
+        for index in [first, second] {
+            self.close(index, now);
+        }
+        let told = self.is_told(now, &Contact::of_balls(first, second), approach);
+        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
+        for (index, state) in [(first, &mut one), (second, &mut other)] {
+            self.answer(state);
+            self.launch_in_space(index, now, state)?;
+            if !told && self.is_on_cloth(index) && self.balls[index].mode == ContactMode::Free {
+                self.balls[index].mode = ContactMode::Bouncing;
+                self.tell(now, EventKind::ContactBegins(index))?;
+            }
+        }
+        self.look_ahead(now, either(freed.is_some(), self.freed_members(), changed))
+    }
+
+    /// Whether an impact in the air is told, and not one of many with which a ball slides off another or off a nose.
+    fn is_told(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
+        approach > self.constants.tolerance.slow_bounce
+            || !self.chatters.get_or_insert_with(|| Box::new(Chatters::new())).bounce(contact, now)
+    }
+
+    /// The cloth's answer to a ball on it that has been struck downwards.
+    fn answer(&self, state: &mut SpatialState) {
+        if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
+            cloth.answer(self.constants.radius, state);
+        }
+    }
+}

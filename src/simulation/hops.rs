@@ -1,0 +1,334 @@
+//! A flight and the hops that follow it, in closed form: what a ball does from leaving the cloth until it stays on it.
+//!
+//! Coming down with speed `V`, the ball leaves again with `e V`, comes down with that, and so on: the hops last `2 V eⁱ / g`
+//! and all of them together `2 V e / g (1 - e)`. Each time the cloth rubs with `c eⁱ`, `c = mu (1 + e) V`, against the slip,
+//! whose direction stays, until no slip is left; so places, velocities and spins are geometric sums.
+
+use glam::{DVec2, DVec3};
+
+use super::Constants;
+use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, turned_by_cloth};
+
+/// From one landing to the next: a parabola.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// When it begins and ends, s since the course's start.
+    pub begin: f64,
+    /// The end.
+    pub end: f64,
+    /// Centre at its beginning, m; `z` is the height over the place on the cloth.
+    pub position: DVec3,
+    /// Velocity at its beginning, m/s.
+    pub velocity: DVec3,
+}
+
+/// The course of a ball that flies, comes down, and hops until it stays on the cloth.
+#[derive(Clone, Copy, Debug)]
+pub struct Hops {
+    start: SpatialState,
+    cloth: Cloth,
+    radius: f64,
+    /// When it first comes down, s since the start, and how fast, m/s.
+    first: f64,
+    landing: f64,
+    /// Direction of the slip at the start, and its size, m/s.
+    direction: DVec2,
+    slip: f64,
+    /// Friction of the first landing, m/s.
+    rub: f64,
+    /// The landing at which no slip is left, counted from none; `None` if the ball still slides after the last hop.
+    sticks: Option<u32>,
+    /// The restitution's logarithm.
+    decay: f64,
+    /// How long all of it lasts, s, and the velocity along the cloth at the end, m/s.
+    duration: f64,
+    last: DVec2,
+}
+
+impl Hops {
+    /// The course of a ball in the air, or of one that leaves the cloth.
+    pub fn new(constants: &Constants, cloth: &Cloth, start: &SpatialState) -> Self {
+        let Cloth { restitution: e, friction, gravity: g } = *cloth;
+        let radius = constants.radius;
+        let (height, climb) = (start.position.z.max(0.0), start.velocity.z);
+        let landing = climb.mul_add(climb, 2.0 * g * height).sqrt();
+        // Without cancellation, whichever way the ball moves.
+        let first = if climb > 0.0 { (climb + landing) / g } else { 2.0 * height / (landing - climb) };
+        let u = slip(radius, start.velocity.truncate(), start.spin);
+        let size = u.length();
+        let rub = friction * (1.0 + e) * landing;
+        let mut hops = Self {
+            start: *start,
+            cloth: *cloth,
+            radius,
+            first: if landing > 0.0 { first } else { 0.0 },
+            landing,
+            direction: if size > 0.0 { u / size } else { DVec2::ZERO },
+            slip: size,
+            rub,
+            sticks: None,
+            decay: (e - 1.0).ln_1p(),
+            duration: 0.0,
+            last: DVec2::ZERO,
+        };
+        hops.sticks = hops.sticking();
+        hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
+        hops.last = match hops.sticks {
+            Some(_) => hops.rolling(),
+            None => hops.rubbed(rub / (1.0 - e)).0,
+        };
+        hops
+    }
+
+    /// `(1 - eⁿ) / (1 - e)`: the sum of the first `n` powers of the restitution.
+    fn powers(&self, count: u32) -> f64 {
+        if count == 0 { 0.0 } else { -self.power(count).exp_m1() / (1.0 - self.cloth.restitution) }
+    }
+
+    /// `n ln e`.
+    fn power(&self, count: u32) -> f64 {
+        f64::from(count) * self.decay
+    }
+
+    /// `eⁿ`.
+    fn decayed(&self, count: u32) -> f64 {
+        if count == 0 { 1.0 } else { self.power(count).exp() }
+    }
+
+    /// The first landing whose friction would take all slip.
+    fn sticking(&self) -> Option<u32> {
+        let least = self.slip / (3.5 * self.rub);
+        let e = self.cloth.restitution;
+        // Not a number where nothing slips and nothing rubs.
+        if least.is_nan() || least <= 1.0 {
+            return Some(0);
+        }
+        let left = (1.0 - e).mul_add(-least, 1.0);
+        if left <= 0.0 {
+            return None;
+        }
+        // The logarithm may be off by one.
+        let near = (left.ln() / self.decay).ceil().min(1e6) as u32;
+        (near.saturating_sub(2)..=near + 1).find(|&landing| self.powers(landing + 1) >= least)
+    }
+
+    /// What two hops' flights last, s, for each m/s of the landing between them.
+    fn per_speed(&self) -> f64 {
+        2.0 / self.cloth.gravity
+    }
+
+    /// Duration of all of it, s.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// The velocity along the cloth when no slip is left, m/s.
+    fn rolling(&self) -> DVec2 {
+        self.start.velocity.truncate() - (2.0 / 7.0 * self.slip) * self.direction
+    }
+
+    /// Velocity along the cloth and spin after so many landings.
+    fn motion(&self, landings: u32) -> (DVec2, DVec3) {
+        if self.sticks.is_some_and(|last| landings > last) {
+            return self.rolls();
+        }
+        self.rubbed(self.rub * self.powers(landings))
+    }
+
+    fn rolls(&self) -> (DVec2, DVec3) {
+        let velocity = self.rolling();
+        (velocity, rolling_spin(self.radius, velocity).extend(self.start.spin.z))
+    }
+
+    /// The same when the cloth has rubbed by so much, m/s.
+    fn rubbed(&self, rubbed: f64) -> (DVec2, DVec3) {
+        let impulse = -rubbed * self.direction;
+        (self.start.velocity.truncate() + impulse, self.start.spin + turned_by_cloth(self.radius, impulse).extend(0.0))
+    }
+
+    /// Centre at the landing with this number, m.
+    fn place(&self, landing: u32) -> DVec2 {
+        let e = self.cloth.restitution;
+        let velocity = self.start.velocity.truncate();
+        let slides = self.sticks.map_or(landing, |last| last.min(landing));
+        let sum = self.powers(slides);
+        let rubbed = self.rub * sum * self.powers(slides + 1) / (1.0 + e);
+        let mut way = e * (sum * velocity - rubbed * self.direction);
+        if landing > slides {
+            way += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
+        }
+        self.touchdown() + self.per_speed() * self.landing * way
+    }
+
+    /// Where the ball first comes down, m.
+    fn touchdown(&self) -> DVec2 {
+        self.start.position.truncate() + self.first * self.start.velocity.truncate()
+    }
+
+    /// State of the ball on the cloth after the last hop.
+    pub fn end(&self) -> BallState {
+        let e = self.cloth.restitution;
+        let (position, (velocity, spin)) = if let Some(last) = self.sticks {
+            let rest = self.decayed(last + 1) / (1.0 - e);
+            (self.place(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
+        } else {
+            let sum = 1.0 / (1.0 - e);
+            let way = e * sum * (self.start.velocity.truncate() - self.rub * sum / (1.0 + e) * self.direction);
+            (self.touchdown() + self.per_speed() * self.landing * way, self.rubbed(self.rub * sum))
+        };
+        BallState { position, velocity, spin }
+    }
+
+    /// The flight after so many landings.
+    pub fn arc(&self, landings: u32) -> Arc {
+        if landings == 0 {
+            let SpatialState { position, velocity, .. } = self.start;
+            return Arc { begin: 0.0, end: self.first, position, velocity };
+        }
+        let climb = self.landing * self.decayed(landings);
+        let begin = self.first + self.per_speed() * self.landing * self.cloth.restitution * self.powers(landings - 1);
+        Arc {
+            begin,
+            end: begin + self.per_speed() * climb,
+            position: self.place(landings - 1).extend(0.0),
+            velocity: self.motion(landings).0.extend(climb),
+        }
+    }
+
+    /// How many landings there have been `t` seconds after the start.
+    pub fn landings(&self, t: f64) -> u32 {
+        let e = self.cloth.restitution;
+        if t < self.first || e == 0.0 {
+            return 0;
+        }
+        let since = (t - self.first) / (self.per_speed() * self.landing * e);
+        let left = (1.0 - e).mul_add(-since, 1.0);
+        if left <= 0.0 { u32::MAX } else { 1 + (left.ln() / self.decay).floor().clamp(0.0, 1e9) as u32 }
+    }
+
+    /// Position, velocity and spin `t` seconds after the start.
+    pub fn state_after(&self, t: f64) -> SpatialState {
+        let landings = self.landings(t);
+        if landings == u32::MAX || t >= self.duration {
+            return self.end().into();
+        }
+        let arc = self.arc(landings);
+        let (_, spin) = self.motion(landings);
+        let after = t - arc.begin;
+        let fallen = self.cloth.gravity * after;
+        let mut position = arc.position + after * arc.velocity;
+        position.z = (position.z - 0.5 * fallen * after).max(0.0);
+        SpatialState { position, velocity: arc.velocity - fallen * DVec3::Z, spin }
+    }
+
+    /// The greatest speed along the cloth from that arc on, m/s.
+    pub fn fastest(&self, arc: &Arc) -> f64 {
+        // Velocities lie on a line: the longest stands at one of its ends.
+        arc.velocity.truncate().length_squared().max(self.last.length_squared()).sqrt()
+    }
+
+    /// Gravitational acceleration, m/s².
+    pub fn gravity(&self) -> f64 {
+        self.cloth.gravity
+    }
+
+    /// The greatest height from the start on, m.
+    pub fn highest(&self) -> f64 {
+        let climb = self.start.velocity.z.max(0.0);
+        self.start.position.z + 0.5 * climb * climb / self.cloth.gravity
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::table::Table;
+
+    fn constants() -> Constants {
+        Constants::of(&Table::preset("textbook").unwrap())
+    }
+
+    /// The same, one landing after another, until hops are too low to matter.
+    fn one_by_one(constants: &Constants, cloth: &Cloth, start: &SpatialState) -> (f64, SpatialState) {
+        let (mut ball, mut time) = (*start, 0.0);
+        for _ in 0..20_000 {
+            let speed = (ball.velocity.z.powi(2) + 2.0 * cloth.gravity * ball.position.z).sqrt();
+            if speed < 1e-15 {
+                break;
+            }
+            let flight = (ball.velocity.z + speed) / cloth.gravity;
+            ball.position += (flight * ball.velocity.truncate()).extend(-ball.position.z);
+            ball.velocity.z = -speed;
+            cloth.answer(constants.radius, &mut ball);
+            time += flight;
+        }
+        (time, ball)
+    }
+
+    fn started(height: f64, velocity: [f64; 3], spin: [f64; 3]) -> SpatialState {
+        SpatialState {
+            position: DVec3::new(0.1, -0.2, height),
+            velocity: DVec3::from_array(velocity),
+            spin: DVec3::from_array(spin),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_sums_are_what_landing_after_landing_gives(
+            height in prop_oneof![Just(0.0), 0.0..0.3f64],
+            velocity in [-5.0..5.0f64, -5.0..5.0, -3.0..4.0],
+            spin in [-150.0..150.0f64, -150.0..150.0, -99.0..99.0],
+            restitution in prop_oneof![Just(0.0), Just(0.5), Just(0.99), 0.0..0.95f64],
+            friction in 0.02..0.6f64,
+        ) {
+            let constants = constants();
+            let cloth = Cloth { restitution, friction, gravity: 9.81 };
+            let mut start = started(height, velocity, spin);
+            if height == 0.0 {
+                start.velocity.z = start.velocity.z.abs();
+            }
+            let hops = Hops::new(&constants, &cloth, &start);
+            let (time, ball) = one_by_one(&constants, &cloth, &start);
+            let end = hops.end();
+            prop_assert!((time - hops.duration()).abs() < 1e-11, "{time} {}", hops.duration());
+            prop_assert!(end.position.distance(ball.position.truncate()) < 1e-10);
+            prop_assert!(end.velocity.distance(ball.velocity.truncate()) < 1e-12);
+            prop_assert!(end.spin.distance(ball.spin) < 1e-9);
+        }
+
+        #[test]
+        fn arcs_follow_one_another_and_the_state_lies_on_them(
+            velocity in [-5.0..5.0f64, -5.0..5.0, 0.1..4.0],
+            spin in [-150.0..150.0f64, -150.0..150.0, -99.0..99.0],
+            restitution in prop_oneof![Just(0.5), Just(0.99), 0.1..0.95f64],
+        ) {
+            let constants = constants();
+            let cloth = Cloth { restitution, friction: 0.2, gravity: 9.81 };
+            let hops = Hops::new(&constants, &cloth, &started(0.01, velocity, spin));
+            for landings in 0..12 {
+                let (arc, next) = (hops.arc(landings), hops.arc(landings + 1));
+                prop_assert!((arc.end - next.begin).abs() < 1e-13);
+                let way = arc.position.truncate() + (arc.end - arc.begin) * arc.velocity.truncate();
+                prop_assert!(way.distance(next.position.truncate()) < 1e-12);
+                let middle = 0.5 * (arc.begin + arc.end);
+                prop_assert_eq!(hops.landings(middle), landings);
+                let state = hops.state_after(middle);
+                prop_assert!(state.position.z > 0.0 && state.velocity.truncate() == arc.velocity.truncate());
+            }
+        }
+    }
+
+    #[test]
+    fn a_ball_that_is_let_fall_without_slip_comes_down_where_it_is() {
+        let constants = constants();
+        let cloth = Cloth { restitution: 0.5, friction: 0.2, gravity: 9.81 };
+        let hops = Hops::new(&constants, &cloth, &started(0.05, [0.0; 3], [0.0, 0.0, 20.0]));
+        let fall = (2.0 * 0.05 / 9.81_f64).sqrt();
+        assert!((hops.duration() - 3.0 * fall).abs() < 1e-15, "once down, and twice as long up and down in all");
+        assert_eq!(hops.end().position, DVec2::new(0.1, -0.2));
+        assert_eq!(hops.end().spin, DVec3::new(0.0, 0.0, 20.0));
+    }
+}

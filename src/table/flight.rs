@@ -1,0 +1,71 @@
+//! What decides how balls leave the cloth and come down on it again.
+
+use serde::{Deserialize, Serialize};
+
+/// The cloth as a ball meets it from above: the TOML section `[flight]`. A table without it keeps all balls on the cloth, as
+/// the thesis does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Flight {
+    /// Coefficient of restitution `e_c` of ball and cloth, 0 to below 1.
+    #[serde(rename = "e_c")]
+    pub restitution: f64,
+    /// Coefficient of friction `mu_c` of a ball that comes down on the cloth; without it that of a sliding ball.
+    #[serde(rename = "mu_c", skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+}
+
+impl Default for Flight {
+    /// A cloth on slate, which gives back half of a ball's speed.
+    fn default() -> Self {
+        Self { restitution: 0.5, friction: None }
+    }
+}
+
+impl Flight {
+    /// The first value that cannot be, with its key and what would be accepted.
+    pub(super) fn flaw(&self) -> Option<(&'static str, f64, &'static str)> {
+        let (e, mu) = (self.restitution, self.friction.unwrap_or(0.0));
+        if !(0.0..=MOST_RESTITUTION).contains(&e) {
+            return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop for ever"));
+        }
+        (!(0.0..=1e3).contains(&mu)).then_some(("flight.mu_c", mu, "0 to 1000"))
+    }
+}
+
+/// Hops that lose less than a hundredth of their speed last for minutes.
+const MOST_RESTITUTION: f64 = 0.99;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{Table, TableError};
+
+    /// The textbook's table with a section `[flight]`.
+    fn table(flight: &str) -> Result<Table, TableError> {
+        let table = Table::preset("textbook").unwrap();
+        Table::from_toml(&format!("{}\n{flight}", toml::to_string(&table).unwrap()))
+    }
+
+    #[test]
+    fn a_section_names_what_it_changes_and_no_section_keeps_balls_on_the_cloth() {
+        assert_eq!(table("").unwrap().flight, None);
+        assert_eq!(table("[flight]").unwrap().flight, Some(Flight::default()));
+        let hard = table("[flight]\ne_c = 0.7\nmu_c = 0.15").unwrap();
+        assert_eq!(hard.flight, Some(Flight { restitution: 0.7, friction: Some(0.15) }));
+        assert_eq!(Table::from_toml(&toml::to_string(&hard).unwrap()).unwrap(), hard);
+    }
+
+    #[test]
+    fn a_cloth_that_gives_back_all_or_more_is_refused_by_name_and_value() {
+        for (line, says) in [
+            ("e_c = 1.0", "flight.e_c = 1; accepted is 0 to 0.99"),
+            ("e_c = -0.1", "flight.e_c = -0.1"),
+            ("e_c = nan", "flight.e_c = NaN"),
+            ("mu_c = -1.0", "flight.mu_c = -1"),
+        ] {
+            let message = table(&format!("[flight]\n{line}")).unwrap_err().to_string();
+            assert!(message.contains(says), "{message}");
+        }
+    }
+}

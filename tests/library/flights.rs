@@ -1,0 +1,214 @@
+//! Balls that leave the cloth: hops, jumps, massé, and balls off the table.
+
+use std::ops::ControlFlow;
+
+use carom::{
+    physics::{CueInputs, Motion, strike},
+    simulation::{Event, EventKind, Observer, Recording, simulate},
+    table::{Flight, Layout, Table},
+};
+use glam::DVec2;
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::Deserialize;
+
+fn flying(preset: &str) -> Table {
+    Table { flight: Some(Flight::default()), ..Table::preset(preset).unwrap() }
+}
+
+fn play(table: &Table, layout: &str, cue: &str) -> Recording {
+    let layout = Layout::parse(layout, table).unwrap();
+    Recording::new(table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+}
+
+/// A shot of `tests/data/flights.jsonl`, which `flights.py` beside it computes with 50 digits.
+#[derive(Deserialize)]
+struct Golden {
+    preset: String,
+    layout: Layout,
+    cue: CueInputs,
+    condition: f64,
+    events: Vec<serde_json::Value>,
+    #[serde(rename = "final")]
+    end: Layout,
+}
+
+#[test]
+fn golden_flights_are_exact() {
+    let mut units = Vec::new();
+    for (line, text) in include_str!("../data/flights.jsonl").lines().enumerate() {
+        let line = line + 1;
+        let golden: Golden = serde_json::from_str(text).unwrap();
+        let table = flying(&golden.preset);
+        let shot = Recording::new(&table, &golden.layout, &golden.cue).unwrap();
+        let ours: Vec<_> = shot.events().iter().map(|event| serde_json::to_value(event).unwrap()).collect();
+        let names = |events: &[serde_json::Value]| -> Vec<String> {
+            events.iter().map(|e| format!("{} {} {}", e["kind"], e["balls"], e["rail"])).collect()
+        };
+        assert_eq!(names(&ours), names(&golden.events), "line {line}: another sequence of events");
+        let time = |event: &serde_json::Value| event["t"].as_f64().unwrap();
+        let unit = (1.0 + golden.condition) * 2f64.powi(-53);
+        for (mine, theirs) in ours.iter().zip(&golden.events) {
+            assert!((time(mine) - time(theirs)).abs() < 1e-9 + 1e3 * unit, "line {line}: {mine} is not at {theirs}");
+        }
+        let ends = shot.positions(shot.duration()).into_iter().zip(golden.end.balls);
+        units.push(ends.map(|(mine, theirs)| mine.distance(theirs)).fold(0.0, f64::max) / unit);
+    }
+    units.sort_by(f64::total_cmp);
+    let count = units.len();
+    let (median, p99) = (units[count / 2], units[(count * 99).div_ceil(100) - 1]);
+    println!("{count} flights, error / ((1 + condition) 2^-53): median {median:.2}, p99 {p99:.1}");
+    assert!(count >= 60 && median <= 2.0 && p99 <= 64.0, "{units:?}");
+}
+
+fn kinds(shot: &Recording) -> Vec<EventKind> {
+    shot.events().iter().map(|event| event.kind).collect()
+}
+
+#[test]
+fn a_stroke_of_45_degrees_and_6_m_s_clears_a_ball_at_30_cm() {
+    let table = flying("match");
+    let over = play(&table, "-0.5,0 -0.2,0 0.9,0.5", "0,0,45,0,6");
+    let low = play(&table, "-0.5,0 -0.2,0 0.9,0.5", "0,0,20,0,6");
+    assert!(!kinds(&over).iter().any(|kind| matches!(kind, EventKind::BallBall(0, 1))), "{:?}", kinds(&over));
+    assert!(kinds(&low).iter().any(|kind| matches!(kind, EventKind::BallBall(0, 1))), "{:?}", kinds(&low));
+    assert_eq!(kinds(&over)[0], EventKind::Jumps(0));
+}
+
+/// The height is `V_z²/2g` of what the cloth gives back of the stroke's downward part.
+#[test]
+fn a_level_ish_stroke_hops_by_a_millimetre() {
+    let table = flying("match");
+    let cue = CueInputs::parse("0,0,3,0,5").unwrap();
+    let pressed = strike(&Table { flight: None, ..table.clone() }, &cue).velocity.length() * cue.theta.tan();
+    let expected = 0.25 * pressed * pressed / (2.0 * 9.81);
+    let shot = play(&table, "-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,5");
+    let hop = shot.segments(0)[0].hops().unwrap();
+    assert!((hop.highest() / expected - 1.0).abs() < 0.2, "{} {expected}", hop.highest());
+    assert!(hop.highest() > 0.0005 && hop.highest() < 0.005, "{}", hop.highest());
+}
+
+/// Coriolis (1835): a massé ends up rolling along the line from where the ball stands to where the cue points on the cloth,
+/// however the cloth rubs, in the squeeze of the stroke, in landings or in between.
+#[test]
+fn a_masse_bends_the_way_that_coriolis_constructs() {
+    let table = Table { width: 20.0, length: 40.0, ..flying("textbook") };
+    for (a, b, degrees, speed) in
+        [(0.3, 0.1, 60.0, 3.0), (-0.4, -0.1, 75.0, 4.0), (0.25, -0.3, 45.0, 2.0), (-0.2, 0.3, 30.0, 5.0)]
+    {
+        let cue = CueInputs { a, b, theta: f64::to_radians(degrees), phi: 0.0, speed };
+        // The tip over the place where the ball stands, in radii: b is a height, and what is left of a radius points back.
+        let tip = [-(1.0 - a * a - b * b).sqrt(), a, 1.0 + b];
+        let aim = DVec2::new(tip[0] + tip[2] / cue.theta.tan(), tip[1]);
+        let layout = Layout::new([DVec2::ZERO, DVec2::new(-19.0, 9.0), DVec2::new(-19.0, -9.0)]);
+        let shot = Recording::new(&table, &layout, &cue).unwrap();
+        let rolls = shot.segments(0).iter().find(|segment| segment.motion == Motion::Rolling).unwrap();
+        let turn = rolls.velocity.angle_to(aim).to_degrees();
+        assert!(turn.abs() < 1e-6, "{degrees} degrees: {} instead of {aim}, {turn} off", rolls.velocity);
+        let begins = shot.segments(0)[0].velocity.to_angle().to_degrees();
+        assert!((begins - rolls.velocity.to_angle().to_degrees()).abs() > 1.0, "it bends");
+    }
+}
+
+/// A shot that nothing lifts is computed as on a table whose balls stay on the cloth.
+#[test]
+fn level_strokes_give_the_same_bits_whether_or_not_balls_can_fly() {
+    for preset in ["textbook", "match"] {
+        let flat = Table { flight: None, ..Table::preset(preset).unwrap() };
+        let table = flying(preset);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
+        let mut lifted = 0;
+        for _ in 0..3000 {
+            let layout = Layout::random(&table, &mut rng);
+            let (a, b, phi, speed) = (
+                rng.random_range(-0.5..0.5),
+                rng.random_range(-0.5..0.2),
+                rng.random_range(-3.0..3.0),
+                rng.random_range(0.3..7.0),
+            );
+            let cue = CueInputs { a, b, theta: 0.0, phi, speed };
+            let [one, other] = [&flat, &table].map(|table| Recording::new(table, &layout, &cue).unwrap());
+            if kinds(&other).iter().any(|kind| matches!(kind, EventKind::Jumps(_))) {
+                lifted += 1;
+                continue;
+            }
+            assert_eq!(one.events(), other.events());
+            assert_eq!(one.final_layout(), other.final_layout());
+        }
+        println!("{preset}: {lifted} of 3000 climb a nose");
+        assert!(lifted < 300, "only much follow climbs a nose: {lifted}");
+    }
+}
+
+#[test]
+fn a_ball_shot_over_the_rail_leaves_the_table() {
+    let table = flying("match");
+    let shot = play(&table, "0.9,0 0,0.3 0,-0.3", "0,0,30,0,9");
+    assert!(kinds(&shot).contains(&EventKind::LeavesTable(0)), "{:?}", kinds(&shot));
+    assert_eq!(shot.motion(0, shot.duration()), Motion::OffTable);
+}
+
+/// What the observer counts of random shots.
+#[derive(Default)]
+struct Counts {
+    events: usize,
+    jumps: usize,
+    off: usize,
+    rails: usize,
+}
+
+impl Observer for Counts {
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.events += 1;
+        match event.kind {
+            EventKind::Jumps(_) => self.jumps += 1,
+            EventKind::LeavesTable(_) => self.off += 1,
+            EventKind::BallRail(..) => self.rails += 1,
+            _ => {}
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+#[test]
+fn random_flights_end_on_the_table_or_off_it() {
+    for (preset, restitution) in [("match", 0.5), ("textbook", 0.5), ("match", 0.99), ("thesis", 0.5), ("match", 0.0)] {
+        let table = Table { flight: Some(Flight { restitution, friction: None }), ..Table::preset(preset).unwrap() };
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+        let mut all = Counts::default();
+        let mut most = 0;
+        for _ in 0..2000 {
+            let layout = Layout::random(&table, &mut rng);
+            let limit = table.miscue_limit.sqrt() * 0.7;
+            let cue = CueInputs {
+                a: rng.random_range(-limit..limit),
+                b: rng.random_range(-limit..limit),
+                theta: rng.random_range(0.0..60.0_f64).to_radians(),
+                phi: rng.random_range(0.0..std::f64::consts::TAU),
+                speed: rng.random_range(0.5..7.0),
+            };
+            let mut counts = Counts::default();
+            let end = simulate(&table, &layout, &strike(&table, &cue), &mut counts);
+            most = most.max(counts.events);
+            for ball in 0..3 {
+                let state = end.balls[ball];
+                assert!(state.position.is_finite() && state.velocity == DVec2::ZERO, "{cue:?} {layout:?} {state:?}");
+                let inside = state.position.abs().cmple(table.reach() + 1e-9).all();
+                assert!(inside || end.off_table[ball], "{cue:?} {layout:?} {state:?}");
+            }
+            for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+                let apart = end.balls[one].position.distance(end.balls[other].position) - 2.0 * table.radius;
+                assert!(apart > -1e-9 || end.off_table[one] || end.off_table[other], "{cue:?} {layout:?} {apart}");
+            }
+            all.events += counts.events;
+            all.jumps += counts.jumps;
+            all.off += counts.off;
+            all.rails += counts.rails;
+        }
+        println!(
+            "{preset} {restitution}: events {} jumps {} off {} rails {} most {most}",
+            all.events, all.jumps, all.off, all.rails
+        );
+        assert!(most <= 500, "{most}");
+    }
+}
