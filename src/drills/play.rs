@@ -7,8 +7,8 @@ use crate::{
     coach::errors,
     game::{Point, Rule, Tally},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
-    simulation::{Event, Observer, simulate},
-    table::{Layout, Table},
+    simulation::{Event, Observer, OffTable, simulate},
+    table::{BALLS, Layout, Table},
 };
 
 /// Sets the errors of strokes apart from all else that is drawn from a session's seed: a coach who knew them would choose by
@@ -45,8 +45,10 @@ pub struct Played {
     pub tally: Tally,
     /// Whether it made the point.
     pub made: bool,
-    /// Where the balls came to rest, m.
+    /// Where the balls came to rest, m; those that left the table are on their spots.
     pub end: Layout,
+    /// How balls left the table.
+    pub off: [Option<OffTable>; BALLS],
 }
 
 impl Played {
@@ -54,10 +56,11 @@ impl Played {
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         let mut watcher = Watcher::default();
         let miscue = stroke.is_miscue(table);
-        let end =
-            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout(table) };
+        let ended = (!miscue).then(|| simulate(table, layout, &strike(table, &stroke), &mut watcher));
+        let end = ended.map_or(*layout, |end| end.layout(table));
+        let off = ended.map_or([None; BALLS], |end| end.left_table(table));
         let point = Point::of(rule, table, layout);
-        Self { stroke, miscue, point, tally: watcher.0, made: point.is_made(&watcher.0), end }
+        Self { stroke, miscue, point, tally: watcher.0, made: point.is_made(&watcher.0), end, off }
     }
 }
 

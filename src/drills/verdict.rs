@@ -18,7 +18,8 @@ impl Played {
         if self.miscue {
             return "No point: the tip slipped off the ball".to_owned();
         }
-        Verdict { point: self.point, tally: self.tally, miss: None }.words(cue_ball, LengthUnit::default())
+        Verdict { point: self.point, tally: self.tally, miss: None, off: self.off }
+            .words(cue_ball, LengthUnit::default())
     }
 }
 

@@ -1,6 +1,7 @@
 //! A shot in the numbers and words of a player: how full, how much side, how hard, and which cushions.
 
 mod difference;
+mod flight;
 mod numbers;
 mod pace;
 mod sentence;
@@ -11,6 +12,7 @@ mod units;
 use glam::DVec2;
 use serde::Serialize;
 
+pub use flight::{height_words, jump_words};
 pub use numbers::{clock, number_word};
 pub use pace::{pace_word, table_lengths};
 pub(super) use sentence::capital;
@@ -50,6 +52,9 @@ pub struct ShotWords {
     pub first: Option<Hit>,
     /// The other object ball, 1 or 2, where it is met too.
     pub second: Option<usize>,
+    /// The object ball over which the cue ball flies before it meets anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub over: Option<usize>,
     /// Tips of side, to the right for one who looks along the cue; less is left.
     pub tips_right: f64,
     /// Tips above the centre; less is below.
@@ -107,6 +112,7 @@ impl ShotWords {
         Self {
             first,
             second: first.filter(|_| technique.tally.met_both()).map(|hit| 3 - hit.ball),
+            over: technique.over,
             tips_right,
             tips_above,
             clock: clock(tips_right, tips_above),

@@ -1,0 +1,38 @@
+//! The jump from the side: when it is shown, and what is said where there is none.
+
+use crate::{
+    coach::words::height_words,
+    terminal::{pages::coach::CoachPage, shot::Profile, ui::Message},
+};
+
+impl CoachPage {
+    /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
+    pub fn profile(&self) -> Option<Profile> {
+        let shot = self.shot().filter(|_| self.has_side_view)?;
+        Profile::of(self.table(), &shot.recording)
+    }
+
+    /// Shows the jump from the side, or no longer; where nothing jumps that high it says so.
+    pub(super) fn turn_side_view(&mut self) {
+        self.has_side_view = !self.has_side_view;
+        if self.has_side_view && self.profile().is_none() {
+            self.has_side_view = false;
+            self.message = Some(Message::plain(self.no_jump()));
+        }
+    }
+
+    fn no_jump(&self) -> String {
+        if self.table().flight.is_none() {
+            return "balls stay on the cloth of this table; a section [flight] in a table's file lets them fly"
+                .to_owned();
+        }
+        let jumps = self.shot().map_or_else(Vec::new, |shot| shot.recording.jumps());
+        let highest = jumps.iter().map(|jump| jump.height).fold(0.0, f64::max);
+        if highest == 0.0 {
+            return "nothing leaves the cloth in this shot".to_owned();
+        }
+        // A hop of a hair's breadth is no more than a tenth of a millimetre.
+        let height = height_words(highest.max(1e-4), self.units.length);
+        format!("nothing leaves the cloth by more than {height} in this shot")
+    }
+}
