@@ -89,7 +89,7 @@ impl Recording {
 
     /// The flight that begins at `start`, with the events from then on.
     fn jump(&self, ball: usize, start: f64, events: &[Event]) -> Jump {
-        let is_end = |event: &&Event| matches!(event.kind, EventKind::Lands(other) | EventKind::LeavesTable(other) if other == ball);
+        let is_end = |event: &&Event| [EventKind::Lands(ball), EventKind::LeavesTable(ball)].contains(&event.kind);
         let end = events.iter().find(is_end).map_or(self.duration(), |event| event.time);
         let flying = |n: &usize| self.segments(ball)[*n].motion == Motion::Flying;
         let pieces = self.segments(ball);
