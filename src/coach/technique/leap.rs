@@ -24,9 +24,10 @@ pub fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
         (0..=looks).map(|look| (jump.start + LOOK * look as f64).min(end)).find_map(|time| {
             let places = recording.positions(time);
             let is_below = |ball: &usize| places[0].distance(places[*ball]) < reach;
-            // At the contact itself it may lie on top of the ball that it meets.
-            let is_met =
-                |ball: usize| time == until && first.is_some_and(|event| event.kind == EventKind::BallBall(0, ball));
+            // A ball that it comes down on is not flown over.
+            let is_met = |ball: usize| {
+                until <= jump.end && first.is_some_and(|event| event.kind == EventKind::BallBall(0, ball))
+            };
             (1..BALLS).filter(is_below).find(|&ball| !is_met(ball))
         })
     })
