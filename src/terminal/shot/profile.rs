@@ -66,7 +66,7 @@ impl Profile {
         let end = (jump.start + AFTER * (last - jump.start)).min(jump.end);
         let points = points(recording, &jump, end);
         let mut passed = balls(table, recording, &jump, &points);
-        passed.extend(noses(table, recording, &jump, &points));
+        passed.extend(noses(table, recording, &Jump { end, ..jump }, &points));
         passed.sort_by(|one, other| one.way.total_cmp(&other.way));
         Some(Self { jump, points, passed })
     }
@@ -122,12 +122,11 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
 
 /// The noses that the ball meets or flies over.
 fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<Passed> {
-    let end = points.last().map_or(jump.start, |point| point.time);
     let top = table.rail.height.unwrap_or(table.radius);
     recording
         .events()
         .iter()
-        .filter(|event| (jump.start..=end).contains(&event.time))
+        .filter(|event| jump.is_at(event.time))
         .filter_map(|event| match event.kind {
             EventKind::BallRail(ball, rail) if ball == jump.ball => Some((rail, event.time)),
             EventKind::LeavesTable(ball) if ball == jump.ball => {
@@ -144,7 +143,8 @@ fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
             _ => None,
         })
         .filter_map(|(rail, time)| {
-            let point = points.iter().find(|point| point.time >= time)?;
+            // The last look may be rounded to before the end.
+            let point = points.iter().find(|point| point.time >= time).or(points.last())?;
             Some(Passed { what: Obstacle::Nose(rail), way: point.way, top })
         })
         .collect()

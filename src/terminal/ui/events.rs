@@ -41,7 +41,12 @@ impl ListedEvents<'_> {
         let jump = self.recording.jump_of(&event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
         let Some(jump) = jump else { return words };
         let height = height_words(jump.height, self.unit);
-        let all = [format!("{words} ({})", jump_words(&jump, self.unit)), format!("{words} {height}")];
+        let name = ui.theme.names()[jump.ball];
+        let all = [
+            format!("{words} ({})", jump_words(&jump, self.unit)),
+            format!("{words} {height}"),
+            format!("{name} {height} up"),
+        ];
         all.into_iter().find(|words| words.len() <= room).unwrap_or(words)
     }
 }

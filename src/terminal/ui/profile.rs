@@ -23,7 +23,7 @@ use crate::{
 /// Columns left of the plot: a height, and the axis.
 const LEFT: u16 = 7;
 /// What ends a scale, in units of a power of ten.
-const ENDS: [f64; 6] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
+const ENDS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0];
 
 /// What is drawn in the plot, from below, and how much of a cell's two colours each is worth.
 const OBSTACLE_WEIGHT: u8 = 3;
@@ -86,7 +86,7 @@ pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area
 fn end_of_scale(height: f64) -> f64 {
     let power = 10_f64.powf(height.max(1e-4).log10().floor());
     let end = ENDS.into_iter().find(|end| end * power >= 1.02 * height);
-    end.unwrap_or(20.0) * power
+    end.unwrap_or(ENDS[ENDS.len() - 1]) * power
 }
 
 fn obstacle_color(passed: &Passed, ui: &Ui) -> Color {
@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn the_scale_ends_at_a_round_height_above_the_jump() {
-        let ends = [0.0021, 0.0098, 0.012, 0.031, 0.1, 0.21].map(end_of_scale);
+        let ends = [0.0021, 0.0098, 0.012, 0.031, 0.099, 0.21].map(end_of_scale);
         for (end, wanted) in ends.into_iter().zip([0.003, 0.01, 0.015, 0.05, 0.15, 0.3]) {
             assert!((end - wanted).abs() < 1e-12, "{end} {wanted}");
         }
