@@ -115,8 +115,8 @@ pub struct CoachPage {
     pub is_in_numbers: bool,
     /// Whether all events are listed; else contacts only.
     pub has_all_events: bool,
-    /// Whether the shot's jump is shown from the side.
-    pub has_side_view: bool,
+    /// From where the shot is looked at.
+    seen: side_view::Seen,
     /// The units in which lengths are told.
     pub units: Units,
     /// The player's own stroke beside the coach's.
@@ -162,7 +162,7 @@ impl CoachPage {
             view: View::default(),
             is_in_numbers: false,
             has_all_events: false,
-            has_side_view: false,
+            seen: side_view::Seen::default(),
             units: Units::default(),
             compared: None,
             balls: History::new(Position {

@@ -5,18 +5,31 @@ use crate::{
     terminal::{pages::coach::CoachPage, shot::Profile, ui::Message},
 };
 
+/// From where the shot is looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// From above alone.
+    #[default]
+    FromAbove,
+    /// From the side as well, where it jumps.
+    FromTheSide,
+}
+
 impl CoachPage {
     /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
     pub fn profile(&self) -> Option<Profile> {
-        let shot = self.shot().filter(|_| self.has_side_view)?;
+        let shot = self.shot().filter(|_| self.seen == Seen::FromTheSide)?;
         Profile::of(self.table(), &shot.recording)
     }
 
     /// Shows the jump from the side, or no longer; where nothing jumps that high it says so.
     pub(super) fn turn_side_view(&mut self) {
-        self.has_side_view = !self.has_side_view;
-        if self.has_side_view && self.profile().is_none() {
-            self.has_side_view = false;
+        self.seen = match self.seen {
+            Seen::FromAbove => Seen::FromTheSide,
+            Seen::FromTheSide => Seen::FromAbove,
+        };
+        if self.seen == Seen::FromTheSide && self.profile().is_none() {
+            self.seen = Seen::FromAbove;
             self.message = Some(Message::plain(self.no_jump()));
         }
     }
