@@ -36,16 +36,14 @@ impl CoachPage {
 
     fn no_jump(&self) -> String {
         if self.table().flight.is_none() {
-            return "balls stay on the cloth of this table; a section [flight] in a table's file lets them fly"
-                .to_owned();
+            return "no ball leaves this table's cloth: its file has no section [flight]".to_owned();
         }
         let jumps = self.shot().map_or_else(Vec::new, |shot| shot.recording.jumps());
         let highest = jumps.iter().map(|jump| jump.height).fold(0.0, f64::max);
         if highest == 0.0 {
             return "nothing leaves the cloth in this shot".to_owned();
         }
-        // A hop of a hair's breadth is no more than a tenth of a millimetre.
-        let height = height_words(highest.max(1e-4), self.units.length);
+        let height = height_words(highest, self.units.length);
         format!("nothing leaves the cloth by more than {height} in this shot")
     }
 }
