@@ -103,7 +103,7 @@ pub enum Outcome {
     NoBall,
     /// One is.
     OneBall,
-    /// Both are, with too few cushions before the second, or as a game opens with the wrong ball first.
+    /// Both are, with too few cushions before the second, as a game opens with the wrong ball first, or a ball leaves the table.
     TooFewCushions,
     /// A point.
     Point,

@@ -46,4 +46,4 @@ pub use skill::{Growth, Skill, SkillError};
 pub use technique::{Cushion, PATTERNS, Pattern, Technique};
 pub use verdict::{Miss, Passed, Verdict};
 pub use why::{Difference, Kiss, Why, why};
-pub use words::{ShotWords, Units};
+pub use words::{ShotWords, Units, jump_words};

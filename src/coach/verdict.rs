@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::words::{LengthUnit, number_word};
 use crate::{
     game::{Point, Rule, Tally},
-    simulation::{EventKind, Recording},
+    simulation::{EventKind, OffTable, Recording},
     table::{BALLS, CueBall, Layout, Table},
 };
 
@@ -22,6 +22,8 @@ pub enum Passed {
     Left,
     /// On its right.
     Right,
+    /// Above it, in the air.
+    Over,
     /// It stopped before the ball.
     Short,
 }
@@ -46,6 +48,8 @@ pub struct Verdict {
     pub tally: Tally,
     /// How a ball was missed, where the cue ball came by with cushions enough.
     pub miss: Option<Miss>,
+    /// How balls left the table, which is a foul.
+    pub off: [Option<OffTable>; BALLS],
 }
 
 impl Verdict {
@@ -59,7 +63,7 @@ impl Verdict {
             [false, true] => miss(table, recording, rule.cushions(), &[1]),
             [false, false] => miss(table, recording, 0, &[1, 2]),
         };
-        Self { point: Point::of(rule, table, layout), tally, miss }
+        Self { point: Point::of(rule, table, layout), tally, miss, off: recording.left_table(table) }
     }
 
     /// Whether it made the point.
@@ -69,10 +73,28 @@ impl Verdict {
 
     /// In words, for who plays with `cue_ball`: "Point: red, three cushions, yellow", or what was missing.
     pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
+        if self.tally.left_table {
+            return format!("Foul: {}", self.foul(cue_ball));
+        }
         match self.missing(cue_ball, unit) {
             Some(missing) => format!("No point: {missing}"),
             None => format!("Point: {}", self.way(cue_ball)),
         }
+    }
+
+    /// The balls that left the table, and how.
+    pub fn off_table(&self) -> impl Iterator<Item = (usize, OffTable)> {
+        self.off.into_iter().enumerate().filter_map(|(ball, off)| Some((ball, off?)))
+    }
+
+    /// Which balls left the table, over which rail, and where they come on it again.
+    fn foul(&self, cue_ball: CueBall) -> String {
+        let one = |(ball, off): (usize, OffTable)| {
+            let (name, rail, spot) = (cue_ball.names()[ball], off.over.name(), spot_words(off.spot));
+            format!("{name} left the table over the {rail} rail and comes on the {spot}")
+        };
+        let all: Vec<String> = self.off_table().map(one).collect();
+        if all.is_empty() { "a ball left the table".to_owned() } else { all.join("; ") }
     }
 
     /// Balls and cushions up to the second ball.
@@ -103,6 +125,7 @@ impl Verdict {
             match miss.passed {
                 Passed::Left => format!("passed {ball} by {gap} on the left"),
                 Passed::Right => format!("passed {ball} by {gap} on the right"),
+                Passed::Over => format!("flew over {ball}"),
                 Passed::Short => format!("stopped {gap} short of {ball}"),
             }
         };
@@ -135,6 +158,15 @@ impl Verdict {
     }
 }
 
+/// One of the three spots on the table's long axis: red's at the opening, the near one, and the middle.
+fn spot_words(spot: DVec2) -> &'static str {
+    match spot.x {
+        x if x > 0.0 => "far spot",
+        x if x < 0.0 => "near spot",
+        _ => "middle spot",
+    }
+}
+
 /// A number of cushions in words.
 fn cushion_words(count: u32) -> String {
     let unit = if count == 1 { "cushion" } else { "cushions" };
@@ -150,7 +182,8 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
     };
     let gap = |ball: usize, time: f64| {
         let places = recording.positions(time);
-        places[0].distance(places[ball]) - 2.0 * table.radius
+        let higher = recording.height(0, time) - recording.height(ball, time);
+        places[0].distance(places[ball]).hypot(higher) - 2.0 * table.radius
     };
     let looks = ((recording.duration() - start) / LOOK).ceil() as usize;
     let times = (0..=looks).map(|look| (start + LOOK * look as f64).min(recording.duration()));
@@ -170,6 +203,7 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
     let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time));
     let towards: DVec2 = other.position - cue_ball.position;
     let passed = match cue_ball.velocity.perp_dot(towards) {
+        _ if towards.length() < 2.0 * table.radius && gap(ball, time) > 0.0 => Passed::Over,
         _ if cue_ball.velocity.length() < STOPPED => Passed::Short,
         side if side > 0.0 => Passed::Right,
         _ => Passed::Left,
@@ -180,10 +214,10 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::CueInputs;
+    use crate::{physics::CueInputs, table::Flight};
 
     fn told(point: Point, tally: Tally, cue_ball: CueBall) -> String {
-        Verdict { point, tally, miss: None }.words(cue_ball, LengthUnit::Metres)
+        Verdict { point, tally, miss: None, off: [None; BALLS] }.words(cue_ball, LengthUnit::Metres)
     }
 
     #[test]
@@ -240,6 +274,29 @@ mod tests {
         let mirrored = verdict("-1,0 0,-0.1 -1.3,0.6", "0,0,0,0,2", Rule::StraightRail);
         let said = mirrored.words(CueBall::White, LengthUnit::Metres);
         assert_eq!(said, "No point: no ball was met, passed yellow by 3.9 cm on the left");
+    }
+
+    fn flown(layout: &str, cue: &str, cue_ball: CueBall) -> String {
+        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let layout = Layout::parse(layout, &table).unwrap();
+        let recording = Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap();
+        Verdict::of(Rule::StraightRail, &table, &layout, &recording).words(cue_ball, LengthUnit::Metres)
+    }
+
+    #[test]
+    fn a_ball_off_the_table_is_a_foul_that_says_over_which_rail_and_where_the_ball_comes() {
+        let said = |cue_ball| flown("0.9,0 0.1,0.3 0.1,-0.3", "0,0,30,0,9", cue_ball);
+        assert_eq!(said(CueBall::White), "Foul: white left the table over the right rail and comes on the middle spot");
+        assert!(said(CueBall::Yellow).starts_with("Foul: yellow left the table over the right rail"));
+        // The middle is taken: the ball comes on the spot of the ball that is in the way.
+        let taken = flown("0.9,0 0,0 0.1,-0.3", "0,0,30,0,9", CueBall::White);
+        assert_eq!(taken, "Foul: white left the table over the right rail and comes on the near spot");
+    }
+
+    #[test]
+    fn a_ball_that_was_flown_over_was_not_passed_at_its_side() {
+        let said = flown("-0.5,0 -0.2,0 -1.2,-0.5", "0,0,45,0,5", CueBall::White);
+        assert_eq!(said, "No point: no ball was met, flew over yellow");
     }
 
     #[test]

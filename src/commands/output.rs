@@ -45,7 +45,11 @@ pub fn impulse_words(impulse: &Impulse) -> String {
     // Adding zero takes the sign from a rounded minus zero.
     let tidy = |x: f64| (1e3 * x).round() / 1e3 + 0.0;
     let (v, w) = (impulse.velocity.to_array().map(tidy), impulse.spin.to_array().map(tidy));
-    format!("impulse: V0 = ({:.3}, {:.3}, 0) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v[0], v[1], w[0], w[1], w[2])
+    let lift = match tidy(impulse.lift) {
+        0.0 => "0".to_owned(),
+        lift => format!("{lift:.3}"),
+    };
+    format!("impulse: V0 = ({:.3}, {:.3}, {lift}) m/s, w0 = ({:.3}, {:.3}, {:.3}) rad/s", v[0], v[1], w[0], w[1], w[2])
 }
 
 /// A line of JSON on the standard output.

@@ -11,11 +11,11 @@ use super::{
     output::{impulse_words, tell, units},
 };
 use crate::{
-    coach::Verdict,
+    coach::{Verdict, jump_words},
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
     printing,
-    simulation::{Event, Recording},
+    simulation::{Event, EventKind, Rail, Recording},
     study::{Stepped, Steps},
     table::{BALL_NAMES, CueBall, Layout, Table},
 };
@@ -88,14 +88,18 @@ struct GivenImpulse {
 }
 
 impl GivenImpulse {
-    fn impulse(&self) -> Result<Impulse, Failure> {
+    fn impulse(&self, table: &Table) -> Result<Impulse, Failure> {
+        let spin = DVec3::from_array(self.spin);
         match self.velocity[..] {
-            [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), DVec3::from_array(self.spin))),
+            [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), spin)),
+            [x, y, lift] if table.flight.is_some() => Ok(Impulse { velocity: DVec2::new(x, y), spin, lift }),
             [_, _, up] => Err(Failure::wrong_input(format_args!(
-                "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth"
+                "impulse.velocity has {up} m/s upwards; accepted is 0, for balls stay on the cloth of \"{}\": a section \
+                 [flight] in a table's file lets them leave it",
+                table.name
             ))),
             _ => Err(Failure::wrong_input(format_args!(
-                "impulse.velocity has {} numbers; accepted are [x, y] and [x, y, 0]",
+                "impulse.velocity has {} numbers; accepted are [x, y] and [x, y, z]",
                 self.velocity.len()
             ))),
         }
@@ -114,7 +118,7 @@ impl BatchLine {
                 Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
             }
             (None, Some(given)) => {
-                let played = (bounded::play_impulse(table, &self.layout, &given.impulse()?)?, None);
+                let played = (bounded::play_impulse(table, &self.layout, &given.impulse(table)?)?, None);
                 Ok(SimulateAnswer::of(&played, &outcome(&played), None))
             }
             _ => Err(Failure::wrong_input("a line needs either cue or impulse")),
@@ -129,6 +133,37 @@ struct PlacedEvent {
     event: Event,
     #[serde(skip_serializing_if = "Option::is_none")]
     at: Option<DVec2>,
+    /// How high over the cloth the balls are, in their order, m; absent where all of them lie on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    z: Option<Vec<f64>>,
+    /// The greatest height of a jump, m, and how far away it first comes down.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    height: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    distance: Option<f64>,
+}
+
+impl PlacedEvent {
+    fn of(recording: &Recording, event: Event) -> Self {
+        let (first, second) = event.kind.balls();
+        let heights: Vec<f64> =
+            std::iter::once(first).chain(second).map(|ball| recording.height(ball, event.time)).collect();
+        let jump = recording.jump_of(&event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
+        Self {
+            event,
+            at: event.kind.rail().map(|_| recording.state(first, event.time).position),
+            z: heights.iter().any(|&height| height > 0.0).then_some(heights),
+            height: jump.map(|jump| jump.height),
+            distance: jump.map(|jump| jump.distance),
+        }
+    }
+}
+
+/// A ball that has left the table.
+#[derive(Serialize)]
+struct BallOff {
+    ball: &'static str,
+    rail: Rail,
 }
 
 /// The answer in JSON.
@@ -143,6 +178,9 @@ struct SimulateAnswer {
     events: Vec<PlacedEvent>,
     #[serde(rename = "final")]
     end: Layout,
+    /// Balls that left the table; in `final` they are on their spots.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    off_table: Vec<BallOff>,
     duration: f64,
     /// On a table that says how much room the cue needs.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -202,15 +240,12 @@ impl SimulateAnswer {
             point: verdict.is_made(),
             cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
             cue_room,
-            events: recording
-                .events()
-                .iter()
-                .map(|&event| {
-                    let at = event.kind.rail().map(|_| recording.state(event.kind.balls().0, event.time).position);
-                    PlacedEvent { event, at }
-                })
-                .collect(),
+            events: recording.events().iter().map(|&event| PlacedEvent::of(recording, event)).collect(),
             end: recording.final_layout(),
+            off_table: verdict
+                .off_table()
+                .map(|(ball, off)| BallOff { ball: BALL_NAMES[ball], rail: off.over })
+                .collect(),
             duration: recording.duration(),
             steps: stepped.map(|Stepped { steps, deepest_overlap, at_rest, .. }| StepsAnswer {
                 steps,
@@ -291,24 +326,29 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -
 
 /// The shot for people to read.
 fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, verdict: &Verdict) -> io::Result<()> {
+    let length = units().length;
     writeln!(out, "{}", impulse_words(recording.impulse()))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
-    let is_told = |event: &&Event| args.rolls || event.kind.is_contact();
+    let is_told = |event: &&Event| args.rolls || recording.is_told(event);
     for event in recording.events().iter().filter(is_told) {
         let (first, second) = event.kind.balls();
         let first = BALL_NAMES[first];
         let balls = second.map_or_else(|| first.to_owned(), |second| format!("{first} {}", BALL_NAMES[second]));
-        let rail = event.kind.rail().map_or("", crate::simulation::Rail::name);
+        let rail = event.kind.rail().map_or("", Rail::name);
         let cue_ball = recording.state(0, event.time);
-        writeln!(
+        write!(
             out,
             "{:>12.9}  {:<18}  {balls:<13}  {rail:<6}  ({:.4}, {:.4}) m at {:.3} m/s",
             event.time,
             event.kind.name(),
             cue_ball.position.x,
             cue_ball.position.y,
-            cue_ball.velocity.length()
+            cue_ball.velocity.length(),
         )?;
+        match recording.jump_of(event).filter(|_| matches!(event.kind, EventKind::Jumps(_))) {
+            Some(jump) => writeln!(out, ", {}", jump_words(&jump, length))?,
+            None => writeln!(out)?,
+        }
     }
     if stepped.is_some_and(|stepped| !stepped.at_rest) {
         writeln!(out, "given up while balls still jitter, the last event after {:.6} s:", recording.duration())?;
@@ -321,6 +361,6 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
     if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
         writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;
     }
-    let said = verdict.words(CueBall::White, units().length);
+    let said = verdict.words(CueBall::White, length);
     writeln!(out, "{said} ({})", verdict.point.rule)
 }

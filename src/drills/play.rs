@@ -8,7 +8,7 @@ use crate::{
     game::{Point, Rule, Tally},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
     simulation::{Event, Observer, Recording, simulate},
-    table::{Layout, Table},
+    table::{BALLS, Layout, Table},
 };
 
 /// Sets the errors of strokes apart from all else that is drawn from a session's seed: a coach who knew them would choose by
@@ -43,7 +43,7 @@ pub struct Played {
     pub verdict: Verdict,
     /// Whether it made the point.
     pub made: bool,
-    /// Where the balls came to rest, m.
+    /// Where the balls came to rest, m; those that left the table are on their spots.
     pub end: Layout,
 }
 
@@ -52,9 +52,10 @@ impl Played {
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         let mut watcher = Watcher::default();
         let miscue = stroke.is_miscue(table);
-        let end =
-            if miscue { *layout } else { simulate(table, layout, &strike(table, &stroke), &mut watcher).layout(table) };
-        let verdict = Verdict { point: Point::of(rule, table, layout), tally: watcher.0, miss: None };
+        let ended = (!miscue).then(|| simulate(table, layout, &strike(table, &stroke), &mut watcher));
+        let end = ended.map_or(*layout, |end| end.layout(table));
+        let off = ended.map_or([None; BALLS], |end| end.left_table(table));
+        let verdict = Verdict { point: Point::of(rule, table, layout), tally: watcher.0, miss: None, off };
         Self { stroke, miscue, verdict, made: verdict.is_made(), end }
     }
 

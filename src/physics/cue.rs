@@ -97,6 +97,12 @@ pub enum ImpulseError {
         /// Its part along y, m/s.
         y: f64,
     },
+    /// The upward velocity is not a number, downwards, or too large.
+    #[error("{lift} m/s upwards are not accepted; accepted are 0 to {MAX_BALL_SPEED} m/s")]
+    Lift {
+        /// It, m/s.
+        lift: f64,
+    },
     /// The spin is not a number, or too large.
     #[error("spin = [{x}, {y}, {z}] rad/s is not accepted; accepted are finite numbers and at most {MAX_SPIN} rad/s")]
     Spin {
@@ -198,10 +204,13 @@ impl Impulse {
     /// # Errors
     /// The first problem found.
     pub fn validate(&self) -> Result<(), ImpulseError> {
-        let Self { velocity, spin, .. } = *self;
+        let Self { velocity, spin, lift } = *self;
         let is_within = |length: f64, most: f64| (0.0..=most).contains(&length);
         if !is_within(velocity.length(), MAX_BALL_SPEED) {
             return Err(ImpulseError::Velocity { x: velocity.x, y: velocity.y });
+        }
+        if !is_within(lift, MAX_BALL_SPEED) {
+            return Err(ImpulseError::Lift { lift });
         }
         if !is_within(spin.length(), MAX_SPIN) {
             return Err(ImpulseError::Spin { x: spin.x, y: spin.y, z: spin.z });

@@ -305,3 +305,52 @@ fn a_recommendation_counts_on_the_diamonds_where_a_system_describes_it() {
     }
     assert!(counted > 0, "no shot of three seeds takes three cushions in a row");
 }
+
+/// A table file like `textbook`, whose balls leave the cloth.
+fn flying_table(folder: &std::path::Path) -> String {
+    let file = folder.join("flying.toml");
+    std::fs::write(&file, format!("{}\n[flight]\n", include_str!("../../src/table/textbook.toml"))).unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn simulate_tells_how_high_and_far_a_jump_is_and_who_left_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = flying_table(folder.path());
+    let jump = ["simulate", "--table", &table, "--layout", "-0.5,0 -0.2,0.3 0.9,0.5", "--shot", "0,0,45,0,3"];
+    let text = carom(&jump).assert().success();
+    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    assert!(text.contains(" mm high, ") && text.contains(" far\n") && text.contains("lands"), "{text}");
+    let answer = json(&[&jump[..], &["--json"]].concat());
+    let first = &answer["events"][0];
+    assert!(first["kind"] == "jumps" && first["height"].as_f64().unwrap() > 0.02, "{first}");
+    assert!(first["distance"].as_f64().unwrap() > 0.1 && answer.get("off_table").is_none(), "{answer}");
+    let off = ["simulate", "--table", &table, "--layout", "0.9,0 0.1,0.3 0.1,-0.3", "--shot", "0,0,30,0,9"];
+    let text = carom(&off).assert().success();
+    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    assert!(text.contains("Foul: white left the table over the right rail and comes on the "), "{text}");
+    let answer = json(&[&off[..], &["--json"]].concat());
+    assert_eq!(answer["off_table"], serde_json::json!([{"ball": "white", "rail": "right"}]));
+    assert!(answer["point"] == false && answer["final"][0][0].as_f64().unwrap().abs() < 1.0, "{answer}");
+    let left = answer["events"].as_array().unwrap().iter().find(|event| event["kind"] == "leaves-table").unwrap();
+    assert_eq!(left["balls"], serde_json::json!([0]));
+}
+
+#[test]
+fn a_batch_takes_upward_velocities_where_balls_may_fly_and_says_elsewhere_which_section_lets_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = flying_table(folder.path());
+    let line = |table: &str, up: f64| {
+        let layout = "[[-0.5,0],[-0.2,0.3],[0.9,0.5]]";
+        let impulse = format!(r#"{{"velocity": [2, 0, {up}], "spin": [0, 0, 0]}}"#);
+        format!(r#"{{"preset": {}, "layout": {layout}, "impulse": {impulse}}}"#, Value::from(table))
+    };
+    let input = [line(&table, 1.0), line("textbook", 1.0), line(&table, -1.0)].join("\n");
+    let output = carom(&["simulate", "--batch", "-"]).write_stdin(input).assert().code(2);
+    let answers = lines(&output.get_output().stdout);
+    let height = answers[0]["events"][0]["height"].as_f64().unwrap();
+    assert!((height - 1.0 / (2.0 * 9.81)).abs() < 1e-3, "{}", answers[0]);
+    let refused = answers[1]["error"].as_str().unwrap();
+    assert!(refused.contains("1 m/s upwards") && refused.contains("[flight]"), "{refused}");
+    assert!(answers[2]["error"].as_str().unwrap().contains("-1 m/s upwards"), "{}", answers[2]);
+}

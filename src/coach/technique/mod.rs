@@ -1,5 +1,6 @@
 //! What a shot does on the table, and the name that players have for it.
 
+mod leap;
 mod patterns;
 
 pub use patterns::{PATTERNS, Pattern};
@@ -43,6 +44,8 @@ pub struct Technique {
     pub sent: Vec<Rail>,
     /// Angle between the cue ball's way to the first ball and its way from there, once it rolls or meets something, rad.
     pub turn: f64,
+    /// The object ball over which it flies before it meets anything.
+    pub over: Option<usize>,
     /// Angle by which the cue ball's way bends until it meets anything, rad.
     pub bend: f64,
     /// Spin about the axis across its way as the cue ball meets the first ball, in units of a rolling ball's: 1 rolls, 0 slides,
@@ -81,6 +84,7 @@ impl Technique {
             between: Vec::new(),
             sent: events.filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0))).collect(),
             turn: 0.0,
+            over: leap::flown_over(table, recording),
             bend: 0.0,
             roll: 0.0,
             english: 0.0,
@@ -155,6 +159,28 @@ fn spread(layout: &Layout) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::Flight;
+
+    fn flown(layout: &str, cue: &str) -> Technique {
+        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let layout = Layout::parse(layout, &table).unwrap();
+        Technique::of(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_jump_is_a_shot_that_flies_over_a_ball_or_its_edge_before_it_meets_another() {
+        let name = |technique: &Technique| Pattern::of(technique).map(|pattern| pattern.name);
+        let over = flown("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
+        assert_eq!((over.over, over.first.map(|hit| hit.ball), name(&over)), (Some(1), Some(2), Some("jump")));
+        let edge = flown("-0.5,0 -0.2,0.05 0.5,0.02", "0,0,45,0,6");
+        assert_eq!((edge.over, name(&edge)), (Some(1), Some("jump")));
+        let beside = flown("-0.5,0 -0.2,0.07 0.5,0.02", "0,0,45,0,6");
+        assert!(beside.over.is_none() && name(&beside) != Some("jump"), "{beside:?}");
+        // The first ball is met from the air, and nothing is flown over.
+        let onto = flown("-0.5,0 -0.2,0 0.5,0.02", "0,0,20,0,6");
+        assert!(onto.first.is_some_and(|hit| hit.ball == 1) && onto.over.is_none(), "{onto:?}");
+        assert_eq!(technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6").over, None, "on a table that keeps its balls");
+    }
 
     fn technique(layout: &str, cue: &str) -> Technique {
         let table = Table::default();

@@ -34,7 +34,13 @@ const DRAWN: f64 = -0.15;
 const ROLLING: f64 = 0.35;
 
 /// The patterns that have a name, in the order in which a shot is asked whether it is one; it is called by the first.
-pub const PATTERNS: [Pattern; 30] = [
+pub const PATTERNS: [Pattern; 31] = [
+    Pattern {
+        tag: "jump",
+        name: "jump",
+        course: "the cue ball flies over a ball, or its edge, before it meets anything",
+        is_it: |t| t.over.is_some(),
+    },
     Pattern {
         tag: "masse",
         name: "massé",

@@ -1,6 +1,7 @@
 //! A shot in the numbers and words of a player: how full, how much side, how hard, and which cushions.
 
 mod difference;
+mod flight;
 mod numbers;
 mod pace;
 mod sentence;
@@ -11,6 +12,7 @@ mod units;
 use glam::DVec2;
 use serde::Serialize;
 
+pub use flight::{height_words, jump_words};
 use numbers::clock;
 pub use numbers::fullness_word;
 pub(super) use numbers::number_word;
@@ -55,6 +57,9 @@ pub struct ShotWords {
     pub first: Option<Hit>,
     /// How the other one is met.
     pub second: Option<Hit>,
+    /// The object ball over which the cue ball flies before it meets anything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub over: Option<usize>,
     /// Tips of side, to the right for one who looks along the cue; less is left.
     pub tips_right: f64,
     /// Tips above the centre; less is below.
@@ -112,6 +117,7 @@ impl ShotWords {
         Self {
             first,
             second: technique.second,
+            over: technique.over,
             tips_right,
             tips_above,
             clock: clock(tips_right, tips_above),

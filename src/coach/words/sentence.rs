@@ -66,11 +66,15 @@ impl ShotWords {
             self.before.first().or(self.between.first().filter(|_| ball.is_none())).map(|cushion| {
                 format!("{} first at {}", rail_words(cushion.rail), self.place(cushion.diamond, units, 1))
             });
-        match (cushion, ball) {
+        let meets = match (cushion, ball) {
             (Some(cushion), Some(ball)) => format!("{cushion}, then {ball}"),
             (Some(cushion), None) => format!("{cushion}, no ball"),
             (None, Some(ball)) => ball,
             (None, None) => "no ball".to_owned(),
+        };
+        match self.over {
+            Some(ball) => format!("jumps over {}, then {meets}", cue_ball.names()[ball]),
+            None => meets,
         }
     }
 

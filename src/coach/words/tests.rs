@@ -46,3 +46,13 @@ fn a_cue_as_low_as_the_rail_behind_it_allows_is_level_but_one_over_a_near_rail_i
     assert!(told(middle, 4.0).contains(", cue raised "), "{}", told(middle, 4.0));
     assert!(told(at_the_rail, 0.0).ends_with(", cue as level as it can be."), "{}", told(at_the_rail, 0.0));
 }
+
+#[test]
+fn a_jump_says_over_which_ball_and_how_far_the_cue_is_raised() {
+    let table = Table { flight: Some(crate::table::Flight::default()), ..Table::preset("textbook").unwrap() };
+    let layout = Layout::parse("-0.5,0 -0.2,0 0.5,0.02", &table).unwrap();
+    let words = ShotWords::of(&table, &layout, &CueInputs::parse("0,0,45,0,6").unwrap()).unwrap();
+    let sentence = words.sentence(CueBall::White, Units::default());
+    assert!(sentence.starts_with("Jumps over yellow, then red, "), "{sentence}");
+    assert!(sentence.ends_with("cue raised 45°."), "{sentence}");
+}

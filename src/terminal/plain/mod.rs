@@ -178,7 +178,7 @@ impl Conversation {
                 talk.recorded(shot, |recording| {
                     let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), recording);
                     let outcome = verdict.words(talk.cue_ball(), talk.units.length);
-                    format!("{}\n{outcome}.", speech::events(recording, all, talk.cue_ball()))
+                    format!("{}\n{outcome}.", speech::events(recording, all, talk.cue_ball(), talk.units.length))
                 })
             }),
             Order::GoOn => match self.shots.get(self.chosen).copied() {

@@ -1,7 +1,11 @@
 //! Sentences about balls and shots, for ears.
 
 use crate::{
-    coach::{Aim, Input, Kind, Margin, Skill, Way, systems::Guide, words::TIP},
+    coach::{
+        Aim, Input, Kind, Margin, Skill, Way, jump_words,
+        systems::Guide,
+        words::{LengthUnit, TIP},
+    },
     learning::evaluation::SuccessRate,
     physics::CueInputs,
     simulation::{Event, EventKind, Recording},
@@ -151,15 +155,19 @@ pub fn margins(margins: &[Margin]) -> String {
 }
 
 /// What balls and cushions are met in a shot, or with `all` everything that happens.
-pub fn events(recording: &Recording, all: bool, cue_ball: CueBall) -> String {
+pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthUnit) -> String {
     let names = cue_ball.names();
     let words = |kind: EventKind| match kind {
         EventKind::BallBall(one, other) => format!("{} meets {}", names[one], names[other]),
         EventKind::BallRail(ball, rail) => format!("{} meets the {}", names[ball], rail_name(rail)),
         other => event_words(other, cue_ball),
     };
-    let line = |event: &Event| format!("{} seconds: {}.", fixed(event.time, 2), words(event.kind));
-    let told = recording.events().iter().filter(|event| all || event.kind.is_contact());
+    let jump = |event: &Event| {
+        let jump = recording.jump_of(event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
+        jump.map_or_else(String::new, |jump| format!(", {}", jump_words(&jump, unit)))
+    };
+    let line = |event: &Event| format!("{} seconds: {}{}.", fixed(event.time, 2), words(event.kind), jump(event));
+    let told = recording.events().iter().filter(|event| all || recording.is_told(event));
     let mut lines: Vec<String> = told.map(line).collect();
     lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")

@@ -5,6 +5,7 @@ pub mod film;
 pub mod history;
 pub mod placing;
 pub mod playback;
+pub mod profile;
 pub mod spin;
 pub mod stroke;
 pub mod what_if;
@@ -14,6 +15,7 @@ use glam::DVec2;
 pub use self::{
     history::History,
     playback::Playback,
+    profile::Profile,
     spin::Spin,
     stroke::{OwnStroke, StrokeChange},
     what_if::WhatIf,
@@ -22,7 +24,7 @@ pub use self::{
 use crate::{
     coach::{Hit, Pattern, ShotWords, Technique},
     physics::{CueInputs, Impulse},
-    simulation::{EventKind, Rail, Recording, ShotError},
+    simulation::{EventKind, Rail, Recording, ShotError, TOLD_HEIGHT},
     table::{BALLS, CueBall, Layout, Table},
 };
 
@@ -38,6 +40,15 @@ pub struct Dot {
     pub time: f64,
     /// Where, m.
     pub place: DVec2,
+    /// How high it is over the cloth, m.
+    pub height: f64,
+}
+
+impl Dot {
+    /// Whether the ball is in the air there, as far as it is told.
+    pub fn is_aloft(&self) -> bool {
+        self.height >= TOLD_HEIGHT
+    }
 }
 
 /// The cue ball's first contact with one of the object balls.
@@ -170,7 +181,7 @@ fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
         if since_dot >= DOT_SPACING {
             // What is over counts for the next, so that the distance is right on average.
             since_dot -= DOT_SPACING;
-            dots.push(Dot { time, place });
+            dots.push(Dot { time, place, height: recording.height(ball, time) });
         }
     }
     dots

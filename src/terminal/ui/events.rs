@@ -3,7 +3,11 @@
 use ratatui::{layout::Rect, text::Span};
 
 use crate::{
-    simulation::Event,
+    coach::{
+        jump_words,
+        words::{LengthUnit, height_words},
+    },
+    simulation::{Event, EventKind, Recording},
     terminal::{
         shot::playback::passed,
         ui::{Ui, draw_title, write_right},
@@ -19,10 +23,38 @@ const WIDE: u16 = 29;
 /// Columns of an event's words and of how soon it comes.
 const WAIT: u16 = 34;
 
+/// Events to be listed.
+#[derive(Clone, Copy, Debug)]
+pub struct ListedEvents<'a> {
+    /// The shot.
+    pub recording: &'a Recording,
+    /// Those of its events.
+    pub events: &'a [Event],
+    /// In what heights and distances are told.
+    pub unit: LengthUnit,
+}
+
+impl ListedEvents<'_> {
+    /// What happens, in no more than `room` columns if there are words so short; of a jump also how high and how far.
+    fn words(&self, event: Event, room: usize, ui: &Ui) -> String {
+        let words = event_words(event.kind, ui.theme.cue_ball);
+        let jump = self.recording.jump_of(&event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
+        let Some(jump) = jump else { return words };
+        let height = height_words(jump.height, self.unit);
+        let name = ui.theme.names()[jump.ball];
+        let all = [
+            format!("{words} ({})", jump_words(&jump, self.unit)),
+            format!("{words} {height}"),
+            format!("{name} {height} up"),
+        ];
+        all.into_iter().find(|words| words.len() <= room).unwrap_or(words)
+    }
+}
+
 /// Draws the panel: the stroke, then `events`, called `name`, with the one at `time` marked and in view. No time: the shot is not
 /// being watched.
-pub fn draw_events(name: &str, listed: Option<&[Event]>, time: Option<f64>, area: Rect, ui: &mut Ui) {
-    let events = listed.unwrap_or_default();
+pub fn draw_events(name: &str, listed: Option<ListedEvents>, time: Option<f64>, area: Rect, ui: &mut Ui) {
+    let events = listed.map_or(&[][..], |listed| listed.events);
     // Row 0 is the stroke.
     let present = time.map_or(0, |time| passed(events, time));
     let mut title = vec![Span::styled(name.to_owned(), ui.theme.text())];
@@ -30,17 +62,15 @@ pub fn draw_events(name: &str, listed: Option<&[Event]>, time: Option<f64>, area
         title.push(Span::styled(format!(" {present}/{}", events.len()), ui.theme.faint()));
     }
     let inner = draw_title(title, area, ui);
-    if listed.is_none() || inner.is_empty() {
-        return;
-    }
+    let Some(listed) = listed.filter(|_| !inner.is_empty()) else { return };
     let is_narrow = inner.width < WIDE;
     let (end, start, decimals) = if is_narrow { NARROW_COLUMNS } else { COLUMNS };
+    let room = usize::from(inner.width.saturating_sub(start));
     let rows = usize::from(inner.height);
     let first = present.saturating_sub(rows / 3).min((events.len() + 1).saturating_sub(rows));
     for (n, row) in (first..=events.len()).zip(inner.y..inner.bottom()) {
         let event = n.checked_sub(1).map(|n| events[n]);
-        let (at, words) =
-            event.map_or((0.0, "stroke".to_owned()), |event| (event.time, event_words(event.kind, ui.theme.cue_ball)));
+        let (at, words) = event.map_or((0.0, "stroke".to_owned()), |event| (event.time, listed.words(event, room, ui)));
         let words = if is_narrow {
             words.trim_end_matches(" rail").replace("contact begins", "touches").replace("contact ends", "is free")
         } else {

@@ -9,6 +9,7 @@ pub mod input;
 pub mod list;
 pub mod message;
 pub mod panel;
+pub mod profile;
 pub mod sight;
 pub mod spin;
 mod sprites;
@@ -24,11 +25,12 @@ use ratatui::buffer::Buffer;
 
 pub use self::{
     canvas::{Canvas, Ink},
-    events::draw_events,
+    events::{ListedEvents, draw_events},
     field::{Dot, draw_field, face_in, spot_mark},
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
     panel::{draw_nothing, draw_title, frame, write_paragraphs},
+    profile::draw_profile,
     sight::draw_sight,
     spin::draw_spin,
     status_line::{draw_question, draw_status},

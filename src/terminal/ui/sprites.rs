@@ -41,6 +41,15 @@ impl Sprite {
         Self { width: (width as i32).max(least.0), height: (height as i32).max(least.1) }
     }
 
+    /// The picture of a ball that is so high, m, which is nearer to the eye: larger by a sub-pixel, by two from a ball's height on.
+    #[must_use]
+    pub fn raised(self, height: f64, radius: f64, glyphs: Glyphs) -> Self {
+        let (across, down) = sub_pixels(glyphs);
+        let larger = self.height + if height < 2.0 * radius { 1 } else { 2 };
+        let width = f64::from(larger * 2) * f64::from(across) / f64::from(down);
+        Self { width: (width.round() as i32).max(self.width + 1), height: larger }
+    }
+
     /// Half of the picture's width in metres, at most.
     pub fn reach(self, mapping: &Mapping, glyphs: Glyphs) -> f64 {
         let (across, down) = sub_pixels(glyphs);
@@ -123,5 +132,18 @@ mod tests {
             sprite(192),
             ["..#####..", ".#######.", "#########", "#########", "#########", ".#######.", "..#####.."]
         );
+    }
+
+    #[test]
+    fn a_ball_in_the_air_is_larger_the_higher_it_is() {
+        for (columns, glyphs) in
+            [(64, Glyphs::Sextant), (112, Glyphs::Octant), (192, Glyphs::Sextant), (80, Glyphs::Half)]
+        {
+            let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, columns, 60));
+            let lying = Sprite::new(&mapping, glyphs);
+            let [low, high] = [0.01, 0.1].map(|height| lying.raised(height, mapping.radius, glyphs));
+            assert!(lying.width < low.width && low.width < high.width, "{lying:?} {low:?} {high:?}");
+            assert!(lying.height < low.height && low.height < high.height);
+        }
     }
 }

@@ -93,10 +93,14 @@ pub fn advice(job: &Job) -> Advice {
 impl Player {
     /// At the coach, with what is in `folder` on the disk; the settings' file shows no path of this machine.
     pub fn in_folder(caps: Capabilities, folder: TempDir) -> Self {
+        Self::at_table(caps, &Table::default(), folder)
+    }
+
+    /// The same at this table.
+    pub fn at_table(caps: Capabilities, table: &Table, folder: TempDir) -> Self {
         let file = folder.path().join("config.toml");
         let (settings, complaints) = Settings::load(&file);
-        let table = Table::default();
-        let app = App::new(table.clone(), Layout::opening(&table), caps, 7).unwrap();
+        let app = App::new(table.clone(), Layout::opening(table), caps, 7).unwrap();
         let app = app.with_places(places(folder.path())).with_settings(&settings).with_complaints(&file, &complaints);
         Self {
             app: app.with_settings_file("/home/player/.config/carom/config.toml".into()),

@@ -104,6 +104,7 @@ impl CoachPage {
                 let words = if self.has_all_events { "all events are listed" } else { "contacts only are listed" };
                 self.message = Some(Message::plain(words));
             }
+            Action::TurnSideView => self.turn_side_view(),
             Action::NextView => self.view = self.view.next(),
             Action::NextShot => self.choose(|advised| advised.turn(true)),
             Action::PreviousShot => self.choose(|advised| advised.turn(false)),

@@ -77,6 +77,8 @@ pub enum CoachAction {
     TurnNumbers,
     /// Lists all events, or contacts only.
     TurnEvents,
+    /// Shows the shot's jump from the side, or no longer.
+    TurnSideView,
     /// Shows something else in the panels.
     NextView,
     /// Shows the next of the shots that may be chosen.
@@ -217,6 +219,8 @@ pub const COACH: &[Binding<A, W>] = &[
         "the shot in the thesis' numbers, or in words again").known_as("a b theta phi V impulse angle millimetres"),
     bind(Shot, W::Shot, &[letter('E', A::TurnEvents)], None,
         "list all events, with rolls and stops, or contacts only").known_as("rolls slides filter"),
+    bind(Shot, W::Shot, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone")
+        .known_as("jump hop height flight profile"),
     bind(Balls, W::Placing, &[
         key(Left, A::Move(-1, 0, 1.0)), key(Down, A::Move(0, -1, 1.0)),
         key(Up, A::Move(0, 1, 1.0)), key(Right, A::Move(1, 0, 1.0)),
@@ -288,6 +292,7 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
     bind(Stroke, W::Anytime, &[key(Home, A::ToStart), key(End, A::ToEnd), letter('$', A::ToEnd)], None,
         "to the stroke, to the end"),
     bind(Stroke, W::Anytime, &[letter('<', A::Slower), letter('>', A::Faster)], None, "play slower or faster"),
+    bind(Stroke, W::Anytime, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
 ]);
 
 /// The words of `action` by itself, where its binding does several things.

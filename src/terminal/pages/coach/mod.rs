@@ -14,6 +14,7 @@ mod own_stroke;
 mod page;
 mod positions;
 mod saving;
+mod side_view;
 pub mod view;
 
 use std::{sync::Arc, time::Duration};
@@ -114,6 +115,8 @@ pub struct CoachPage {
     pub is_in_numbers: bool,
     /// Whether all events are listed; else contacts only.
     pub has_all_events: bool,
+    /// From where the shot is looked at.
+    seen: side_view::Seen,
     /// The units in which lengths are told.
     pub units: Units,
     /// The player's own stroke beside the coach's.
@@ -159,6 +162,7 @@ impl CoachPage {
             view: View::default(),
             is_in_numbers: false,
             has_all_events: false,
+            seen: side_view::Seen::default(),
             units: Units::default(),
             compared: None,
             balls: History::new(Position {
@@ -379,7 +383,7 @@ impl CoachPage {
     /// What is listed of what happens in `shot`.
     pub fn events(&self, shot: &Shot) -> Vec<Event> {
         let all = shot.recording.events().iter();
-        all.filter(|event| self.has_all_events || event.kind.is_contact()).copied().collect()
+        all.filter(|event| self.has_all_events || shot.recording.is_told(event)).copied().collect()
     }
 
     /// What came of the shot that is watched, once the balls lie still.

@@ -10,6 +10,7 @@ use glam::DVec2;
 use ratatui::{layout::Rect, style::Color};
 
 use crate::{
+    simulation::TOLD_HEIGHT,
     table::{BALLS, Layout, Table},
     terminal::{
         Capabilities, Glyphs, Mapping, Shot,
@@ -118,15 +119,23 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let sprite = Sprite::new(&mapping, glyphs);
     let reach = sprite.reach(&mapping, glyphs);
     let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
-    let balls = apart(balls, 2.0 * reach);
+    let told = |height: f64| if height < TOLD_HEIGHT { 0.0 } else { height };
+    let heights = std::array::from_fn(|ball| shot.map_or(0.0, |shot| told(shot.recording.height(ball, view.time))));
+    let off_table = std::array::from_fn(|ball| shot.is_some_and(|shot| is_gone(shot, ball, view.time, &mapping)));
+    let balls = apart_on_cloth(balls, heights, 2.0 * reach);
     let time = if view.is_moving { view.time } else { 0.0 };
-    let scene = Scene { view, mapping, time, balls, sprite, clear };
+    let scene = Scene { view, mapping, time, balls, heights, off_table, sprite, clear };
     paint::paint(&scene, ui);
     if view.is_numbered {
         draw_counts(view.table, &mapping, ui);
         view.shot.inspect(|shot| draw_cushions(&shot.words, view.table, &mapping, ui));
     }
     ways::draw_words(&scene, ui);
+}
+
+/// Whether a ball that leaves the table is beyond the rails already, though it may not have come down there.
+fn is_gone(shot: &Shot, ball: usize, time: f64, mapping: &Mapping) -> bool {
+    shot.recording.off_table()[ball] && !mapping.is_on_bed(shot.recording.positions(time)[ball])
 }
 
 /// The centres at which the pictures of the balls are drawn: where the pictures are larger than the balls, those of balls
@@ -143,6 +152,15 @@ fn apart(mut balls: [DVec2; BALLS], least: f64) -> [DVec2; BALLS] {
         }
     }
     balls
+}
+
+/// The same of balls of which some are so high in the air, m: those are wherever they are.
+fn apart_on_cloth(balls: [DVec2; BALLS], heights: [f64; BALLS], least: f64) -> [DVec2; BALLS] {
+    let is_aloft = |ball: usize| heights[ball] > 0.0;
+    // So far away that no picture reaches another.
+    let away = |ball: usize| DVec2::splat(1e6 * (ball + 1) as f64);
+    let moved = apart(std::array::from_fn(|ball| if is_aloft(ball) { away(ball) } else { balls[ball] }), least);
+    std::array::from_fn(|ball| if is_aloft(ball) { balls[ball] } else { moved[ball] })
 }
 
 /// The ball that is drawn in a cell of the screen, column and row; the nearest one where pictures share it.
@@ -167,5 +185,7 @@ mod tests {
         assert!((one.distance(two) - 0.12).abs() < 1e-12);
         assert_eq!(three, balls[2]);
         assert_eq!(apart(balls, 0.05), balls);
+        // A ball that flies over another stays above it.
+        assert_eq!(apart_on_cloth(balls, [0.1, 0.0, 0.0], 0.12), balls);
     }
 }

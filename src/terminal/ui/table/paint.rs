@@ -23,6 +23,10 @@ const TRAIL: [char; 2] = ['•', '*'];
 /// That of another shot's way.
 const OTHER: [char; 2] = ['=', '='];
 
+/// Those of a way through the air, and of the shadow of a ball there.
+const ALOFT: char = '\'';
+const SHADOW: [char; 2] = ['○', 'o'];
+
 /// Weights of what shares a cell (see [`Ink`]).
 const DOT_WEIGHT: u8 = 3;
 const RING_WEIGHT: u8 = 4;
@@ -63,7 +67,7 @@ fn in_blocks(scene: &Scene, ui: &mut Ui) {
         if spot.is_ball { ring(&mut canvas, spot.place, spot.color) } else { dot(&mut canvas, spot.place, spot.color) }
     }
     scene.each_other_dot(|place| dot(&mut canvas, place, theme.way));
-    scene.each_dot(|ball, place, age| dot(&mut canvas, place, path_color(theme, ball, age)));
+    scene.each_dot(|ball, at, age| dot(&mut canvas, at.place, path_color(theme, ball, age)));
     scene.each_cue_dot(|place, _| dot(&mut canvas, place, theme.cue));
     for ghost in scene.ghosts() {
         ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
@@ -77,9 +81,15 @@ fn in_blocks(scene: &Scene, ui: &mut Ui) {
             scene.sprite.stamp(&mut canvas, mapping, place, ink);
         }
     }
-    for ball in scene.order() {
-        let ink = Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
+    for ball in scene.order().filter(|ball| scene.heights[*ball] > 0.0) {
+        let ink = Ink { color: theme.shadow(), weight: RING_WEIGHT };
         scene.sprite.stamp(&mut canvas, mapping, scene.balls[ball], ink);
+    }
+    for ball in scene.upwards() {
+        let ink = Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
+        let height = scene.heights[ball];
+        let sprite = if height > 0.0 { scene.sprite.raised(height, mapping.radius, glyphs) } else { scene.sprite };
+        sprite.stamp(&mut canvas, mapping, scene.lifted(ball), ink);
     }
     canvas.paint(ui.buffer);
 }
@@ -97,9 +107,13 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
     scene.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.way));
     let dots = theme.cue_ball.ordered(caps.pick(DOTS, PLAIN_DOTS));
     let (letters, trail) = (theme.letters(), caps.pick(TRAIL[0], TRAIL[1]));
-    scene.each_dot(|ball, place, age| {
-        let sign = if age == Age::Trail { trail } else { dots[ball] };
-        put(place, sign, path_color(theme, ball, age));
+    scene.each_dot(|ball, dot, age| {
+        let sign = match age {
+            _ if dot.is_aloft() => ALOFT,
+            Age::Trail => trail,
+            _ => dots[ball],
+        };
+        put(dot.place, sign, path_color(theme, ball, age));
     });
     scene.each_cue_dot(|place, sign| put(place, sign, theme.cue));
     for ghost in scene.ghosts() {
@@ -108,8 +122,11 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
     for (ball, place) in scene.view.film.into_iter().flatten().enumerate() {
         put(place, letters[ball].to_ascii_lowercase(), theme.paths[ball]);
     }
-    for ball in scene.order() {
-        let (x, y) = mapping.to_cell(scene.balls[ball]);
+    for ball in scene.order().filter(|ball| scene.heights[*ball] > 0.0) {
+        put(scene.balls[ball], caps.pick(SHADOW[0], SHADOW[1]), theme.balls[ball]);
+    }
+    for ball in scene.upwards() {
+        let (x, y) = mapping.to_cell(scene.lifted(ball));
         let wide = mapping.ball_columns() >= BRACKET_COLUMNS && x > mapping.bed.x && x + 1 < mapping.bed.right();
         let text = if wide { format!("({})", letters[ball]) } else { letters[ball].to_string() };
         let mut style = theme.ball_letter(ball).add_modifier(Modifier::BOLD);
@@ -122,8 +139,72 @@ fn in_letters(scene: &Scene, ui: &mut Ui) {
 
 #[cfg(test)]
 mod tests {
+    use ratatui::{buffer::Buffer, layout::Rect};
+
     use super::*;
-    use crate::terminal::{Depth, Palette};
+    use crate::{
+        physics::CueInputs,
+        table::{Flight, Layout, Table},
+        terminal::{
+            Capabilities, Depth, Keys, Mapping, Palette, Shot,
+            ui::{TableView, draw_table},
+        },
+    };
+
+    const AREA: Rect = Rect::new(0, 0, 64, 17);
+
+    /// The table at `time` of a shot on a table that lets balls fly, and the shot.
+    fn flown(layout: &str, cue: &str, time: f64, caps: Capabilities) -> (Buffer, Shot, Mapping) {
+        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let layout = Layout::parse(layout, &table).unwrap();
+        let shot = Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "test").unwrap();
+        let theme = Theme::new(caps.depth);
+        let mut buffer = Buffer::empty(AREA);
+        let ui = &mut Ui { theme: &theme, caps, keys: &Keys::default(), buffer: &mut buffer };
+        let view = TableView { shot: Some(&shot), time, ..TableView::new(&table, &layout, ui) };
+        draw_table(&view, AREA, ui);
+        (buffer, shot, Mapping::fit(&table, AREA))
+    }
+
+    const LETTERS: Capabilities = Capabilities { depth: Depth::Mono, glyphs: Glyphs::Letters, unicode: false };
+    const BLOCKS: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
+    const JUMP: (&str, &str) = ("-0.5,-0.2 0.9,0.4 1.2,0.5", "0,0,45,0,5");
+
+    #[test]
+    fn a_ball_in_the_air_stands_above_its_shadow_in_letters() {
+        let (buffer, shot, mapping) = flown(JUMP.0, JUMP.1, 0.05, LETTERS);
+        assert!(shot.recording.height(0, 0.05) > 0.02);
+        let (x, y) = mapping.to_cell(shot.recording.positions(0.05)[0]);
+        assert_eq!((buffer[(x, y)].symbol(), buffer[(x, y - 1)].symbol()), ("o", "W"), "{buffer:?}");
+        let aloft = shot.paths[0].iter().filter(|dot| dot.is_aloft()).count();
+        let drawn = |sign: &str| buffer.content().iter().filter(|cell| cell.symbol() == sign).count();
+        assert!(aloft > 8 && drawn("'") > 2 && drawn(".") > 0, "{aloft} {buffer:?}");
+        let (before, _, mapping) = flown(JUMP.0, JUMP.1, 0.0, LETTERS);
+        assert_eq!(before[mapping.to_cell(DVec2::new(-0.5, -0.2))].symbol(), "W", "on the cloth");
+    }
+
+    #[test]
+    fn a_ball_in_the_air_has_a_shadow_in_colours_and_a_larger_picture() {
+        let count = |buffer: &Buffer, color: Color| {
+            buffer.content().iter().filter(|cell| cell.fg == color || cell.bg == color).count()
+        };
+        let theme = Theme::new(Depth::True);
+        let (lying, ..) = flown(JUMP.0, JUMP.1, 0.0, BLOCKS);
+        let (flying, ..) = flown(JUMP.0, JUMP.1, 0.05, BLOCKS);
+        assert_eq!(count(&lying, theme.shadow()), 0);
+        assert!(count(&flying, theme.shadow()) > 0);
+        assert!(count(&flying, theme.balls[0]) >= count(&lying, theme.balls[0]));
+    }
+
+    #[test]
+    fn a_ball_off_the_table_is_not_drawn() {
+        let has_white = |time| {
+            let (buffer, shot, _) = flown("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9", time, LETTERS);
+            assert_eq!(shot.recording.off_table(), [true, false, false]);
+            buffer.content().iter().any(|cell| cell.symbol() == "W")
+        };
+        assert!(has_white(0.0) && !has_white(60.0));
+    }
 
     #[test]
     fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_palette() {

@@ -6,8 +6,8 @@ use crate::{
     table::BALLS,
     terminal::{
         Capabilities, Glyphs, Mapping,
-        shot::DOT_SPACING,
-        ui::{Spot, TableView, sprites::Sprite},
+        shot::{DOT_SPACING, Dot},
+        ui::{Spot, TableView, canvas::sub_pixels, sprites::Sprite},
     },
 };
 
@@ -60,8 +60,12 @@ pub struct Scene<'a> {
     pub mapping: Mapping,
     /// Seconds since the stroke, none while balls are placed.
     pub time: f64,
-    /// Where the balls are drawn.
+    /// Where the balls are drawn, or the shadows of those in the air.
     pub balls: [DVec2; BALLS],
+    /// How high they are, m; nought of hops that nobody sees.
+    pub heights: [f64; BALLS],
+    /// Which of them have left the table.
+    pub off_table: [bool; BALLS],
     pub sprite: Sprite,
     /// Distance from a ball from which on something else can be drawn, m.
     pub clear: f64,
@@ -78,13 +82,30 @@ impl Scene<'_> {
         self.sprite.reach(&self.mapping, self.view.caps.glyphs)
     }
 
+    /// Where the picture of a ball in the air stands: above its shadow by its height, and by enough to be seen apart.
+    pub fn lifted(&self, ball: usize) -> DVec2 {
+        let rows = match self.view.caps.glyphs {
+            Glyphs::Letters => 1.0,
+            glyphs => 2.0 / f64::from(sub_pixels(glyphs).1),
+        };
+        let height = self.heights[ball];
+        let least = rows / self.mapping.scale().y;
+        self.balls[ball] + if height > 0.0 { DVec2::new(0.0, height + least) } else { DVec2::ZERO }
+    }
+
     /// What else is drawn: a ball that is not there may touch one that is.
     pub fn spots(&self) -> impl Iterator<Item = &Spot> {
         self.view.spots.iter().filter(|spot| spot.is_ball || self.is_clear(spot.place))
     }
 
+    /// Whether a dot of a path is drawn at `place` over the table, where it is the `number`th: a way through the air is broken.
+    fn is_drawn(&self, number: usize, dot: &Dot) -> bool {
+        let is_kept = !dot.is_aloft() || number.is_multiple_of(2) || self.view.caps.glyphs == Glyphs::Letters;
+        is_kept && self.mapping.is_on_bed(dot.place) && self.is_clear(dot.place)
+    }
+
     /// Calls `draw` with each dot of the predicted paths that no ball and no ghost hides.
-    pub fn each_dot(&self, mut draw: impl FnMut(usize, DVec2, Age)) {
+    pub fn each_dot(&self, mut draw: impl FnMut(usize, &Dot, Age)) {
         let Some(shot) = self.view.shot else { return };
         let columns = if self.view.caps.glyphs == Glyphs::Half { HALF_DOT_COLUMNS } else { DOT_COLUMNS };
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
@@ -94,8 +115,9 @@ impl Scene<'_> {
         let is_free = |place: DVec2| absent.iter().all(|other| other.distance(place) > GHOST_CLEAR * self.clear);
         let balls = if self.view.is_lean { 1 } else { BALLS };
         for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
-            for dot in path.iter().step_by(stride).filter(|dot| self.is_clear(dot.place) && is_free(dot.place)) {
-                draw(ball, dot.place, Age::at(dot.time, self.time));
+            let seen = path.iter().step_by(stride).enumerate();
+            for (_, dot) in seen.filter(|(number, dot)| self.is_drawn(*number, dot) && is_free(dot.place)) {
+                draw(ball, dot, Age::at(dot.time, self.time));
             }
         }
     }
@@ -103,8 +125,8 @@ impl Scene<'_> {
     /// Calls `draw` with each dot of the cue ball's way in the other shot, in dashes, that no ball hides.
     pub fn each_other_dot(&self, mut draw: impl FnMut(DVec2)) {
         let dots = self.view.other.map_or(&[][..], |shot| &shot.paths[0]);
-        let dashes = dots.chunks(DASH).step_by(2).flatten();
-        dashes.filter(|dot| self.is_clear(dot.place)).for_each(|dot| draw(dot.place));
+        let dashes = dots.chunks(DASH).step_by(2).flatten().enumerate();
+        dashes.filter(|(number, dot)| self.is_drawn(*number, dot)).for_each(|(_, dot)| draw(dot.place));
     }
 
     /// Where balls will be: the cue ball at its first contact with each object ball, and all balls that move where they come
@@ -143,7 +165,14 @@ impl Scene<'_> {
     pub fn order(&self) -> impl Iterator<Item = usize> {
         let selected = self.view.front;
         let all = [(selected + 1) % BALLS, (selected + 2) % BALLS, selected];
-        all.into_iter().filter(|ball| self.mapping.is_on_bed(0.5 * self.balls[*ball]))
+        all.into_iter().filter(|ball| !self.off_table[*ball] && self.mapping.is_on_bed(0.5 * self.balls[*ball]))
+    }
+
+    /// The same, those in the air after those on the cloth, the highest last.
+    pub fn upwards(&self) -> Vec<usize> {
+        let mut balls: Vec<usize> = self.order().collect();
+        balls.sort_by(|one, other| self.heights[*one].total_cmp(&self.heights[*other]));
+        balls
     }
 }
 
@@ -200,7 +229,17 @@ mod tests {
         let reach = sprite.reach(&mapping, Glyphs::Sextant);
         let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
         let balls = apart(shot.recording.positions(time), 2.0 * reach);
-        check(&Scene { view: &view, mapping, time, balls, sprite, clear }, &shot);
+        let lying = Scene {
+            view: &view,
+            mapping,
+            time,
+            balls,
+            heights: [0.0; BALLS],
+            off_table: [false; BALLS],
+            sprite,
+            clear,
+        };
+        check(&lying, &shot);
     }
 
     #[test]
@@ -216,7 +255,8 @@ mod tests {
                 for ghost in &ghosts {
                     let nearest = scene.balls.map(|ball| ball.distance(ghost.place)).into_iter().fold(1.0, f64::min);
                     assert!(nearest > 2.0 * reach - 1e-9, "{columns}: {ghost:?} is {nearest} from a ball");
-                    scene.each_dot(|_, dot, _| assert!(dot.distance(ghost.place) > reach, "{columns}: {ghost:?}"));
+                    scene
+                        .each_dot(|_, dot, _| assert!(dot.place.distance(ghost.place) > reach, "{columns}: {ghost:?}"));
                 }
             });
         }

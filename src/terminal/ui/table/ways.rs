@@ -53,8 +53,8 @@ fn draw_note(scene: &Scene, ui: &mut Ui) {
         write(if ui.caps.glyphs == Glyphs::Letters { "*" } else { "\u{d7}" }, &[cell], color, ui);
     }
     let mut taken = pictures.clone();
-    scene.each_dot(|_, place, _| {
-        taken.insert(scene.mapping.to_cell(place));
+    scene.each_dot(|_, dot, _| {
+        taken.insert(scene.mapping.to_cell(dot.place));
     });
     let width = columns(text) as u16;
     // Rather over a way than far off.

@@ -199,6 +199,16 @@ impl Theme {
         }
     }
 
+    /// The shadow of a ball in the air: half of the cloth's light.
+    pub const fn shadow(&self) -> Color {
+        match self.cloth {
+            Color::Rgb(r, g, b) => Color::Rgb(r / 2, g / 2, b / 2),
+            Color::Indexed(_) => Color::Indexed(16),
+            Color::Reset => Color::Reset,
+            _ => Color::Black,
+        }
+    }
+
     /// Style of the sign of `ball` among words.
     pub fn ball(&self, ball: usize) -> Style {
         self.text().fg(self.signs[ball])

@@ -67,6 +67,10 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
         }
         None => (coach.layout().balls[ball], None, ""),
     };
+    if motion == Spin::OFF {
+        write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, "off the table", style);
+        return;
+    }
     write_right(ui.buffer, area.x, area.x + X_END, area.y, &millimetres(place.x), style);
     write_right(ui.buffer, area.x, area.x + Y_END, area.y, &millimetres(place.y), style);
     if let Some(speed) = speed {

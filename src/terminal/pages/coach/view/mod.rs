@@ -43,8 +43,8 @@ use crate::{
         },
         shot::playback::passed,
         ui::{
-            Message, TableView, Ui, columns, draw_events, draw_question, draw_sight, draw_spin, draw_status,
-            draw_table, draw_tip, shorten, spell,
+            ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_question, draw_sight,
+            draw_spin, draw_status, draw_table, draw_tip, shorten, spell,
         },
         words::{event_words, fixed, in_diamonds, millimetres, percent},
     },
@@ -52,7 +52,8 @@ use crate::{
 
 /// Draws the screen; gives the first row of what stands below the picture.
 pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
-    let panes = Panes::new(coach.table(), area.screen);
+    let profile = coach.profile();
+    let (panes, side) = panes(coach, area.screen);
     draw_header(coach, area.header, ui);
     let choice = coach.shown().map(AdviceState::choice);
     let planned = choice.filter(|_| coach.view == View::Plan && coach.what_if().is_none());
@@ -83,6 +84,10 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         draw_numbers(lesson, coach.table(), &table_mapping(coach, area.screen), ui);
     }
     draw_panels(coach, &panes, ui);
+    if let Some(profile) = profile {
+        let time = coach.watched().map(|_| coach.playback.time);
+        draw_profile(&profile, time, coach.units.length, side, ui);
+    }
     let message = coach.message.clone();
     if let Some((question, field)) = coach.asked() {
         let before = message.map_or(String::new(), |message| format!("{}. ", message.text));
@@ -102,6 +107,12 @@ fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
         [one, other] => format!("{} and {} kiss", names[one], names[other]),
     };
     Some((kiss.place, format!("{balls} {} %", percent(kiss.share))))
+}
+
+/// Which part of the screen is for what, and where the jump is drawn from the side, if it is.
+fn panes(coach: &CoachPage, area: Rect) -> (Panes, Rect) {
+    let panes = Panes::new(coach.table(), area);
+    if coach.profile().is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) }
 }
 
 /// Draws the panels: the chosen view's, with the maps in place of shot, tip and events beside the margins; then others as
@@ -161,7 +172,12 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
 fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut Ui) {
     let events = shot.map(|shot| coach.events(shot));
     let name = if coach.has_all_events { "Events" } else { "Contacts" };
-    draw_events(name, events.as_deref(), time, area, ui);
+    let listed = shot.zip(events.as_deref()).map(|(shot, events)| ListedEvents {
+        recording: &shot.recording,
+        events,
+        unit: coach.units.length,
+    });
+    draw_events(name, listed, time, area, ui);
 }
 
 /// The chosen view and the others that there is room for, each with its panel.
@@ -172,7 +188,7 @@ fn views(chosen: View, panes: &Panes) -> impl Iterator<Item = (View, Rect)> {
 
 /// Where the table is drawn.
 pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
-    Mapping::fit(coach.table(), Panes::new(coach.table(), area).table)
+    Mapping::fit(coach.table(), panes(coach, area).0.table)
 }
 
 /// What the mouse points at; nothing while something is asked.
@@ -185,7 +201,7 @@ pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target
     if mapping.bed.contains(at) {
         return Some(Target::Table(mapping));
     }
-    let panes = Panes::new(coach.table(), area);
+    let (panes, _) = panes(coach, area);
     let (_, panel) = views(coach.view, &panes).find(|(view, _)| *view == View::Chances)?;
     let advised = coach.shown().filter(|_| panel.contains(at) && coach.what_if().is_none())?;
     choice_at(advised, panel, at.y).map(Target::Shot)

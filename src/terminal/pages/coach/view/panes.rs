@@ -37,6 +37,9 @@ const PRECISION_ROWS: (u16, u16) = (13, 10);
 const SIGHT_ROWS: [u16; 2] = [4, 5];
 const MANY_ROWS: u16 = 13;
 
+/// Rows of the side view where it is taken from the table: a title, four of the plot, and the axis.
+const SIDE_ROWS: u16 = 6;
+
 /// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
 /// several panels at once.
 const LARGE: f64 = 0.95;
@@ -73,6 +76,18 @@ impl Panes {
     /// Whether a column of panels stands beside the table; else all stand below.
     pub const fn is_beside(&self) -> bool {
         self.shot.y < self.info.y
+    }
+
+    /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes rows
+    /// from the table, else in the place of the view's panel and the shot's.
+    pub fn with_side_view(self) -> (Self, Rect) {
+        let Rect { x, y, width, height } = self.table;
+        if self.info.y == self.shot.y {
+            return (self, self.info.union(self.shot));
+        }
+        let bottom = self.info.y.max(y + SIDE_ROWS).min(y + height.max(SIDE_ROWS));
+        let side = Rect::new(x, bottom - SIDE_ROWS, width, SIDE_ROWS);
+        (Self { table: Rect { height: side.y - y, ..self.table }, ..self }, side)
     }
 
     /// All rows but the first, which is the header's, and the last two, for news and keys.
@@ -198,6 +213,11 @@ mod tests {
                 let [header, status] = [0, height - 2].map(|y| Rect::new(0, y, width, 1));
                 let hints = Rect { y: height - 1, ..header };
                 let all = [header, table, info, shot, tip, sight, events, status, hints, more[0], more[1]];
+                let (smaller, side) = panes.with_side_view();
+                assert!(side.height >= 6 && side.width >= 60, "{width}×{height}: {side}");
+                let small = Mapping::fit(&Table::default(), smaller.table).outer();
+                assert!(small.intersection(side).is_empty() && small.height >= 8, "{width}×{height}: {small} {side}");
+                assert!(table.union(info).union(shot).union(side) == table.union(info).union(shot), "{side}");
                 for (n, one) in all.iter().enumerate() {
                     assert!(one.right() <= width && one.bottom() <= height, "{width}×{height} {n}");
                     assert!(n > 8 || !one.is_empty(), "{width}×{height} {n}");

@@ -106,7 +106,10 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let next = choice.next.as_ref().and_then(|next| next.proposals.first());
     let way = next.into_iter().flat_map(|next| {
         let spot = |place, is_ball| Spot { place, is_ball, color: theme.way, letter: WAY_LETTER };
-        let dots = next.shot.paths[0].iter().step_by(2).map(move |dot| spot(dot.place, false));
+        let dots = next.shot.paths[0].iter().step_by(2).enumerate();
+        // The way through the air is broken, as it is when that shot is shown.
+        let dots = dots.filter(|(number, dot)| !dot.is_aloft() || number % 2 == 0);
+        let dots = dots.map(move |(_, dot)| spot(dot.place, false));
         dots.chain(next.shot.contact.map(|contact| spot(contact.place, true)))
     });
     cloud.chain(way).collect()

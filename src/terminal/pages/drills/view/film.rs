@@ -6,6 +6,7 @@ use ratatui::{
 };
 
 use crate::{
+    coach::words::LengthUnit,
     study::filmed::FITTED,
     table::{BALL_NAMES, BALLS},
     terminal::{
@@ -19,7 +20,7 @@ use crate::{
         },
         shot::film::{Listed, table},
         ui::{
-            Message, TableView, Ui, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title,
+            ListedEvents, Message, TableView, Ui, draw_events, draw_sight, draw_spin, draw_table, draw_tip, draw_title,
             write_paragraphs,
         },
         words::fixed,
@@ -49,7 +50,11 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         None => draw_sight(scene.map(|scene| scene.shot.meeting()), panes.sight, ui),
     }
     draw_distances(scene, time, panes.aim, ui);
-    draw_events("Events", scene.map(|scene| scene.shot.recording.events()), Some(time), panes.score, ui);
+    let events = scene.map(|scene| {
+        let recording = &scene.shot.recording;
+        ListedEvents { recording, events: recording.events(), unit: LengthUnit::default() }
+    });
+    draw_events("Events", events, Some(time), panes.score, ui);
     scene.map_or_else(
         || Message::plain("the stroke is being fitted to the film's first 2 seconds"),
         |scene| standing(scene, listed, time),

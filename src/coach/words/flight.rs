@@ -1,0 +1,36 @@
+//! Flights in words: how high a ball jumps and how far.
+
+use super::{LengthUnit, short};
+use crate::simulation::Jump;
+
+/// A height in the unit for small lengths: "12 mm", "0.5 in".
+pub fn height_words(metres: f64, unit: LengthUnit) -> String {
+    match unit {
+        // No hop is nought.
+        LengthUnit::Metres if metres < 0.000_95 => format!("{} mm", short(1e3 * metres.max(1e-5), 2)),
+        LengthUnit::Metres if metres < 0.009_95 => format!("{} mm", short(1e3 * metres, 1)),
+        LengthUnit::Metres if metres < 0.0995 => format!("{:.0} mm", 1e3 * metres),
+        unit => unit.words(metres),
+    }
+}
+
+/// How high and how far: "12 mm high, 31 cm far".
+pub fn jump_words(jump: &Jump, unit: LengthUnit) -> String {
+    format!("{} high, {} far", height_words(jump.height, unit), unit.words(jump.distance))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_are_told_in_millimetres_until_they_are_decimetres() {
+        let told =
+            |height: f64, unit| jump_words(&Jump { ball: 0, start: 0.0, end: 0.1, height, distance: 0.31 }, unit);
+        assert_eq!(told(0.000_04, LengthUnit::Metres), "0.04 mm high, 31 cm far");
+        assert_eq!(told(0.0024, LengthUnit::Metres), "2.4 mm high, 31 cm far");
+        assert_eq!(told(0.012, LengthUnit::Metres), "12 mm high, 31 cm far");
+        assert_eq!(told(0.13, LengthUnit::Metres), "13 cm high, 31 cm far");
+        assert_eq!(told(0.0127, LengthUnit::Feet), "0.5 in high, 12.2 in far");
+    }
+}

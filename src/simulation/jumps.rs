@@ -1,0 +1,189 @@
+//! What a player tells of flights: how high and how far each went, and how balls left the table.
+
+use glam::DVec2;
+
+use super::{End, Event, EventKind, Rail, Recording};
+use crate::{
+    physics::Motion,
+    table::{BALLS, Layout, Table},
+};
+
+/// Height from which on a hop is told, m. Every stroke over a rail and every rail lifts a ball by less, and nobody sees it.
+pub const TOLD_HEIGHT: f64 = 0.002;
+
+/// A ball's time in the air, from leaving the cloth until it stays on it again or leaves the table, hops included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jump {
+    /// The ball.
+    pub ball: usize,
+    /// When it leaves the cloth, s.
+    pub start: f64,
+    /// When it stays on it, leaves the table, or the shot ends, s.
+    pub end: f64,
+    /// Its greatest height over where it lay, m.
+    pub height: f64,
+    /// How far from where it left the cloth it first comes down, or meets something, m.
+    pub distance: f64,
+}
+
+impl Jump {
+    /// Whether it is high enough to be told.
+    pub fn is_told(&self) -> bool {
+        self.height >= TOLD_HEIGHT
+    }
+
+    /// Whether the ball is in the air then.
+    pub fn is_at(&self, time: f64) -> bool {
+        (self.start..=self.end).contains(&time)
+    }
+}
+
+/// How a ball left the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OffTable {
+    /// The rail over which it went.
+    pub over: Rail,
+    /// Where it comes on the table again, m.
+    pub spot: DVec2,
+}
+
+impl OffTable {
+    /// Of balls that are at `places`, m, of which those named have left the table, which the others and the spots make a
+    /// `layout`.
+    fn all(reach: DVec2, places: [DVec2; BALLS], off_table: [bool; BALLS], layout: &Layout) -> [Option<Self>; BALLS] {
+        std::array::from_fn(|ball| {
+            let place = places[ball];
+            let beyond = place.abs() - reach;
+            let over = match (beyond.x > beyond.y, place.x > 0.0, place.y > 0.0) {
+                (true, true, _) => Rail::Right,
+                (true, false, _) => Rail::Left,
+                (false, _, true) => Rail::Top,
+                (false, _, false) => Rail::Bottom,
+            };
+            off_table[ball].then_some(Self { over, spot: layout.balls[ball] })
+        })
+    }
+}
+
+impl End {
+    /// How balls left the table.
+    pub fn left_table(&self, table: &Table) -> [Option<OffTable>; BALLS] {
+        OffTable::all(table.reach(), self.balls.map(|ball| ball.position), self.off_table, &self.layout(table))
+    }
+}
+
+impl Recording {
+    /// How balls left the table.
+    pub fn left_table(&self, table: &Table) -> [Option<OffTable>; BALLS] {
+        OffTable::all(table.reach(), self.positions(self.duration()), self.off_table(), &self.final_layout())
+    }
+
+    /// All flights in order of time, the lowest hops too.
+    pub fn jumps(&self) -> Vec<Jump> {
+        let starts = self.events().iter().enumerate().filter_map(|(n, event)| match event.kind {
+            EventKind::Jumps(ball) => Some((n, event.time, ball)),
+            _ => None,
+        });
+        starts.map(|(n, start, ball)| self.jump(ball, start, &self.events()[n..])).collect()
+    }
+
+    /// The flight that begins at `start`, with the events from then on.
+    fn jump(&self, ball: usize, start: f64, events: &[Event]) -> Jump {
+        let is_end = |event: &&Event| [EventKind::Lands(ball), EventKind::LeavesTable(ball)].contains(&event.kind);
+        let end = events.iter().find(is_end).map_or(self.duration(), |event| event.time);
+        let flying = |n: &usize| self.segments(ball)[*n].motion == Motion::Flying;
+        let pieces = self.segments(ball);
+        let (mut height, mut distance) = (0.0_f64, None);
+        let inside = (0..pieces.len()).filter(|&n| pieces[n].start >= start && pieces[n].start < end).filter(flying);
+        for n in inside {
+            let Some(hops) = pieces[n].hops() else { continue };
+            let lasts = pieces.get(n + 1).map_or(end, |next| next.start) - pieces[n].start;
+            let first = hops.arc(0);
+            // A later arc is no higher than what it falls from.
+            let top = (first.velocity.z / hops.gravity()).clamp(0.0, lasts);
+            height = height.max(hops.state_after(top).position.z);
+            distance.get_or_insert_with(|| first.velocity.truncate().length() * first.end.min(lasts));
+        }
+        Jump { ball, start, end, height, distance: distance.unwrap_or_default() }
+    }
+
+    /// The flight that an event begins or ends; `None` of another.
+    pub fn jump_of(&self, event: &Event) -> Option<Jump> {
+        let jump = |ball: usize, is_it: &dyn Fn(&Jump) -> bool| {
+            self.jumps().into_iter().find(|jump| jump.ball == ball && is_it(jump))
+        };
+        match event.kind {
+            EventKind::Jumps(ball) => jump(ball, &|jump| jump.start == event.time),
+            EventKind::Lands(ball) => jump(ball, &|jump| jump.end == event.time),
+            _ => None,
+        }
+    }
+
+    /// Whether an event is told to who does not ask for all of them: contacts, flights of some height, and balls that leave
+    /// the table.
+    pub fn is_told(&self, event: &Event) -> bool {
+        match event.kind {
+            EventKind::LeavesTable(_) => true,
+            EventKind::Jumps(_) | EventKind::Lands(_) => self.jump_of(event).is_some_and(|jump| jump.is_told()),
+            kind => kind.is_contact(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{physics::CueInputs, table::Flight};
+
+    fn flying() -> Table {
+        Table { flight: Some(Flight::default()), ..Table::preset("match").unwrap() }
+    }
+
+    fn play(layout: &str, cue: &str) -> Recording {
+        let table = flying();
+        let layout = Layout::parse(layout, &table).unwrap();
+        Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_jump_is_as_high_and_far_as_the_ball_is_seen_to_fly() {
+        let shot = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,5");
+        let jump = shot.jumps()[0];
+        let seen = (0..=1000).map(|n| shot.height(0, jump.start + (jump.end - jump.start) * f64::from(n) / 1000.0));
+        let highest = seen.fold(0.0, f64::max);
+        assert!(jump.is_told() && (jump.height - highest).abs() < 1e-4 * highest, "{jump:?} {highest}");
+        let down = shot.segments(0)[0].hops().unwrap().arc(0).end;
+        assert!(shot.height(0, down) < 1e-9 && shot.height(0, 0.9 * down) > 0.01);
+        let way = shot.state(0, down).position.distance(shot.state(0, 0.0).position);
+        assert!((jump.distance - way).abs() < 1e-9 && way > 0.1, "{jump:?} {way}");
+    }
+
+    #[test]
+    fn a_hop_that_nobody_sees_is_not_told_and_a_jump_is_with_its_landing() {
+        let low = play("-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,2");
+        assert!(low.events().iter().any(|event| event.kind == EventKind::Jumps(0)));
+        assert!(low.events().iter().filter(|event| low.is_told(event)).all(|event| event.kind.is_contact()));
+        let high = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,3");
+        let told: Vec<_> = high.events().iter().filter(|event| high.is_told(event)).map(|event| event.kind).collect();
+        assert_eq!(told[0], EventKind::Jumps(0));
+        assert!(told.contains(&EventKind::Lands(0)), "{told:?}");
+    }
+
+    #[test]
+    fn a_ball_leaves_over_the_rail_that_it_was_shot_at_and_comes_back_on_a_spot() {
+        let table = flying();
+        for (layout, cue, over) in [
+            ("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9", Rail::Right),
+            ("-0.9,0 0,0.3 0.1,-0.3", "0,0,30,180,9", Rail::Left),
+            ("0,0.2 0.6,-0.3 0.9,-0.3", "0,0,30,90,9", Rail::Top),
+            ("0,-0.2 0.6,0.3 0.9,0.3", "0,0,30,270,9", Rail::Bottom),
+        ] {
+            let shot = play(layout, cue);
+            let [white, yellow, red] = shot.left_table(&table);
+            let white = white.unwrap();
+            assert_eq!((white.over, yellow, red), (over, None, None));
+            assert_eq!(white.spot, shot.final_layout().balls[0]);
+            assert!(shot.final_layout().validate(&table).is_ok());
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The jump from the side: when it is shown, and what is said where there is none.
+
+use crate::{
+    coach::words::height_words,
+    terminal::{pages::coach::CoachPage, shot::Profile, ui::Message},
+};
+
+/// From where the shot is looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// From above alone.
+    #[default]
+    FromAbove,
+    /// From the side as well, where it jumps.
+    FromTheSide,
+}
+
+impl CoachPage {
+    /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
+    pub fn profile(&self) -> Option<Profile> {
+        let shot = self.shot().filter(|_| self.seen == Seen::FromTheSide)?;
+        Profile::of(self.table(), &shot.recording)
+    }
+
+    /// Shows the jump from the side, or no longer; where nothing jumps that high it says so.
+    pub(super) fn turn_side_view(&mut self) {
+        self.seen = match self.seen {
+            Seen::FromAbove => Seen::FromTheSide,
+            Seen::FromTheSide => Seen::FromAbove,
+        };
+        if self.seen == Seen::FromTheSide && self.profile().is_none() {
+            self.seen = Seen::FromAbove;
+            self.message = Some(Message::plain(self.no_jump()));
+        }
+    }
+
+    fn no_jump(&self) -> String {
+        if self.table().flight.is_none() {
+            return "no ball leaves this table's cloth: its file has no section [flight]".to_owned();
+        }
+        let jumps = self.shot().map_or_else(Vec::new, |shot| shot.recording.jumps());
+        let highest = jumps.iter().map(|jump| jump.height).fold(0.0, f64::max);
+        if highest == 0.0 {
+            return "nothing leaves the cloth in this shot".to_owned();
+        }
+        let height = height_words(highest, self.units.length);
+        format!("nothing leaves the cloth by more than {height} in this shot")
+    }
+}
