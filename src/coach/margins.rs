@@ -194,7 +194,7 @@ impl<'a> Sensitivity<'a> {
     fn outcomes(&self, cue: &CueInputs) -> impl Iterator<Item = Outcome> {
         let Self { point, table, layout, worlds } = self;
         let is_stroke = is_stroke(table, layout, cue);
-        let known = worlds.is_empty().then(|| (*cue, *table, *layout));
+        let known = worlds.is_empty().then_some((*cue, *table, *layout));
         let drawn = worlds.iter().map(|world| (aimed(table, layout, &world.layout, cue), &world.table, &world.layout));
         let come_of = move |(cue, table, layout): (CueInputs, &Table, &Layout)| {
             if is_stroke { outcome(*point, table, layout, &cue) } else { Outcome::NoStroke }
@@ -202,10 +202,17 @@ impl<'a> Sensitivity<'a> {
         known.into_iter().chain(drawn).map(come_of)
     }
 
-    /// The outcomes around a stroke: `cells` columns and rows, an odd number so that the stroke itself is in the middle, up to
-    /// so many units of each input to either side. Where there is a doubt, there is a point within the margins, and else the
-    /// outcome of most worlds.
-    pub fn map(&self, cue: &CueInputs, (across, width): (Input, f64), (up, height): (Input, f64), cells: usize) -> Map {
+    /// The outcomes around `middle`: `cells` columns and rows, an odd number so that the stroke itself is there, up to so many
+    /// units of each input to either side. Where there is a doubt, there is a point where one is within the margins of `cue`,
+    /// and else the outcome of most worlds.
+    pub fn map(
+        &self,
+        cue: &CueInputs,
+        middle: &CueInputs,
+        (across, width): (Input, f64),
+        (up, height): (Input, f64),
+        cells: usize,
+    ) -> Map {
         let half = (cells / 2).max(1);
         let line = |span: f64| -> Vec<f64> {
             (0..=2 * half).map(|index| span * (index as f64 - half as f64) / half as f64).collect()
@@ -214,7 +221,7 @@ impl<'a> Sensitivity<'a> {
         // Around a stroke that makes no point, one counts as made that is made in half of the worlds.
         let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
         let outcomes = parallel::map(parallel::cores(), &rows, |&y| {
-            let row = up.shifted(self.table, cue, y);
+            let row = up.shifted(self.table, middle, y);
             columns.iter().map(|&x| self.usual(&across.shifted(self.table, &row, x), least)).collect()
         });
         Map { across, up, columns, rows, outcomes }
@@ -363,7 +370,7 @@ mod tests {
         for doubt in [Doubt::NONE, Doubt::FULL] {
             let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
             let more = sensitivity.margins(&cue).unwrap()[3].more.unwrap();
-            let map = sensitivity.map(&cue, (Input::Direction, 2.0 * more), (Input::Speed, 3.0), 41);
+            let map = sensitivity.map(&cue, &cue, (Input::Direction, 2.0 * more), (Input::Speed, 3.0), 41);
             assert_eq!((map.columns.len(), map.rows.len(), map.columns[20], map.rows[20]), (41, 41, 0.0, 0.0));
             assert_eq!(map.outcomes[20][20], Outcome::Point);
             for (column, by) in map.columns.iter().enumerate().skip(20) {

@@ -38,7 +38,7 @@ impl Margins {
     /// Of one shot.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs, doubt: Doubt) -> Result<Self, ShotError> {
         let sensitivity = Sensitivity::new(rule, table, layout, doubt);
-        let draw = |across, up| sensitivity.map(cue, across, up, CELLS);
+        let draw = |across, up| sensitivity.map(cue, cue, across, up, CELLS);
         Ok(Self {
             aim: aim(table, layout, cue)?,
             inputs: sensitivity.margins(cue),

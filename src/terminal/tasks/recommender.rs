@@ -247,12 +247,12 @@ fn study(job: &Job, cue: &CueInputs) -> Option<ShotAnalysis> {
     go_on()?;
     let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
     let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
-    let tip = sensitivity.map(&centre, (Input::Side, face), (Input::Height, face), CELLS);
+    let tip = sensitivity.map(cue, &centre, (Input::Side, face), (Input::Height, face), CELLS);
     go_on()?;
     let hand = skill.at(cue);
     let usual = if skill.is_perfect() { Skill::EXPERT } else { hand };
     let span = (Input::Direction, REACH * usual.phi.to_degrees());
-    let aim = sensitivity.map(cue, span, (Input::Speed, REACH * usual.speed), CELLS);
+    let aim = sensitivity.map(cue, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
     go_on()?;
     let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
     let recording = Recording::new(table, layout, cue).ok().filter(|_| margins.is_some());
