@@ -11,6 +11,9 @@ use crate::table::{DoubtError, OneRail, Rail, Table, TableDoubt};
 /// in it (standard deviation). The latter are assumptions.
 const OWN: [(&str, &str, f64); 2] = [("e_rail", "e", 0.02), ("mu_rail", "mu", 0.03)];
 
+/// By how many times as much a rail is taken to differ that was told apart: it is not one of the many that are alike.
+const WIDE: f64 = 3.0;
+
 /// From so many deviations on, a rail has a value of its own. Of eight that are looked at, chance alone lets one come there in two
 /// of a hundred tables.
 const APART: f64 = 3.0;
@@ -18,8 +21,9 @@ const APART: f64 = 3.0;
 /// How much of the variance of a difference may be left for it to be looked at.
 const MOST_LEFT: f64 = 0.95;
 
-/// The belief in which these rails have values of their own, before the trials as likely above as below the others'.
-fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail]) -> Result<Belief, DoubtError> {
+/// The belief in which these rails have values of their own, before the trials as likely above as below the others', and differ
+/// by so many times as much as usual.
+fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Result<Belief, DoubtError> {
     let (mut table, mut doubt) = (table.clone(), doubt.clone());
     for rail in rails {
         let OneRail { height, .. } = table.rail.own(*rail);
@@ -28,7 +32,7 @@ fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail]) -> Result<Belief,
         for (common, own, differ) in OWN {
             let Some(deviation) = doubt.deviations.get(common).copied() else { continue };
             let name = name(*rail, own);
-            let whole = deviation.hypot(differ);
+            let whole = deviation.hypot(wide * differ);
             // What all rails have in common it shares with them, and with what that is correlated with.
             let share = deviation / whole;
             let others = doubt.correlations.iter().filter_map(|(one, other, value)| match () {
@@ -73,7 +77,7 @@ pub fn told_apart(
     if !is_both || has_own {
         return Ok(None);
     }
-    let belief = with_own(table, doubt, &Rail::ALL)?;
+    let belief = with_own(table, doubt, &Rail::ALL, 1.0)?;
     let found = estimate(&belief, hand, trials);
     let (values, covariance) = (belief.values(&found.unknowns), belief.covariance(&found.covariance));
     let place = |name: &str| belief.told().position(|(told, ..)| told == name);
@@ -88,7 +92,7 @@ pub fn told_apart(
     if rails.is_empty() {
         return Ok(None);
     }
-    let belief = with_own(table, doubt, &rails)?;
+    let belief = with_own(table, doubt, &rails, WIDE)?;
     let found = estimate(&belief, hand, trials);
     Ok(Some((belief, found)))
 }

@@ -258,8 +258,9 @@ fn a_rail_that_is_unlike_the_others_is_told_apart_where_tests_are_played_from_bo
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(told[0].starts_with("the left long rail (top) is unlike the others: it gives back less (0."), "{told:?}");
     let own = found.table.rail.top.unwrap().e.unwrap();
-    assert!((own - truth.rail.top.unwrap().e.unwrap()).abs() < 0.025, "{own}");
-    assert!(found.table.rail.bottom.is_none() && found.table.doubt.as_ref().unwrap().deviations["rail.top.e"] > 0.0);
+    let deviation = found.table.doubt.as_ref().unwrap().deviations["rail.top.e"];
+    assert!((own - truth.rail.top.unwrap().e.unwrap()).abs() < 2.0 * deviation, "{own} ± {deviation}");
+    assert!(deviation < 0.035 && found.table.rail.bottom.is_none(), "{deviation}");
     assert_eq!(Table::from_toml(&toml::to_string(&found.table).unwrap()).unwrap(), found.table);
     // Rails that are alike stay one, and from one end nobody can tell.
     assert_eq!(calibrate("club", &table, &doubt, &both(&table)).unwrap().rails_apart(), [""; 0]);
