@@ -3,7 +3,8 @@
 //!
 //! `cargo run --release --example calibrated -- 40 5 club` draws 40 tables from what real tables differ by and has a club
 //! player calibrate each. Of 5 layouts on each the coach is asked for a shot at three cushions, with each knowledge of the
-//! table; all of them are played on the drawn table with the player's errors.
+//! table; all of them are played on the drawn table with the player's errors. A number after the player is the seed of the
+//! first table.
 
 use std::{env, error::Error, time::Duration};
 
@@ -29,11 +30,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut count = || words.next().ok_or("say how many tables and layouts, like: calibrated 40 5");
     let (tables, layouts): (u64, usize) = (count()?.parse()?, count()?.parse()?);
     let skill: Skill = words.next().map_or(Ok(Skill::CLUB), |word| word.parse())?;
+    let first: u64 = words.next().map_or(Ok(0), |word| word.parse())?;
     let rule = Rule::ThreeCushion;
     let base = Table { name: "own".to_owned(), ..Table::default() };
     let certain = Doubt { table: 0.0, ..Doubt::FULL };
     let (mut made, mut told) = ([0.0; 3], [0.0; 3]);
-    for seed in 0..tables {
+    for (count, seed) in (1..=tables).zip(first..) {
         let [truth, own] = calibrated(&base, &TableDoubt::of(&base), seed)?;
         let coaches = [(&truth, certain), (&own, Doubt::FULL), (&base, Doubt::FULL)]
             .map(|(table, doubt)| (Coach::without_policy(table.clone()), doubt));
@@ -55,10 +57,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                 made[which] += make_probability(shooter, rule, &truth, &layout, &advice.cue, ATTEMPTS, !seed).rate;
             }
         }
-        let asked = (seed + 1) as f64 * layouts as f64;
+        let asked = count as f64 * layouts as f64;
         let share =
             |which: usize| format!("{} {:.3} (told {:.3})", KNOWN[which], made[which] / asked, told[which] / asked);
-        println!("{} tables: made where the table is known {}", seed + 1, [0, 1, 2].map(share).join(", "));
+        println!("{count} tables: made where the table is known {}", [0, 1, 2].map(share).join(", "));
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use super::{
     forward::{Hand, STROKE},
     information::information,
     protocol::{PROTOCOL, Quantity, Test},
+    rails::told_apart,
     robust::misread,
 };
 use crate::table::{DoubtError, Table, TableDoubt, TableError};
@@ -145,10 +146,16 @@ pub fn calibrate(
     }
     let (numbers, trials): (Vec<usize>, Vec<Trial>) = trials.iter().cloned().unzip();
     let hand = Hand::ASSUMED;
-    let found = estimate(&belief, &hand, &trials);
+    let (belief, found) = if let Some(apart) = told_apart(table, doubt, &hand, &trials)? {
+        apart
+    } else {
+        let found = estimate(&belief, &hand, &trials);
+        (belief, found)
+    };
     let covariance = belief.covariance(&found.covariance);
-    let fitted = belief.table(&found.unknowns);
-    let after = Table { name: name.to_owned(), doubt: Some(belief.doubt(&covariance)), ..fitted.clone() };
+    let fitted = belief.table(&found.likely);
+    let doubt = Some(belief.doubt(&covariance));
+    let after = Table { name: name.to_owned(), doubt, ..belief.table(&found.unknowns) };
     let after = Table::from_toml(&toml::to_string(&after).map_err(|error| TableError::Syntax(error.to_string()))?)?;
     let change = |(index, (name, before, before_deviation)): (usize, (&str, f64, f64))| Change {
         name: name.to_owned(),

@@ -39,12 +39,21 @@ pub struct Entry {
     /// How many short rails the ball met, where it is not what the test expects.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rails: Option<usize>,
+    /// Whether it was played from the far end of the table, with everything counted from where the player stands: then the
+    /// balls meet the other rails.
+    #[serde(default, rename = "far-end", skip_serializing_if = "is_no")]
+    pub far_end: bool,
     /// How sure marks are, where it is not what is usual.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub sure: BTreeMap<String, Written>,
     /// The marks by their names.
     #[serde(flatten)]
     pub marks: BTreeMap<String, Written>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+const fn is_no(value: &bool) -> bool {
+    !*value
 }
 
 /// A number as it is written: in the mark's unit, or with a unit of its own, like `"412 mm"`.
@@ -132,7 +141,7 @@ impl Entries {
             if let Some(test) = Test::named(&entry.test)
                 && !readings.is_empty()
             {
-                trials.push((index, Trial { test, readings }));
+                trials.push((index, Trial { test, is_turned: entry.far_end, readings }));
             }
         }
         (trials, odd)

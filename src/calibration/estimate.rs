@@ -1,9 +1,10 @@
-//! The constants that the marks of some trials speak for: the most likely ones with the strokes that were really struck, and
-//! the normal distribution around them (Laplace's approximation).
+//! The constants that the marks of some trials speak for: first the most likely ones with the strokes that were really struck
+//! and the normal distribution around them (Laplace's approximation), then what [`Posterior`] makes of it.
 
 use super::{
     belief::Belief,
-    forward::{Hand, STROKE, marks},
+    forward::{Hand, STROKE},
+    posterior::Posterior,
     protocol::Test,
     robust::{NEVER, soften},
 };
@@ -28,6 +29,8 @@ pub struct Reading {
 pub struct Trial {
     /// The test.
     pub test: &'static Test,
+    /// Whether it was played from the far end.
+    pub is_turned: bool,
     /// What was marked; marks may be left out.
     pub readings: Vec<Reading>,
 }
@@ -38,8 +41,9 @@ const STEP: f64 = 0.02;
 /// Rounds of the fit; it takes about ten.
 const ROUNDS: usize = 60;
 
-/// How many times as unsure marks are taken to be at first: from far off, a few misread ones could lead astray.
-const FIRST: f64 = 3.0;
+/// How many times as unsure marks are taken to be at first: from far off, a few misread ones could lead astray. Where a ball has
+/// turned at a rail once more than it should, one way leads into another valley than the other.
+const FIRST: [f64; 2] = [3.0, 10.0];
 
 /// The speeds at which strokes are first looked for, in deviations from the one that is asked for.
 const SPEEDS: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
@@ -47,13 +51,15 @@ const SPEEDS: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Estimate {
-    /// The unknowns of [`Belief`].
+    /// The means of the unknowns of [`Belief`].
     pub unknowns: Vec<f64>,
     /// Their covariance.
     pub covariance: Vec<Vec<f64>>,
-    /// The strokes of the trials.
+    /// The most likely unknowns: with the most likely strokes they come nearest to the marks, which means need not.
+    pub likely: Vec<f64>,
+    /// The most likely strokes of the trials.
     pub strokes: Vec<[f64; STROKE]>,
-    /// The normal matrix of unknowns and strokes.
+    /// The normal matrix of unknowns and strokes there.
     normal: Vec<Vec<f64>>,
 }
 
@@ -65,16 +71,11 @@ impl Estimate {
         let mut residuals = Vec::new();
         problem.residuals(&found.parameters, &mut residuals);
         let normal = normal(&problem.derivatives(&found.parameters, &residuals));
-        let column = |row: usize| {
-            let unit = (0..normal.len()).map(|index| f64::from(u8::from(index == row))).collect();
-            let mut column = solve(normal.clone(), unit).unwrap_or(vec![f64::NAN; normal.len()]);
-            column.truncate(count);
-            column
-        };
-        let covariance = (0..count).map(column).collect();
-        let (unknowns, strokes) = found.parameters.split_at(count);
+        let (likely, strokes) = found.parameters.split_at(count);
         let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
-        Self { unknowns: unknowns.to_vec(), covariance, strokes, normal }
+        let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
+        let (unknowns, covariance) = first.settled(belief, hand, trials).of_the_first(count);
+        Self { unknowns, covariance, likely: likely.to_vec(), strokes, normal }
     }
 
     /// What is expected of a mark, with its deviation: the mark itself has a say in it only as far as it is believed.
@@ -86,24 +87,22 @@ impl Estimate {
         trial: usize,
         mark: usize,
     ) -> Option<(f64, f64)> {
-        let test = trials[trial].test;
+        let Trial { test, is_turned, .. } = trials[trial];
         let seen = |unknowns: &[f64], stroke: &[f64; STROKE]| {
-            let table = belief.table(unknowns);
-            let (cue, layout) = hand.stroke(&table, test, stroke);
-            marks(&table, test, &cue, &layout)[mark]
+            hand.seen(&belief.table(unknowns), test, is_turned, stroke)[mark]
         };
         let stroke = self.strokes[trial];
-        let at = seen(&self.unknowns, &stroke)?;
+        let at = seen(&self.likely, &stroke)?;
         let mut slope = vec![0.0; self.normal.len()];
         for (index, slope) in slope.iter_mut().take(belief.count()).enumerate() {
-            let mut moved = self.unknowns.clone();
+            let mut moved = self.likely.clone();
             moved[index] += STEP;
             *slope = (seen(&moved, &stroke)? - at) / STEP;
         }
         for index in 0..STROKE {
             let mut moved = stroke;
             moved[index] += STEP;
-            slope[belief.count() + trial * STROKE + index] = (seen(&self.unknowns, &moved)? - at) / STEP;
+            slope[belief.count() + trial * STROKE + index] = (seen(&self.likely, &moved)? - at) / STEP;
         }
         let spread = solve(self.normal.clone(), slope.clone())?;
         Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
@@ -115,9 +114,15 @@ pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
     Estimate::at(belief, hand, trials, &descend(belief, hand, trials))
 }
 
-/// The minimum that is found from what was held of the table before.
+/// The lower of the minima that are found from what was held of the table before.
 fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Minimum {
-    let mut problem = Joint { belief, hand, trials, unsure: FIRST };
+    let [one, other] = FIRST.map(|first| descend_from(belief, hand, trials, first));
+    if other.squares < one.squares { other } else { one }
+}
+
+/// The minimum that is found with marks that are taken to be so many times as unsure at first.
+fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], first: f64) -> Minimum {
+    let mut problem = Joint { belief, hand, trials, unsure: first };
     let mut start = vec![0.0; belief.count()];
     let table = belief.table(&start);
     start.extend(trials.iter().flat_map(|trial| {
@@ -209,8 +214,14 @@ impl Problem for Joint<'_> {
 
 /// How far the marks of a trial are off with this stroke, in their standard errors.
 pub fn off(table: &Table, hand: &Hand, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<f64> {
-    let (cue, layout) = hand.stroke(table, trial.test, stroke);
-    let expected = marks(table, trial.test, &cue, &layout);
-    let off = |reading: &Reading| expected[reading.mark].map_or(NEVER, |mark| (mark - reading.value) / reading.sure);
-    trial.readings.iter().map(off).collect()
+    let expected = expected(table, hand, trial, stroke);
+    let off =
+        |(reading, mark): (&Reading, Option<f64>)| mark.map_or(NEVER, |mark| (mark - reading.value) / reading.sure);
+    trial.readings.iter().zip(expected).map(off).collect()
+}
+
+/// What the marks of a trial are with this stroke, reading by reading.
+pub fn expected(table: &Table, hand: &Hand, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<Option<f64>> {
+    let seen = hand.seen(table, trial.test, trial.is_turned, stroke);
+    trial.readings.iter().map(|reading| seen[reading.mark]).collect()
 }

@@ -1,6 +1,6 @@
 //! What a stroke of a test leads to on a table: the simulation as a player with a stopwatch sees it.
 
-use std::ops::ControlFlow;
+use std::{borrow::Cow, ops::ControlFlow};
 
 use glam::DVec2;
 
@@ -52,6 +52,14 @@ impl Hand {
             speed: speed * (self.speed * off[0]).exp(),
         };
         (cue, test.layout(table, self.line * off[5]))
+    }
+
+    /// What the marks of `test` are after such a stroke, played from the far end or not; `None` where the ball never comes to
+    /// what is marked.
+    pub fn seen(&self, table: &Table, test: &Test, is_turned: bool, off: &[f64; STROKE]) -> Vec<Option<f64>> {
+        let table = if is_turned { Cow::Owned(table.turned()) } else { Cow::Borrowed(table) };
+        let (cue, layout) = self.stroke(&table, test, off);
+        marks(&table, test, &cue, &layout)
     }
 }
 

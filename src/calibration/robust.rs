@@ -29,6 +29,12 @@ pub fn misread(off: f64) -> f64 {
     bad / (good + bad)
 }
 
+/// How much such a mark counts, against one that is certainly good.
+pub fn weight(off: f64) -> f64 {
+    let misread = misread(off);
+    1.0 - misread + misread / (WIDTH * WIDTH)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

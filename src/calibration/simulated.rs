@@ -124,5 +124,5 @@ fn trial(table: &Table, test: &'static Test, rng: &mut Xoshiro256PlusPlus) -> Tr
         };
         Some(Reading { mark: index, value, sure: mark.sure })
     });
-    Trial { test, readings: readings.collect() }
+    Trial { test, is_turned: false, readings: readings.collect() }
 }

@@ -8,6 +8,9 @@ use super::{
 /// How many short rails a ball has met, among the names of a test's marks.
 pub const RAILS: &str = "rails";
 
+/// Whether a test was played from the far end, among the names of its marks.
+pub const FAR_END: &str = "far-end";
+
 /// How sure a place is that was measured with a tape, as it is written down.
 pub const TAPED: &str = "5 mm";
 
@@ -26,6 +29,14 @@ impl Entry {
             self.rails = Some(typed.parse().map_err(|_| format!("rails {typed} is no number of rails"))?);
             return Ok(());
         }
+        if name == FAR_END {
+            self.far_end = match typed {
+                "yes" => true,
+                "no" => false,
+                _ => return Err(format!("far-end {typed} says nothing; accepted are yes and no")),
+            };
+            return Ok(());
+        }
         let (value, sure) = typed.split_once(['±', '~']).map_or((typed, None), |(value, sure)| (value, Some(sure)));
         self.marks.insert(name.to_owned(), written(value));
         if let Some(sure) = sure {
@@ -38,6 +49,9 @@ impl Entry {
     pub fn typed(&self, name: &str) -> String {
         if name == RAILS {
             return self.rails.map_or_else(String::new, |rails| rails.to_string());
+        }
+        if name == FAR_END {
+            return if self.far_end { "yes".to_owned() } else { String::new() };
         }
         let Some(value) = self.marks.get(name) else { return String::new() };
         let sure = self.sure.get(name).map_or_else(String::new, |sure| format!(" ~ {}", plain(sure)));

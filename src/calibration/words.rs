@@ -4,6 +4,7 @@ use super::{
     calibrate::{Calibration, Change, Strange, Verdict},
     protocol::Test,
 };
+use crate::table::Rail;
 
 impl Change {
     /// In a word, how much the marks have told.
@@ -32,6 +33,14 @@ impl Change {
             "e_ball" => "what balls give back",
             "mu_b" => "throw between balls",
             "m_end" => "squirt: mass of the cue's end",
+            "rail.left.e" => "what your own short rail gives back",
+            "rail.right.e" => "what the far short rail gives back",
+            "rail.bottom.e" => "what the right long rail gives back",
+            "rail.top.e" => "what the left long rail gives back",
+            "rail.left.mu" => "grip of your own short rail",
+            "rail.right.mu" => "grip of the far short rail",
+            "rail.bottom.mu" => "grip of the right long rail",
+            "rail.top.mu" => "grip of the left long rail",
             _ => "",
         }
     }
@@ -68,6 +77,32 @@ impl Strange {
 }
 
 impl Calibration {
+    /// The rails that differ from the others, each with how.
+    pub fn rails_apart(&self) -> Vec<String> {
+        let constant = |name: &str| self.constants.iter().find(|one| one.name == name);
+        let whose = |rail: Rail| match rail {
+            Rail::Left => "your own short rail",
+            Rail::Right => "the far short rail",
+            Rail::Bottom => "the right long rail",
+            Rail::Top => "the left long rail",
+        };
+        let differs = |rail: Rail| {
+            let part = |own: &str, common: &str, [less, more]: [&str; 2]| {
+                let (own, all) = (constant(&format!("rail.{}.{own}", rail.name()))?, constant(common)?);
+                let word = if own.after < all.after { less } else { more };
+                Some(format!("{word} ({:.3} ± {:.3}, the others {:.3})", own.after, own.after_deviation, all.after))
+            };
+            let parts = [
+                part("e", "e_rail", ["gives back less", "gives back more"]),
+                part("mu", "mu_rail", ["grips less", "grips more"]),
+            ];
+            let parts: Vec<String> = parts.into_iter().flatten().collect();
+            (!parts.is_empty())
+                .then(|| format!("{} ({}) is unlike the others: it {}", whose(rail), rail.name(), parts.join(" and ")))
+        };
+        Rail::ALL.into_iter().filter_map(differs).collect()
+    }
+
     /// Whether the marks agree.
     pub fn agreement(&self) -> &'static str {
         if self.is_contradictory() {

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    Alternative, Cause, Doubt, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill,
+    Alternative, Cause, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill,
     clock::Clock,
     draws::{Draws, Worlds},
     first::{Attempt, Found},
@@ -114,7 +114,7 @@ impl Coach {
     ) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
-        let doubt = if request.skill.is_perfect() { Doubt::NONE } else { request.doubt };
+        let doubt = request.shooter().doubts();
         let [worlds, level] = [Worlds::new, Worlds::level].map(|worlds| worlds(&self.table, layout, doubt));
         let task = Task {
             table: &self.table,

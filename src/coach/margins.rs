@@ -2,6 +2,11 @@
 
 use serde::Serialize;
 
+use super::{
+    Doubt,
+    draws::{Draws, World, Worlds, aimed},
+    parallel,
+};
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
@@ -124,29 +129,114 @@ pub struct Map {
     pub outcomes: Vec<Vec<Outcome>>,
 }
 
-/// The margins of a shot that makes the point, in the order of [`Input::ALL`]. Between two steps of the scan a miss can
-/// hide; the end of the margin is then found to a thousandth of a step. `None` where the shot makes no point.
-pub fn margins(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<[Margin; 5]> {
-    let makes = outcome(rule, table, layout, cue) == Outcome::Point;
-    makes.then(|| Input::ALL.map(|input| around(input, rule, table, layout, cue)))
+/// Worlds in which a stroke is tried where something is in doubt.
+const WORLDS: usize = 12;
+
+/// Seed of those worlds: the same for every stroke, so that strokes are compared by what they are.
+const SEED: u64 = 0x6d61_7267_696e_7321;
+
+/// What strokes are tried at: a rule, a table and a layout, and what may really be there.
+#[derive(Clone, Debug)]
+pub struct Sensitivity<'a> {
+    point: Point,
+    table: &'a Table,
+    layout: &'a Layout,
+    /// None where nothing is in doubt.
+    worlds: Vec<World>,
 }
 
-/// The margin of one input alone.
-pub fn margin(input: Input, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Margin> {
-    let makes = outcome(rule, table, layout, cue) == Outcome::Point;
-    makes.then(|| around(input, rule, table, layout, cue))
-}
+impl<'a> Sensitivity<'a> {
+    /// That of strokes on this table, from where the balls lie. Where there is a doubt, they are tried in worlds that are drawn
+    /// from it; tables that lean are not among them, as in the search.
+    pub fn new(rule: Rule, table: &'a Table, layout: &'a Layout, doubt: Doubt) -> Self {
+        let draws = Draws::spread(WORLDS, 1.0, &Worlds::level(table, layout, doubt), SEED);
+        let worlds = draws.iter().filter_map(|draw| draw.world.cloned()).collect();
+        Self { point: Point::of(rule, table, layout), table, layout, worlds }
+    }
 
-fn around(input: Input, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Margin {
-    let side = |sign: f64| {
-        let shifted = |by: f64| input.shifted(table, cue, sign * by);
-        nearest_miss(
-            input,
-            |by| outcome(rule, table, layout, &shifted(by)) == Outcome::Point,
-            |by| is_stroke(table, layout, &shifted(by)) || input.is_tip(),
-        )
-    };
-    Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
+    /// The margins of a shot that makes the point, in the order of [`Input::ALL`]. Between two steps of the scan a miss can
+    /// hide; the end of the margin is then found to a thousandth of a step. Where there is a doubt, a margin ends where the
+    /// point is made in less than half of the worlds in which it is made as meant. `None` where that is in none.
+    pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
+        let least = self.least(cue)?;
+        parallel::map(parallel::cores(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
+    }
+
+    /// The margin of one input alone.
+    pub fn margin(&self, input: Input, cue: &CueInputs) -> Option<Margin> {
+        Some(self.around(input, cue, self.least(cue)?))
+    }
+
+    fn around(&self, input: Input, cue: &CueInputs, least: usize) -> Margin {
+        let side = |sign: f64| {
+            let shifted = |by: f64| input.shifted(self.table, cue, sign * by);
+            nearest_miss(
+                input,
+                |by| self.makes(&shifted(by), least),
+                |by| is_stroke(self.table, self.layout, &shifted(by)) || input.is_tip(),
+            )
+        };
+        Margin { input, unit: input.unit(), less: side(-1.0), more: side(1.0) }
+    }
+
+    /// In how many worlds a stroke is to make the point for it to count as made beside `cue`; `None` where `cue` makes none.
+    fn least(&self, cue: &CueInputs) -> Option<usize> {
+        let made = self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).count();
+        (made > 0).then(|| made.div_ceil(2))
+    }
+
+    /// Whether a stroke makes the point in so many worlds.
+    fn makes(&self, cue: &CueInputs, least: usize) -> bool {
+        self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).take(least).count() == least
+    }
+
+    /// What comes of a stroke in each world, or in the one that is known.
+    fn outcomes(&self, cue: &CueInputs) -> impl Iterator<Item = Outcome> {
+        let Self { point, table, layout, worlds } = self;
+        let is_stroke = is_stroke(table, layout, cue);
+        let known = worlds.is_empty().then_some((*cue, *table, *layout));
+        let drawn = worlds.iter().map(|world| (aimed(table, layout, &world.layout, cue), &world.table, &world.layout));
+        let come_of = move |(cue, table, layout): (CueInputs, &Table, &Layout)| {
+            if is_stroke { outcome(*point, table, layout, &cue) } else { Outcome::NoStroke }
+        };
+        known.into_iter().chain(drawn).map(come_of)
+    }
+
+    /// The outcomes around `middle`: `cells` columns and rows, an odd number so that the stroke itself is there, up to so many
+    /// units of each input to either side. Where there is a doubt, there is a point where one is within the margins of `cue`,
+    /// and else the outcome of most worlds.
+    pub fn map(
+        &self,
+        cue: &CueInputs,
+        middle: &CueInputs,
+        (across, width): (Input, f64),
+        (up, height): (Input, f64),
+        cells: usize,
+    ) -> Map {
+        let half = (cells / 2).max(1);
+        let line = |span: f64| -> Vec<f64> {
+            (0..=2 * half).map(|index| span * (index as f64 - half as f64) / half as f64).collect()
+        };
+        let (columns, rows) = (line(width), line(height));
+        // Around a stroke that makes no point, one counts as made that is made in half of the worlds.
+        let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
+        let outcomes = parallel::map(parallel::cores(), &rows, |&y| {
+            let row = up.shifted(self.table, middle, y);
+            columns.iter().map(|&x| self.usual(&across.shifted(self.table, &row, x), least)).collect()
+        });
+        Map { across, up, columns, rows, outcomes }
+    }
+
+    /// A point where so many worlds make it, else the outcome of most others.
+    fn usual(&self, cue: &CueInputs, least: usize) -> Outcome {
+        let all: Vec<Outcome> = self.outcomes(cue).collect();
+        let count = |outcome: Outcome| all.iter().filter(|one| **one == outcome).count();
+        if count(Outcome::Point) >= least {
+            return Outcome::Point;
+        }
+        let others = [Outcome::NoStroke, Outcome::NoBall, Outcome::OneBall, Outcome::TooFewCushions];
+        others.into_iter().max_by_key(|outcome| count(*outcome)).unwrap_or(Outcome::NoStroke)
+    }
 }
 
 impl Input {
@@ -182,40 +272,14 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
     None
 }
 
-/// The outcomes around a stroke: `cells` columns and rows, an odd number so that the stroke itself is in the middle, up to
-/// so many units of each input to either side.
-pub fn map(
-    rule: Rule,
-    table: &Table,
-    layout: &Layout,
-    cue: &CueInputs,
-    (across, width): (Input, f64),
-    (up, height): (Input, f64),
-    cells: usize,
-) -> Map {
-    let half = (cells / 2).max(1);
-    let line = |span: f64| -> Vec<f64> {
-        (0..=2 * half).map(|index| span * (index as f64 - half as f64) / half as f64).collect()
-    };
-    let (columns, rows) = (line(width), line(height));
-    let outcomes = super::parallel::map(super::parallel::cores(), &rows, |&y| {
-        let row = up.shifted(table, cue, y);
-        columns.iter().map(|&x| outcome(rule, table, layout, &across.shifted(table, &row, x))).collect()
-    });
-    Map { across, up, columns, rows, outcomes }
-}
-
-/// What comes of a stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.
-pub fn outcome(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
-    if !is_stroke(table, layout, cue) {
-        return Outcome::NoStroke;
-    }
+/// What comes of a stroke that is one. A shot whose resting contacts take more than 200 steps counts as decided by then.
+fn outcome(point: Point, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
     let mut patient = Patient { referee: Referee::default(), patience: StepBudget(CONTACT_STEPS) };
     watch(table, layout, &strike(table, cue), &mut patient);
     let Tally { met: [one, other], .. } = patient.referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,
-        (true, true) if Point::of(rule, table, layout).is_made(&patient.referee.tally) => Outcome::Point,
+        (true, true) if point.is_made(&patient.referee.tally) => Outcome::Point,
         (true, true) => Outcome::TooFewCushions,
         _ => Outcome::OneBall,
     }
@@ -255,9 +319,10 @@ mod tests {
     fn shot() -> (Table, Layout, CueInputs) {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.3, 0.1)]);
+        let certain = Sensitivity::new(Rule::StraightRail, &table, &layout, Doubt::NONE);
         let cue = (0..4000)
             .map(|step| CueInputs { a: 0.0, b: 0.2, theta: 0.02, phi: -0.1 + 5e-5 * f64::from(step), speed: 2.5 })
-            .find(|cue| outcome(Rule::StraightRail, &table, &layout, cue) == Outcome::Point)
+            .find(|cue| certain.least(cue).is_some())
             .unwrap();
         (table, layout, cue)
     }
@@ -265,36 +330,55 @@ mod tests {
     #[test]
     fn just_inside_a_margin_the_point_is_made_and_just_outside_it_is_not() {
         let (table, layout, cue) = shot();
-        let makes = |cue: &CueInputs| outcome(Rule::StraightRail, &table, &layout, cue) == Outcome::Point;
-        let margins = margins(Rule::StraightRail, &table, &layout, &cue).unwrap();
-        let mut ends = 0;
-        for Margin { input, less, more, .. } in margins {
-            for (sign, end) in [(-1.0, less), (1.0, more)].into_iter().filter_map(|(sign, end)| Some((sign, end?))) {
-                ends += 1;
-                let hair = 1e-3 * input.scan().1;
-                assert!(makes(&input.shifted(&table, &cue, sign * end)), "{input:?} {sign} {end}");
-                assert!(!makes(&input.shifted(&table, &cue, sign * (end + 2.0 * hair))), "{input:?} {sign} {end}");
+        for doubt in [Doubt::NONE, Doubt::FULL] {
+            let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
+            let least = sensitivity.least(&cue).unwrap();
+            let margins = sensitivity.margins(&cue).unwrap();
+            let mut ends = 0;
+            for Margin { input, less, more, .. } in margins {
+                for (sign, end) in [(-1.0, less), (1.0, more)].into_iter().filter_map(|(sign, end)| Some((sign, end?)))
+                {
+                    ends += 1;
+                    let hair = 1e-3 * input.scan().1;
+                    let makes = |by: f64| sensitivity.makes(&input.shifted(&table, &cue, sign * by), least);
+                    assert!(makes(end), "{doubt}: {input:?} {sign} {end}");
+                    assert!(!makes(end + 2.0 * hair), "{doubt}: {input:?} {sign} {end}");
+                }
             }
+            assert!(margins[3].less.is_some() && margins[3].more.is_some() && ends >= 4, "{doubt}: {margins:?}");
+            assert!(Sensitivity::new(Rule::ThreeCushion, &table, &layout, doubt).margins(&cue).is_none());
         }
-        // The first direction of the scan that makes the point: a hair less misses, and no cue is below the cloth.
-        assert!(margins[3].less.is_some_and(|less| less < 0.01) && margins[3].more.is_some());
-        assert!(ends >= 4, "{margins:?}");
-        assert!(super::margins(Rule::ThreeCushion, &table, &layout, &cue).is_none());
+    }
+
+    #[test]
+    fn a_margin_does_not_end_where_the_point_is_lost_on_one_of_many_tables() {
+        let (table, layout, cue) = shot();
+        let less = |doubt| {
+            let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
+            assert_eq!(sensitivity.worlds.len(), if doubt == Doubt::NONE { 0 } else { WORLDS });
+            sensitivity.margin(Input::Direction, &cue).unwrap().less.unwrap()
+        };
+        // The first direction of the scan that makes the point: on this very table a hair less misses.
+        let [certain, doubted] = [Doubt::NONE, Doubt::FULL].map(less);
+        assert!(certain < 0.01 && doubted > 2.0 * certain, "{certain} {doubted}");
+        assert_eq!(less(Doubt::FULL), doubted, "the same worlds every time");
     }
 
     #[test]
     fn a_map_holds_the_stroke_in_its_middle_and_the_margins_on_its_axes() {
         let (table, layout, cue) = shot();
-        let rule = Rule::StraightRail;
-        let more = margins(rule, &table, &layout, &cue).unwrap()[3].more.unwrap();
-        let map = map(rule, &table, &layout, &cue, (Input::Direction, 2.0 * more), (Input::Speed, 3.0), 41);
-        assert_eq!((map.columns.len(), map.rows.len(), map.columns[20], map.rows[20]), (41, 41, 0.0, 0.0));
-        assert_eq!(map.outcomes[20][20], Outcome::Point);
-        for (column, by) in map.columns.iter().enumerate().skip(20) {
-            let inside = *by <= more;
-            assert!(!inside || map.outcomes[20][column] == Outcome::Point, "{by} of {more}");
+        for doubt in [Doubt::NONE, Doubt::FULL] {
+            let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
+            let more = sensitivity.margins(&cue).unwrap()[3].more.unwrap();
+            let map = sensitivity.map(&cue, &cue, (Input::Direction, 2.0 * more), (Input::Speed, 3.0), 41);
+            assert_eq!((map.columns.len(), map.rows.len(), map.columns[20], map.rows[20]), (41, 41, 0.0, 0.0));
+            assert_eq!(map.outcomes[20][20], Outcome::Point);
+            for (column, by) in map.columns.iter().enumerate().skip(20) {
+                let inside = *by <= more;
+                assert!(!inside || map.outcomes[20][column] == Outcome::Point, "{by} of {more}");
+            }
+            // 2.5 m/s less is no stroke.
+            assert_eq!(map.outcomes[0][20], Outcome::NoStroke);
         }
-        // 2.5 m/s less is no stroke.
-        assert_eq!(map.outcomes[0][20], Outcome::NoStroke);
     }
 }

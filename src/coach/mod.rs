@@ -37,7 +37,7 @@ pub use coach::{Coach, make_probability};
 pub use doubt::{Doubt, UnknownDoubt};
 pub use ease::{Ease, Sample};
 pub use kind::{Kind, Pace, Way};
-pub use margins::{Input, Map, Margin, Outcome, map, margin, margins, outcome};
+pub use margins::{Input, Map, Margin, Outcome, Sensitivity};
 pub use request::{Request, Shooter};
 pub use risk::{Cause, Risk};
 pub use scatter::{Scatter, scatter};

@@ -17,6 +17,13 @@ pub struct Shooter {
     pub doubt: Doubt,
 }
 
+impl Shooter {
+    /// What is in doubt where it matters: a perfect player has no doubts.
+    pub fn doubts(&self) -> Doubt {
+        if self.skill.is_perfect() { Doubt::NONE } else { self.doubt }
+    }
+}
+
 /// With nothing in doubt.
 impl From<Skill> for Shooter {
     fn from(skill: Skill) -> Self {

@@ -6,10 +6,9 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::{
-    Input, Pattern, Recommendation, Shooter, Technique, Units,
+    Input, Pattern, Recommendation, Sensitivity, Shooter, Technique, Units,
     clock::Clock,
     draws::{Draws, Worlds},
-    margin,
     trial::{CONTACT_STEPS, Task},
     words::{self, PlaceUnit, short, table_lengths},
 };
@@ -91,7 +90,9 @@ pub fn why(
     advice: &Recommendation,
     seed: u64,
 ) -> Result<Why, ShotError> {
+    let shooter = shooter.into();
     let technique = Technique::of(table, layout, &advice.cue)?;
+    let sensitivity = Sensitivity::new(rule, table, layout, shooter.doubts());
     let second = advice.alternatives.first().map(|other| -> Result<Difference, ShotError> {
         let its = Technique::of(table, layout, &other.cue)?;
         let [ball, its_ball] = [&technique, &its].map(|technique| technique.first.map(|hit| hit.ball));
@@ -102,13 +103,13 @@ pub fn why(
             fuller: if its_ball == ball { its.fullness() - technique.fullness() } else { 0.0 },
             harder: lengths(&other.cue) - lengths(&advice.cue),
             make_probability: other.make_probability.map(|rate| rate.rate),
-            aim_deg: aim_width(rule, table, layout, &other.cue),
+            aim_deg: aim_width(&sensitivity, &other.cue),
         })
     });
     Ok(Why {
         make_probability: advice.make_probability.map(|rate| rate.rate),
-        aim_deg: aim_width(rule, table, layout, &advice.cue),
-        kiss: kiss(shooter.into(), rule, table, layout, &advice.cue, seed),
+        aim_deg: aim_width(&sensitivity, &advice.cue),
+        kiss: kiss(shooter, rule, table, layout, &advice.cue, seed),
         next_probability: advice.next_probability,
         second: second.transpose()?,
         scale: (table.diamond(), 0.5 * DVec2::new(table.length, table.width)),
@@ -116,8 +117,8 @@ pub fn why(
 }
 
 /// By how much the direction may be off to both sides together, degrees.
-fn aim_width(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<f64> {
-    let margin = margin(Input::Direction, rule, table, layout, cue)?;
+fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs) -> Option<f64> {
+    let margin = sensitivity.margin(Input::Direction, cue)?;
     Some(margin.less? + margin.more?)
 }
 

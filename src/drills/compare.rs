@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::{
-    coach::{Coach, Request, Skill, make_probability},
+    coach::{Coach, Request, Shooter, make_probability},
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::CueInputs,
@@ -17,8 +17,8 @@ const ATTEMPTS: usize = 1000;
 const SEED: u64 = 0x636f_6d70_6172_6521;
 
 /// How often a player makes the point with `cue`.
-pub fn chance(skill: Skill, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
-    make_probability(skill, rule, table, layout, cue, ATTEMPTS, SEED)
+pub fn chance(shooter: impl Into<Shooter>, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
+    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, SEED)
 }
 
 /// A coach's stroke and how often the player makes it.
@@ -26,17 +26,17 @@ pub fn chance(skill: Skill, rule: Rule, table: &Table, layout: &Layout, cue: &Cu
 pub struct Advice {
     /// The stroke.
     pub cue: CueInputs,
-    /// On the errors that [`chance`] takes.
+    /// In the attempts that [`chance`] takes.
     pub chance: SuccessRate,
 }
 
-/// What the coach would play; `None` where it finds no point.
+/// What the coach would play, with what the request holds to be in doubt; `None` where it finds no point.
 ///
 /// # Errors
 /// Where the layout is impossible.
 pub fn advise(coach: &Coach, layout: &Layout, request: &Request) -> Result<Option<Advice>, LayoutError> {
     let answer = coach.recommend(layout, request)?;
-    let chance = |cue| chance(request.skill, request.rule, coach.table(), layout, &cue);
+    let chance = |cue| chance(request.shooter(), request.rule, coach.table(), layout, &cue);
     Ok(answer.solved.then(|| Advice { cue: answer.cue, chance: chance(answer.cue) }))
 }
 
@@ -57,6 +57,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use crate::coach::{Doubt, Skill};
 
     #[test]
     fn the_difference_in_direction_goes_the_short_way_round() {
@@ -75,10 +76,14 @@ mod tests {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::new(table.clone()).unwrap();
-        let request = Request { skill: Skill::CLUB, budget: Duration::from_secs(2), ..Request::default() };
+        let skill = Skill::CLUB;
+        let request = Request { skill, doubt: Doubt::FULL, budget: Duration::from_secs(2), ..Request::default() };
         let advice = advise(&coach, &layout, &request).unwrap().unwrap();
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: PI, speed: 0.3 };
-        assert_eq!(chance(request.skill, request.rule, &table, &layout, &away).rate, 0.0);
-        assert!(advice.chance.rate > 0.5, "{advice:?}");
+        assert_eq!(chance(request.shooter(), request.rule, &table, &layout, &away).rate, 0.0);
+        assert!(advice.chance.rate > 0.3, "{advice:?}");
+        // What is told is what is made where table and places are in doubt, not on the table that the coach believes in.
+        assert_eq!(advice.chance, chance(request.shooter(), request.rule, &table, &layout, &advice.cue));
+        assert_ne!(advice.chance, chance(skill, request.rule, &table, &layout, &advice.cue));
     }
 }

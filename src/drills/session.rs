@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Exercise, Record};
 use crate::{
-    coach::Skill,
+    coach::{Doubt, Shooter, Skill},
     learning::moment,
     physics::CueInputs,
     table::{CueBall, Layout},
@@ -116,6 +116,12 @@ pub struct Session {
 }
 
 impl Session {
+    /// Who is told how often a shot is made: the player, on tables and from places that are in doubt, as pars are measured.
+    pub fn shooter(&self) -> Shooter {
+        let shooter = Shooter { skill: self.skill, doubt: Doubt::FULL };
+        Shooter { doubt: shooter.doubts(), ..shooter }
+    }
+
     /// A session that begins now. There must be an exercise.
     pub fn new(goal: Goal, venue: Venue, exercises: Vec<Exercise>, skill: Skill, seed: u64) -> Self {
         let since = since_epoch();

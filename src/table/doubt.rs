@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, RailModel, Table, flaws};
+use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws};
 
 const MATCH: &str = include_str!("match_doubt.toml");
 const UNKNOWN: &str = include_str!("unknown_doubt.toml");
@@ -32,8 +32,9 @@ struct Constant {
     limits: (f64, f64),
 }
 
-/// All of them. A constant that a table's model does not have is left out there.
-const CONSTANTS: [Constant; 14] = [
+/// All of them. A constant that a table's model does not have is left out there. Draws take them in this order: new ones come
+/// last.
+const CONSTANTS: [Constant; 22] = [
     Constant {
         name: "e_rail",
         get: |table| Some(table.rail_restitution),
@@ -127,7 +128,41 @@ const CONSTANTS: [Constant; 14] = [
         set: |table, value| table.cue_end_mass = Some(value.min(table.cue_mass)),
         limits: (1e-4, f64::MAX),
     },
+    own_restitution::<0>("rail.left.e"),
+    own_restitution::<1>("rail.right.e"),
+    own_restitution::<2>("rail.bottom.e"),
+    own_restitution::<3>("rail.top.e"),
+    own_friction::<0>("rail.left.mu"),
+    own_friction::<1>("rail.right.mu"),
+    own_friction::<2>("rail.bottom.mu"),
+    own_friction::<3>("rail.top.mu"),
 ];
+
+/// What a rail gives back that has a value of its own, by its place in [`Rail::ALL`].
+const fn own_restitution<const RAIL: usize>(name: &'static str) -> Constant {
+    Constant {
+        name,
+        get: |table| table.rail.own(Rail::ALL[RAIL]).e,
+        set: |table, value| {
+            let own = table.rail.own_mut(Rail::ALL[RAIL]);
+            *own = Some(OneRail { e: Some(value), ..own.unwrap_or_default() });
+        },
+        limits: (0.0, 1.0),
+    }
+}
+
+/// The same of its friction.
+const fn own_friction<const RAIL: usize>(name: &'static str) -> Constant {
+    Constant {
+        name,
+        get: |table| table.rail.own(Rail::ALL[RAIL]).mu,
+        set: |table, value| {
+            let own = table.rail.own_mut(Rail::ALL[RAIL]);
+            *own = Some(OneRail { mu: Some(value), ..own.unwrap_or_default() });
+        },
+        limits: (0.0, 0.99),
+    }
+}
 
 /// Why a doubt is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]

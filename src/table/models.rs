@@ -63,6 +63,21 @@ impl Rails {
         };
         own.unwrap_or_default()
     }
+
+    /// The place of what a rail has of its own.
+    pub const fn own_mut(&mut self, rail: Rail) -> &mut Option<OneRail> {
+        match rail {
+            Rail::Left => &mut self.left,
+            Rail::Right => &mut self.right,
+            Rail::Bottom => &mut self.bottom,
+            Rail::Top => &mut self.top,
+        }
+    }
+
+    /// As they are for who stands at the other end: each in the place of the one across.
+    pub(super) const fn turned(self) -> Self {
+        Self { left: self.right, right: self.left, bottom: self.top, top: self.bottom, ..self }
+    }
 }
 
 /// What one rail has of its own; what is left out is the table's.

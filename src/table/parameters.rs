@@ -237,6 +237,12 @@ impl Table {
         DVec2::new(self.half_length(), self.half_width())
     }
 
+    /// The table as it is for who stands at its other end.
+    #[must_use]
+    pub fn turned(&self) -> Self {
+        Self { tilt: -self.tilt, rail: self.rail.turned(), ..self.clone() }
+    }
+
     /// Distance between two neighbouring sights ("diamonds"), one eighth of the length, m.
     pub fn diamond(&self) -> f64 {
         self.length / 8.0

@@ -59,7 +59,11 @@ const COUNTING: &str = "Places are in diamonds: along the table from your own sh
 
 /// A test for a player.
 pub fn words(number: usize, test: &Test) -> Vec<String> {
-    let times = if test.times == 1 { "once".to_owned() } else { format!("{} times", test.times) };
+    let times = match test.times {
+        0 => "if you like".to_owned(),
+        1 => "once".to_owned(),
+        times => format!("{times} times"),
+    };
     let mut lines = vec![
         format!("{number}. {} ({times}): {}", test.name, test.title),
         format!("   put     {}", test.place),

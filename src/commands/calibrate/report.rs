@@ -82,6 +82,7 @@ impl<'a> Report<'a> {
         for strange in self.strange {
             line(strange.words())?;
         }
+        self.found.rails_apart().iter().try_for_each(line)?;
         line(self.found.agreement())?;
         if let Some([before, now]) = &self.play {
             return line(format_args!("today {}", now.against(before)));

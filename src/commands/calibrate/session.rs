@@ -7,7 +7,7 @@ use std::{
 
 use super::{Args, failure, listing::words, tell_of};
 use crate::{
-    calibration::{DAILY, Edit, Entries, Entry, PROTOCOL, RAILS, Test, edit_entries, kept_entries},
+    calibration::{DAILY, Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries},
     commands::{
         Failure,
         output::{prompt, tell},
@@ -17,8 +17,9 @@ use crate::{
 };
 
 /// What may be typed instead of marks.
-const HELP: &str = "type the marks in their order, or by name (stop 3.4 rails 5), - for one that is not known; or skip, again \
-                    (the last test once more), undo (the last entry), done";
+const HELP: &str = "type the marks in their order, or by name (stop 3.4 rails 5), - for one that is not known, far-end yes after \
+                    a test that was played from the far end; or skip, again (the last test once more), undo (the last entry), \
+                    done";
 
 /// Asks for tests until all are played, the input has ended or the player is done; then tells what was found.
 pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure> {
@@ -66,7 +67,7 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut marks = test.marks.iter();
     let mut words = text.split_whitespace();
     while let Some(word) = words.next() {
-        let is_name = word == RAILS || test.marks.iter().any(|mark| mark.name == word);
+        let is_name = [RAILS, FAR_END].contains(&word) || test.marks.iter().any(|mark| mark.name == word);
         let name =
             if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))?.name };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };

@@ -9,7 +9,7 @@ use super::{
     score::{Score, layout_text, plural, shot_text, words},
 };
 use crate::{
-    coach::{Coach, Request, words::LengthUnit},
+    coach::{Coach, Request, Shooter, words::LengthUnit},
     commands::{
         Failure,
         input::ByTable,
@@ -179,7 +179,7 @@ impl<'a> StrokeByStroke<'a> {
         let own = if helped { None } else { self.own(layout) };
         let advice = match own {
             Some(cue) if self.compares => {
-                Some(Advice { cue, chance: chance(self.session.skill, rule, table, layout, &cue) })
+                Some(Advice { cue, chance: chance(self.session.shooter(), rule, table, layout, &cue) })
             }
             _ if helped || self.compares => self.advice(table, layout)?,
             _ => None,
@@ -193,7 +193,7 @@ impl<'a> StrokeByStroke<'a> {
         let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
         let is_raised = raised != meant;
         let meant = raised;
-        let share = chance(self.session.skill, rule, table, layout, &meant);
+        let share = chance(self.session.shooter(), rule, table, layout, &meant);
         if let Some(attempt) = self.session.attempts.last_mut() {
             attempt.by_coach = helped;
             attempt.chance = Some(share.rate);
@@ -274,11 +274,11 @@ impl<'a> StrokeByStroke<'a> {
             return Ok(Some(*advice));
         }
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(None) };
-        let Session { skill, seed, .. } = self.session;
+        let (Shooter { skill, doubt }, seed) = (self.session.shooter(), self.session.seed);
         // In a game the next point counts too.
         let plan = self.session.is_game();
         let budget = Duration::from_millis(self.options.budget_ms);
-        let request = Request { rule, skill, plan, budget, seed, ..Request::default() };
+        let request = Request { rule, skill, doubt, plan, budget, seed, ..Request::default() };
         let coach = self.coaches.get(&table.name)?;
         let advice = advise(coach, layout, &request).map_err(Failure::wrong_input)?;
         self.advice = advice.map(|advice| (*layout, advice));

@@ -5,7 +5,7 @@ use std::{sync::mpsc, thread, time::Duration};
 use crate::commands::{Failure, output::tell};
 
 /// Longest time that one of these may take. On a table that exists they take a tenth.
-const LONGEST: Duration = Duration::from_secs(1);
+const LONGEST: Duration = Duration::from_secs(3);
 
 /// What `find` gives, where it does so in time; otherwise that `what` is left out is told on the standard error.
 pub fn in_time<T: Send + 'static, E: std::fmt::Display + Send + 'static>(

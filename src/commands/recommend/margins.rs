@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use crate::{
-    coach::{Aim, Input, Map, Margin, aim, map, margins},
+    coach::{Aim, Doubt, Input, Map, Margin, Sensitivity, aim},
     game::Rule,
     physics::CueInputs,
     simulation::ShotError,
@@ -36,11 +36,12 @@ pub struct Margins {
 
 impl Margins {
     /// Of one shot.
-    pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
-        let draw = |across, up| map(rule, table, layout, cue, across, up, CELLS);
+    pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs, doubt: Doubt) -> Result<Self, ShotError> {
+        let sensitivity = Sensitivity::new(rule, table, layout, doubt);
+        let draw = |across, up| sensitivity.map(cue, cue, across, up, CELLS);
         Ok(Self {
             aim: aim(table, layout, cue)?,
-            inputs: margins(rule, table, layout, cue),
+            inputs: sensitivity.margins(cue),
             maps: [
                 draw((Input::Side, TIP), (Input::Height, TIP)),
                 draw((Input::Direction, DIRECTION), (Input::Speed, SPEED)),

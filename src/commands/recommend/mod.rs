@@ -24,7 +24,7 @@ use super::{
     output::{impulse_words, units},
 };
 use crate::{
-    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Skill, Source, systems::Guide},
+    coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::{CueInputs, strike},
@@ -210,7 +210,8 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Rec
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
         let (table, layout, cue) = (coach.table().clone(), *layout, answer.cue);
-        answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue))?;
+        let doubt = Shooter { skill: args.skill, doubt: args.doubt }.doubts();
+        answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue, doubt))?;
     }
     if answer.solved == Some(true) {
         answer.system = system::of(coach.table(), layout, &answer.cue);

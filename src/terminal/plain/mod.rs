@@ -14,7 +14,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::{
-        Coach, Kind, Pattern, Request, ShotWords, Technique, Units, Verdict, Why, aim, margins, systems::guide, why,
+        Coach, Kind, Pattern, Request, Sensitivity, ShotWords, Technique, Units, Verdict, Why, aim, systems::guide, why,
     },
     game::Point,
     learning::evaluation::SuccessRate,
@@ -161,7 +161,9 @@ impl Conversation {
             }
             Order::Other => "There is no other shot; say shot to ask for one.".to_owned(),
             Order::Margins => self.about_the_shot(|talk, shot| {
-                match margins(talk.request.rule, talk.table(), talk.layout(), &shot.cue) {
+                let Request { rule, .. } = talk.request;
+                let doubt = talk.request.shooter().doubts();
+                match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
                     Some(found) => speech::margins(&found),
                     None => "This shot makes no point.".to_owned(),
                 }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use crate::{
-    coach::Skill,
+    coach::{Shooter, Skill},
     drills::{Advice, Exercise, Played, Session},
     game::Rule,
     learning::evaluation::SuccessRate,
@@ -57,8 +57,8 @@ pub struct Position {
     pub layout: Layout,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who plays.
-    pub skill: Skill,
+    /// Who plays, and what is in doubt.
+    pub shooter: Shooter,
     /// Whether what comes next counts too, as in a game.
     pub plan: bool,
     /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
@@ -91,8 +91,8 @@ pub struct JudgedStroke {
     pub layout: Layout,
     /// What counts as a point.
     pub rule: Rule,
-    /// Who plays.
-    pub skill: Skill,
+    /// Who plays, and what is in doubt.
+    pub shooter: Shooter,
     /// What the player means.
     pub cue: CueInputs,
     /// Set when the answer is no longer wanted.

@@ -55,8 +55,8 @@ impl PracticeWorker {
                 }
             }
             DrillTask::Judge(stroke) => {
-                let JudgedStroke { id, table, layout, rule, skill, cue, cancel } = &*stroke;
-                let judge = || chance(*skill, *rule, table, layout, cue);
+                let JudgedStroke { id, table, layout, rule, shooter, cue, cancel } = &*stroke;
+                let judge = || chance(*shooter, *rule, table, layout, cue);
                 if !cancel.load(Ordering::Relaxed)
                     && let Ok(made) = catch_unwind(AssertUnwindSafe(judge))
                 {
@@ -117,14 +117,15 @@ impl PracticeWorker {
 
     fn teach(&mut self, position: &Position) -> Result<Option<Taught>, String> {
         self.taught = None;
-        let Position { table, layout, rule, skill, .. } = position;
+        let Position { table, layout, rule, shooter, .. } = position;
         let advice = if let Some(cue) = position.own {
-            Some(Advice { cue, chance: chance(*skill, *rule, table, layout, &cue) })
+            Some(Advice { cue, chance: chance(*shooter, *rule, table, layout, &cue) })
         } else {
             let cancel = Arc::clone(&position.cancel);
             let request = Request {
                 rule: *rule,
-                skill: *skill,
+                skill: shooter.skill,
+                doubt: shooter.doubt,
                 plan: position.plan,
                 budget: BUDGET,
                 cancel,
@@ -175,7 +176,7 @@ impl PracticeWorker {
         let shot = shot.and_then(Result::ok).map(Arc::new);
         let next = session.position().ok().flatten();
         reply(DrillReport::Played(Ok(Box::new(Outcome { session: session.clone(), played, shot, next })), saved));
-        let share = chance(session.skill, rule, &table, &layout, &meant).rate;
+        let share = chance(session.shooter(), rule, &table, &layout, &meant).rate;
         session.attempts[number].chance = Some(share);
         // An error of the disk has just been reported.
         let _ = self.save(&session);

@@ -11,7 +11,7 @@ use std::{
 
 use crate::{
     coach::{
-        Coach, Improvement, Input, Recommendation, Request, Skill, Why, make_probability, map, margins, scatter,
+        Coach, Improvement, Input, Recommendation, Request, Sensitivity, Skill, Why, make_probability, scatter,
         systems::guide, why,
     },
     learning::{Policy, evaluation::SuccessRate},
@@ -244,17 +244,18 @@ fn proposals(job: &Job, layout: &Layout, found: Recommendation) -> Result<Advice
 fn study(job: &Job, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
     let Job { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
+    let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().doubts());
     let go_on = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
-    let margins = margins(*rule, table, layout, cue);
+    let margins = sensitivity.margins(cue);
     go_on()?;
     let centre = CueInputs { a: 0.0, b: 0.0, ..*cue };
     let face = 1e3 * table.radius * RIM * table.miscue_limit.sqrt();
-    let tip = map(*rule, table, layout, &centre, (Input::Side, face), (Input::Height, face), CELLS);
+    let tip = sensitivity.map(cue, &centre, (Input::Side, face), (Input::Height, face), CELLS);
     go_on()?;
     let hand = skill.at(cue);
     let usual = if skill.is_perfect() { Skill::EXPERT } else { hand };
     let span = (Input::Direction, REACH * usual.phi.to_degrees());
-    let aim = map(*rule, table, layout, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
+    let aim = sensitivity.map(cue, cue, span, (Input::Speed, REACH * usual.speed), CELLS);
     go_on()?;
     let scatter = scatter(query.shooter(), *rule, table, layout, cue, ATTEMPTS, job.seed, &job.cancel);
     let system = margins.and_then(|_| guide(table, recording));

@@ -458,7 +458,7 @@ fn no_two_questions_to_the_coach_have_the_same_number_and_they_are_about_whoever
     let mut player = Player::practising(TRUE_COLOUR);
     let position = |tasks: Vec<DrillTask>| {
         let asked = tasks.into_iter().find_map(|task| match task {
-            DrillTask::Advise(position) => Some((position.id, position.skill)),
+            DrillTask::Advise(position) => Some((position.id, position.shooter.skill)),
             _ => None,
         });
         asked.expect("the coach is asked")

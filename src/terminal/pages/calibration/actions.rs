@@ -94,7 +94,7 @@ impl CalibrationPage {
                 self.for_use = Some(path);
             }
             Action::Anew => self.input = Some(Input::Anew),
-            Action::Field(_) | Action::Tape => self.change_form(action),
+            Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
             Action::No => self.input = None,
             Action::Yes => return self.yes(),
         }
@@ -105,6 +105,11 @@ impl CalibrationPage {
         let Some(Input::Marks(form)) = &mut self.input else { return };
         match action {
             Action::Field(by) => form.step(by),
+            Action::FarEnd => {
+                form.far_end = !form.far_end;
+                let end = if form.far_end { "the far end: count everything from there" } else { "your own end" };
+                self.message = Some(Message::plain(format!("this stroke was played from {end}")));
+            }
             _ => {
                 if let Err(sentence) = form.turn_tape() {
                     self.message = Some(Message::warning(sentence));

@@ -20,6 +20,8 @@ pub struct Form {
     pub field: usize,
     /// The stroke that is changed, with its place among all entries.
     pub amends: Option<(usize, Entry)>,
+    /// Whether it was played from the far end.
+    pub far_end: bool,
     /// Whether it is on its way to the disk.
     pub is_sent: bool,
 }
@@ -28,7 +30,7 @@ impl Form {
     /// An empty one.
     pub fn new(test: &'static Test) -> Self {
         let fields = test.asked().map(|name| (name, TextField::new(LONGEST))).collect();
-        Self { test, fields, field: 0, amends: None, is_sent: false }
+        Self { test, fields, field: 0, amends: None, far_end: false, is_sent: false }
     }
 
     /// That of a stroke that was entered.
@@ -37,7 +39,7 @@ impl Form {
         for (name, field) in &mut form.fields {
             *field = TextField::new(LONGEST).with(&entry.typed(name));
         }
-        Self { amends: Some((place, entry.clone())), ..form }
+        Self { amends: Some((place, entry.clone())), far_end: entry.far_end, ..form }
     }
 
     /// Goes to another field, around the ends.
@@ -65,7 +67,7 @@ impl Form {
     /// # Errors
     /// What is odd about it, each with what would be accepted.
     pub fn entry(&self, table: &Table) -> Result<Entry, String> {
-        let mut entry = Entry { test: self.test.name.to_owned(), ..Entry::default() };
+        let mut entry = Entry { test: self.test.name.to_owned(), far_end: self.far_end, ..Entry::default() };
         for (name, field) in &self.fields {
             entry.take(name, field.text())?;
         }

@@ -48,6 +48,8 @@ pub enum CalibrationAction {
     Field(isize),
     /// A place was measured with a tape, or not.
     Tape,
+    /// The stroke was played from the far end, or not.
+    FarEnd,
     /// Takes what was typed, or says yes.
     Yes,
     /// Leaves all as it is.
@@ -138,6 +140,7 @@ pub const FORM: &[Binding<A, W>] = &[
     bind(Marks, W::Here, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
         Some(("mark", 2)), "type another mark"),
     bind(Marks, W::Here, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
+    bind(Marks, W::Here, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
     bind(Marks, W::Here, &[key(Esc, A::No)], Some(("cancel", 1)), "leave the form; nothing of it is kept"),
 ];
 

@@ -296,7 +296,7 @@ mod tests {
         sheet.move_mark(-1);
         add(&mut sheet, 2);
         assert_eq!(sheet.test().name, "lag", "slow-back is left out");
-        assert_eq!(sheet.count(), (2, 18));
+        assert_eq!(sheet.count(), (2, 19));
         assert_eq!(sheet.undo(), Some(Edit::TakeOut(1, entry.clone())));
     }
 

@@ -178,11 +178,12 @@ impl Turn {
 
     /// Asks how often the player makes the stroke that is compared.
     fn judge(&mut self) -> Vec<DrillTask> {
-        let (table, layout, rule, skill) = (self.table.clone(), self.layout, self.exercise.rule, self.session.skill);
+        let (table, layout, rule) = (self.table.clone(), self.layout, self.exercise.rule);
+        let shooter = self.session.shooter();
         let Some(what_if) = &mut self.what_if else { return Vec::new() };
         let id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
         let (cue, cancel) = (what_if.shot().cue, what_if.ask(id));
-        vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, skill, cue, cancel }))]
+        vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
     }
 
     const fn scene(&self) -> what_if::Scene<'_> {
@@ -280,7 +281,7 @@ impl Turn {
             table: self.table.clone(),
             layout: self.layout,
             rule: self.exercise.rule,
-            skill: self.session.skill,
+            shooter: self.session.shooter(),
             plan: self.session.is_game(),
             own: self.exercise.model_shot().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),

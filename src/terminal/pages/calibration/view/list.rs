@@ -107,7 +107,8 @@ fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
         let marks = test.asked().map(|name| entry.typed(name));
         let marks: Vec<String> = marks.map(|mark| if mark.is_empty() { "-".to_owned() } else { mark }).collect();
         let sign = if is_doubtful { "! " } else { "" };
-        let text = shorten(&format!("{sign}{}", marks.join(", ")), usize::from(inner.width - 3), ui.caps);
+        let end = if entry.far_end { "far end: " } else { "" };
+        let text = shorten(&format!("{sign}{end}{}", marks.join(", ")), usize::from(inner.width - 3), ui.caps);
         ui.buffer.set_string(inner.x + 2, y, text, style);
     }
     rest(area, 1 + most as u16)

@@ -43,7 +43,10 @@ pub fn draw(page: &CalibrationPage, area: &PageArea, ui: &mut Ui) -> u16 {
 /// What is asked, and what is typed behind it.
 fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
     Some(match page.input.as_ref()? {
-        Input::Marks(form) => (form.question(&page.table), Some(form.typed())),
+        Input::Marks(form) => {
+            let end = if form.far_end { "far end; " } else { "" };
+            (end.to_owned() + &form.question(&page.table), Some(form.typed()))
+        }
         Input::Name(field) => ("the table's name = ".to_owned(), Some(field)),
         Input::Replace(name) => (format!("there is a table called {name} already; replace it? y/n"), None),
         Input::Anew => ("begin anew? What is entered is kept beside the file. y/n".to_owned(), None),

@@ -67,6 +67,7 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
     let misread = found.verdicts.iter().filter(|verdict| verdict.misread);
     said.extend(misread.map(|verdict| (verdict.doubtful(), ui.theme.warning())));
     said.extend(found.strange.iter().map(|strange| (strange.words(), ui.theme.warning())));
+    said.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
     let agreement = if found.misread().is_empty() { ui.theme.good() } else { ui.theme.text() };
     said.push((found.agreement().to_owned(), agreement));
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
