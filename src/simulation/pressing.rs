@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use super::{
     EventKind, Observer, Segment,
+    chatter::Chatters,
     contact_mode::ContactMode,
-    engine::{Engine, MOST_STEPS},
+    engine::Engine,
     resting::{Outcome, Resting},
     savings::Savings,
     segment::still,
@@ -20,7 +21,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
-        if self.steps <= MOST_STEPS && resting.go_on(self.table) {
+        if !self.is_exhausted() && resting.go_on(self.table) {
             self.contact_step()?;
             let members = resting.members;
             self.resting = Some(resting);
@@ -41,7 +42,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         self.pressed = true;
         let members = resting.members;
         // The guard: what takes part in another contact stands still, and begins anew.
-        self.ended = (self.steps <= MOST_STEPS).then_some(resting);
+        self.ended = (!self.is_exhausted()).then_some(resting);
         self.look_ahead(now, members)
     }
 
@@ -111,6 +112,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         };
         self.contact_step()?;
         let previous = self.resting.take().or(self.ended.take());
+        if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
+            previous.contacts.as_slice().iter().for_each(|contact| chatters.rest(contact, now));
+        }
+        let interrupted = previous.as_ref().is_some_and(|previous| previous.interrupted);
         self.resting =
             match Resting::begin(self.table, &self.constants, now, &states, previous.as_deref(), self.next_step) {
                 Outcome::Rests(resting) => {
@@ -153,6 +158,13 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                     self.close(index, now);
                     self.launch(index, now, &states[index]);
                     changed[index] = true;
+                }
+                // An impact that interrupts a contact makes it chatter again: it is still the same.
+                let slides = self.balls[index].segment.motion == Motion::Sliding;
+                let chatters = |chatters: &Chatters| !chatters.are_over(index, now);
+                if interrupted && slides && self.chatters.as_deref().is_some_and(chatters) {
+                    self.balls[index].mode = ContactMode::Bouncing;
+                    continue;
                 }
                 self.tell(now, EventKind::ContactEnds(index))?;
                 if self.balls[index].segment.motion == Motion::Rolling {
