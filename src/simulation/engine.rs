@@ -233,11 +233,11 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     /// Sends a ball off on the free course that follows from its state.
     #[inline(always)]
     pub(super) fn launch(&mut self, index: usize, now: f64, state: &BallState) {
-        let (segment, lasts) = if !self.is_exhausted() {
-            Segment::free(&self.constants, now, state)
-        } else {
+        let (segment, lasts) = if self.is_exhausted() {
             let spin = glam::DVec3::new(0.0, 0.0, state.spin.z);
             Segment::free(&self.constants, now, &BallState { velocity: DVec2::ZERO, spin, ..*state })
+        } else {
+            Segment::free(&self.constants, now, state)
         };
         self.set(index, segment, lasts);
     }

@@ -266,7 +266,7 @@ impl Resting {
         let first = self.slope(table.radius, &begin.balls, &from.forces);
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let stiff = self.stiff(table, from, length);
-        let step = extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, table.radius, tolerance);
+        let step = extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
         Trial { span, step, forces: self.forces(table, &step.end.balls, &from.forces) }
     }
 

@@ -10,7 +10,7 @@ use super::{Phase, Resting, STIFF, TimeScale, Trial};
 use crate::{
     physics::{BallState, Friction},
     simulation::extrapolation::{Mode, Stiff},
-    table::Table,
+    table::{BALLS, Table},
 };
 
 /// Steps are implicit in all directions that follow the forces at least so often in them, as soon as one is stiff.
@@ -55,7 +55,7 @@ impl Resting {
     /// How the slip at one place turns, and what a turn of its friction changes.
     fn mode(&self, table: &Table, from: &Trial, place: TimeScale, slip: DVec2) -> Mode {
         let balls = &from.step.end.balls;
-        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); 3], time: 0.0 };
+        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
         let across = slip.perp().normalize();
         let turned = |friction: &mut Friction| {
             if let Friction::Slips(start) = friction {
