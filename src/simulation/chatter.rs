@@ -24,6 +24,10 @@ const MADE_BY_BOUNCES: f64 = 4.0;
 /// speed at most.
 const COUPLING: f64 = 10.0;
 
+/// Normal forces are at most so many times what the cloth's friction gives a ball: three balls press one contact, and frictions
+/// wedge them.
+const MOST_PULL: f64 = 8.0;
+
 /// Slow bounces of one contact that are told one by one; those that follow belong to its chatter.
 const TOLD: u32 = 8;
 
@@ -93,6 +97,11 @@ impl Chatters {
         bounces.count > TOLD
     }
 
+    /// Takes note that a contact has rested until now: its chatter goes on from here.
+    pub fn rest(&mut self, contact: &Contact, now: f64) {
+        self.0[Self::place(contact)].last = now;
+    }
+
     /// The last flight of a contact over the one before.
     pub fn shrinking(&self, contact: &Contact) -> f64 {
         self.0[Self::place(contact)].shrinking
@@ -153,11 +162,6 @@ pub fn settles(
     let flies = |other: &Contact| other != contact && other.opening_speed(balls) > tolerance.slowest_bounce;
     contacts.retain(|_, other| other.shares_a_ball(contact) && !flies(other));
     let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
-    let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
-    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
-    let index = resolved.contacts.as_slice().iter().position(|pressing| pressing == contact)?;
-    let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
-    let pull = bodies * resolved.forces.normal[index];
     // The friction that turns soonest: that of the ball whose slip ends first.
     let slips = balls
         .iter()
@@ -179,11 +183,22 @@ pub fn settles(
     }
     let restitution = law.restitution(contact);
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
-    let chatter = 2.0 * speed / (pull * (1.0 - restitution));
-    let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
     // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
-    (chatter <= slide && 0.5 * moment <= negligible * slide * slide).then_some(resolved.contacts)
+    let ends = |pull: f64| {
+        let chatter = 2.0 * speed / (pull * (1.0 - restitution));
+        let moment = 4.0 * speed.powi(3) / (3.0 * pull * pull * (1.0 - restitution.powi(3)));
+        chatter <= slide && 0.5 * moment <= negligible * slide * slide
+    };
+    // Most bounces are too fast for any pull that the cloth can give.
+    let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
+    if !ends(MOST_PULL * bodies * (constants.sliding + constants.tilt.length())) {
+        return None;
+    }
+    let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
+    let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
+    let index = resolved.contacts.as_slice().iter().position(|pressing| pressing == contact)?;
+    ends(bodies * resolved.forces.normal[index]).then_some(resolved.contacts)
 }
 
 #[cfg(test)]

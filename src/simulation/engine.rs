@@ -18,9 +18,13 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Steps of contacts and bounces of chatters after which a shot is brought to its end. This is a guard, not physics: what
-/// takes part in another contact stands still from then on. The stability table counts the shots that come to it.
-pub(super) const MOST_STEPS: u32 = 1500;
+/// Work after which a shot is brought to its end: so many bounces of chatters, of which a step of a resting contact takes as
+/// long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from then on. The
+/// stability table counts the shots that come to it.
+const MOST_WORK: u32 = 6_000;
+
+/// Bounces that take as long as one step of a resting contact.
+const STEP_WORK: u32 = 4;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,8 +124,8 @@ pub(super) struct Engine<'a, S, O> {
     /// Time of the last impact, s, and how many there have been at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
-    /// Steps of contacts and bounces of chatters so far.
-    pub(super) steps: u32,
+    /// Bounces of chatters so far, and steps of resting contacts as if they were bounces.
+    pub(super) work: u32,
     /// The slow bounces, once there is one.
     pub(super) chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
@@ -144,7 +148,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             pressed: false,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
-            steps: 0,
+            work: 0,
             chatters: None,
             savings: PhantomData,
         }
@@ -246,13 +250,24 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     /// Sends a ball off on the free course that follows from its state.
     #[inline(always)]
     pub(super) fn launch(&mut self, index: usize, now: f64, state: &BallState) {
-        let (segment, lasts) = if self.steps <= MOST_STEPS {
-            Segment::free(&self.constants, now, state)
-        } else {
+        let (segment, lasts) = if self.is_exhausted() {
             let spin = glam::DVec3::new(0.0, 0.0, state.spin.z);
             Segment::free(&self.constants, now, &BallState { velocity: DVec2::ZERO, spin, ..*state })
+        } else {
+            Segment::free(&self.constants, now, state)
         };
         self.set(index, segment, lasts);
+    }
+
+    /// Whether the shot has taken more work than any should.
+    pub(super) const fn is_exhausted(&self) -> bool {
+        self.work > MOST_WORK
+    }
+
+    /// Takes note of a step of resting contacts.
+    pub(super) fn contact_step(&mut self) -> ControlFlow<()> {
+        self.work += STEP_WORK;
+        self.observer.contact_step()
     }
 
     pub(super) fn state(&self, index: usize, now: f64) -> BallState {

@@ -132,7 +132,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// All contacts that close now collide together, if there are several.
     #[cold]
     pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
-        self.steps += 1;
+        self.work += 1;
         let members = self.freed_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
@@ -180,11 +180,6 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         ControlFlow::Continue(true)
     }
 
-    pub(super) fn contact_step(&mut self) -> ControlFlow<()> {
-        self.steps += 1;
-        self.observer.contact_step()
-    }
-
     /// Whether a bouncing ball still chatters; tells the end of its contact if not.
     #[cold]
     pub(super) fn still_chatters(&mut self, now: f64, ball: usize) -> ControlFlow<(), bool> {
@@ -209,12 +204,12 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
-        self.steps += 1;
+        self.work += 1;
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) {
             return ControlFlow::Continue(true);
         }
-        self.contact_step()?;
+        self.observer.contact_step()?;
         for ball in [Some(contact.first), contact.second].into_iter().flatten() {
             if self.balls[ball].mode == ContactMode::Free {
                 self.balls[ball].mode = ContactMode::Bouncing;
@@ -273,8 +268,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         close(&c, &mut states, contacts);
         let law = self.law.inelastic();
         let mut pushed = [false; MAX_CONTACTS];
-        for _ in 0..MOST_ROUNDS {
-            if !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening) {
+        for round in 0..MOST_ROUNDS {
+            // What has met closes, however slowly: balls that never slip lose their slip.
+            if round > 0 && !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening)
+            {
                 break;
             }
             let impulses = collide_together(c.radius, &law, &mut states, contacts);

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use super::{
     EventKind, Observer, Segment,
+    chatter::Chatters,
     contact_mode::ContactMode,
-    engine::{Engine, MOST_STEPS},
+    engine::Engine,
     resting::{Outcome, Resting},
     savings::Savings,
     segment::{Course, still},
@@ -20,7 +21,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
-        if self.steps <= MOST_STEPS && resting.go_on(self.table) {
+        if !self.is_exhausted() && resting.go_on(self.table) {
             self.contact_step()?;
             let members = resting.members;
             self.resting = Some(resting);
@@ -41,7 +42,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         self.pressed = true;
         let members = resting.members;
         // The guard: what takes part in another contact stands still, and begins anew.
-        self.ended = (self.steps <= MOST_STEPS).then_some(resting);
+        self.ended = (!self.is_exhausted()).then_some(resting);
         self.look_ahead(now, members)
     }
 
@@ -112,33 +113,43 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         };
         self.contact_step()?;
         let previous = self.resting.take().or(self.ended.take());
+        if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
+            previous.contacts.as_slice().iter().for_each(|contact| chatters.rest(contact, now));
+        }
+        let interrupted = previous.as_ref().is_some_and(|previous| previous.interrupted);
         let on_cloth = self.on_cloth();
-        let previous = previous.as_deref();
-        self.resting =
-            match Resting::begin(self.table, &self.constants, now, &states, on_cloth, previous, self.next_step) {
-                Outcome::Rests(resting) => {
-                    self.next_step = resting.next_step;
-                    for index in (0..BALLS).filter(|&index| !resting.members[index]) {
-                        if resting.begin[index] != states[index] {
-                            states[index] = resting.begin[index];
-                            self.close(index, now);
-                            self.launch(index, now, &states[index]);
-                            changed[index] = true;
-                        }
-                    }
-                    Some(resting)
-                }
-                Outcome::Free(ended, balls) => {
-                    // A slip that ends here ends for good.
-                    for index in (0..BALLS).filter(|&index| balls[index]) {
+        self.resting = match Resting::begin(
+            self.table,
+            &self.constants,
+            now,
+            &states,
+            on_cloth,
+            previous.as_deref(),
+            self.next_step,
+        ) {
+            Outcome::Rests(resting) => {
+                self.next_step = resting.next_step;
+                for index in (0..BALLS).filter(|&index| !resting.members[index]) {
+                    if resting.begin[index] != states[index] {
+                        states[index] = resting.begin[index];
                         self.close(index, now);
-                        self.launch(index, now, &ended[index]);
+                        self.launch(index, now, &states[index]);
                         changed[index] = true;
                     }
-                    states = ended;
-                    None
                 }
-            };
+                Some(resting)
+            }
+            Outcome::Free(ended, balls) => {
+                // A slip that ends here ends for good.
+                for index in (0..BALLS).filter(|&index| balls[index]) {
+                    self.close(index, now);
+                    self.launch(index, now, &ended[index]);
+                    changed[index] = true;
+                }
+                states = ended;
+                None
+            }
+        };
         let members = self.freed_members();
         for index in 0..BALLS {
             let was = self.balls[index].mode;
@@ -156,6 +167,13 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                     self.close(index, now);
                     self.launch(index, now, &states[index]);
                     changed[index] = true;
+                }
+                // An impact that interrupts a contact makes it chatter again: it is still the same.
+                let slides = self.balls[index].segment.motion == Motion::Sliding;
+                let chatters = |chatters: &Chatters| !chatters.are_over(index, now);
+                if interrupted && slides && self.chatters.as_deref().is_some_and(chatters) {
+                    self.balls[index].mode = ContactMode::Bouncing;
+                    continue;
                 }
                 self.tell(now, EventKind::ContactEnds(index))?;
                 if self.balls[index].segment.motion == Motion::Rolling {

@@ -5,6 +5,8 @@
 //! the next. Where a slip ends its direction is singular in time; with time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip
 //! ends like an exponential and everything stays smooth.
 
+mod stiffness;
+
 use glam::DVec2;
 
 use super::{
@@ -20,9 +22,6 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Shortest step, s. In it a speed changes by less than the tolerance of what is called slip.
-const SHORTEST_STEP: f64 = 1e-13;
-
 /// A slip may fall to this power of `e` in a step: to a tenth.
 const FALL: f64 = 1.3;
 
@@ -33,11 +32,15 @@ const STRAY: f64 = 1e-10;
 /// Longest change of speed by the cloth's friction in a step, m/s: courses along which nothing slips bend, too.
 const LONGEST_CURVE: f64 = 0.04;
 
-/// In shorter steps, s, the places at both ends, rounded to 1e-16 m, say less of the velocity than the velocities do.
-const SHORTEST_QUINTIC: f64 = 1e-4;
-
 /// After an interruption a step is tried that is so many times as long as the one that was interrupted.
 const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
+
+/// Steps longer than so many times in which a slip's direction comes to follow the forces are implicit in it; explicit ones are
+/// not stable then.
+const STIFF: f64 = 4.0;
+
+/// By what angle, in radians, a slip may turn in an implicit step at the rate at which it does in the beginning.
+const MOST_TURN: f64 = 0.03;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
@@ -159,25 +162,25 @@ impl Resting {
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let exact = self.constants.tolerance.step;
+        let Tolerance { step: exact, shortest_step: shortest, .. } = self.constants.tolerance;
         let begin = Trial {
             span: 0.0,
             step: Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 },
             forces: self.first,
         };
-        let mut span = self.longest_step(table.radius).min(self.next_step).max(SHORTEST_STEP);
+        let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
         let (trial, broken) = loop {
             let trial = self.attempt(table, &begin, span);
-            if trial.step.error <= exact || span <= SHORTEST_STEP {
+            if trial.step.error <= exact || span <= shortest {
                 let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
                 let broken = doubtful && !self.holds(table, &trial);
                 break (if broken { self.until_a_law_breaks(table, &begin, &trial) } else { trial }, broken);
             }
-            span = trial.step.best_length.min(0.7 * span).max(SHORTEST_STEP);
+            span = trial.step.best_length.min(0.7 * span).max(shortest);
         };
         if trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.
-            (self.step, self.end, self.goes_on) = (SHORTEST_STEP, self.begin, false);
+            (self.step, self.end, self.goes_on) = (shortest, self.begin, false);
             return;
         }
         let mut end = trial.step.end;
@@ -264,7 +267,8 @@ impl Resting {
         };
         let first = self.slope(table.radius, &begin.balls, &from.forces);
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
-        let step = extrapolate(begin, &first, slope, self.members, length, table.radius, tolerance);
+        let stiff = self.stiff(table, from, length);
+        let step = extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
         Trial { span, step, forces: self.forces(table, &step.end.balls, &from.forces) }
     }
 
@@ -286,7 +290,7 @@ impl Resting {
         let (mut low_value, mut high_value) = ((self.first.slack + allowed).max(0.0), after.forces.slack + allowed);
         let mut same_side = 0_i32;
         for _ in 0..MAX_GUESSES {
-            if high_value >= -allowed || after.span - before.span <= SHORTEST_STEP {
+            if high_value >= -allowed || after.span - before.span <= self.constants.tolerance.shortest_step {
                 break;
             }
             let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
@@ -313,7 +317,7 @@ impl Resting {
     /// The same where what is held is held more than once, so that only trying tells how long it holds.
     fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let (mut before, mut after) = (*begin, *whole);
-        while after.span - before.span > SHORTEST_STEP.max(1e-9 * after.span) {
+        while after.span - before.span > self.constants.tolerance.shortest_step.max(1e-9 * after.span) {
             let middle = self.attempt(table, &before, 0.5 * (before.span + after.span));
             if self.holds(table, &middle) {
                 before = middle;
@@ -343,6 +347,7 @@ impl Resting {
     fn longest_step(&mut self, radius: f64) -> f64 {
         self.time_scale = TimeScale::Time;
         let sliding = self.constants.sliding;
+        let strays = |force: f64, turn: f64| (2000.0 * STRAY / force * turn.powi(4)).powf(1.0 / 6.0);
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, TimeScale::Time);
         self.slips(radius, &self.begin, &self.first, |scaled, index, slip, rate| {
@@ -351,7 +356,10 @@ impl Resting {
                 return;
             }
             let turn = length / rate.length();
-            longest = longest.min((2000.0 * STRAY / sliding * turn.powi(4)).powf(1.0 / 6.0));
+            longest = longest.min(strays(sliding, turn));
+            // An implicit step begins where a direction has come to follow the forces; before, it turns fast.
+            let turning = (slip.perp_dot(rate) / (length * length)).abs();
+            longest = longest.min((STIFF * length / (3.5 * sliding)).max(MOST_TURN / turning));
             let falls = -length * length / rate.dot(slip);
             if falls > 0.0 && falls < soonest {
                 (soonest, time_scale) = (falls, scaled(index, length));
@@ -361,7 +369,11 @@ impl Resting {
         for contact in self.contacts.as_slice().iter().filter(|contact| contact.second.is_some()) {
             let across = contact.relative_speed(&self.begin);
             let (turn, force) = (2.0 * radius / across, sliding + across * across / radius);
-            longest = longest.min((2000.0 * STRAY / force * turn.powi(4)).powf(1.0 / 6.0));
+            // However slow they are, what is accelerated past the other ball turns about it in the end.
+            let apart =
+                self.first.linear[contact.first] - contact.second.map_or(DVec2::ZERO, |ball| self.first.linear[ball]);
+            let turns = (2.0 * radius / apart.length()).sqrt();
+            longest = longest.min(strays(force, turn)).min(strays(sliding, turns));
         }
         // A slip that is far from its end needs no other time.
         if longest < 0.1 * soonest {
@@ -431,11 +443,15 @@ impl Resting {
 
     /// The forces in this step's active set; they have to be sought from `near` ones on where a friction yields.
     fn forces(&self, table: &Table, state: &State, near: &Forces) -> Forces {
+        self.forces_in(table, &self.set, state, near)
+    }
+
+    fn forces_in(&self, table: &Table, set: &ActiveSet, state: &State, near: &Forces) -> Forces {
         let contacts = self.contacts.as_slice();
-        if self.set.yields() {
-            return yielding(table, state, contacts, &self.set, near);
+        if set.yields() {
+            return yielding(table, state, contacts, set, near);
         }
-        forces(table, state, contacts, &self.set, Some(&self.first)).unwrap_or(self.first)
+        forces(table, state, contacts, set, Some(&self.first)).unwrap_or(self.first)
     }
 
     fn slope(&self, radius: f64, state: &State, forces: &Forces) -> Phase {
@@ -465,7 +481,7 @@ impl Resting {
         let (a0, a1) = (self.first.linear[ball], self.last.linear[ball]);
         let moved = p1.position - p0.position;
         let (v0, v1) = (p0.velocity, p1.velocity);
-        let position = if h > SHORTEST_QUINTIC {
+        let position = if h > self.constants.tolerance.shortest_quintic {
             [
                 (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * h.powi(3)),
                 (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * h.powi(4)),

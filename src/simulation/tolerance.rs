@@ -34,6 +34,11 @@ pub struct Tolerance {
     /// Balls in resting contact that are all slower than this are at rest, m/s: they would roll on for less than 1e-11 m,
     /// in ever smaller steps as their slips fade with their speeds.
     pub still: f64,
+    /// Shortest step of a resting contact, s: frictions change a speed by a hundredth of what counts as a slip meanwhile.
+    /// Larger: what ends is overshot, and flips. Smaller: steps are rounded away.
+    pub shortest_step: f64,
+    /// In shorter steps, s, the places at both ends, which are rounded, say less of the velocity than the velocities do.
+    pub shortest_quintic: f64,
     /// Estimated error that a step of a resting contact may make, in m, m/s, or R times rad/s. A contact takes some tens
     /// of steps.
     pub step: f64,
@@ -61,6 +66,7 @@ impl Tolerance {
     /// What counts as nothing on `table`.
     pub fn of(table: &Table) -> Self {
         let speed = (table.gravity * table.radius).sqrt();
+        let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;
         let rolling = 5.0 / 7.0 * table.rolling_friction * table.gravity;
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
@@ -72,6 +78,8 @@ impl Tolerance {
             ending_slip: 4e-10 * speed,
             yielding: 1e-4 * speed,
             still: (2e-11 * rolling).sqrt(),
+            shortest_step: (8e-13 * speed / friction).min(1e-13),
+            shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
             step: 2e-13 * speed.max(table.radius),
             slack: 1e-12 * table.gravity,
             slow_bounce: 2e-2 * speed,

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
-    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, never_slips},
+    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient, never_slips},
     solve::{Side, Solution, solve, solve_near},
 };
 use crate::{
@@ -282,6 +282,11 @@ impl Forces {
             sizes[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
         }
         sizes
+    }
+
+    /// The largest friction in a contact per ball mass, m/s².
+    pub fn friction_limit(&self, table: &Table, contacts: &Contacts, index: usize) -> f64 {
+        coefficient(table, &contacts.as_slice()[index]) * self.normal[index]
     }
 
     /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.

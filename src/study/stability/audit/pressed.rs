@@ -15,8 +15,9 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Slips and speeds below this at a stretch's start count as none, m/s: what sticks there sticks on the way...
-const NO_SLIP: f64 = 1e-8;
+/// Slips and speeds below this at a stretch's start count as none, m/s: what sticks there sticks on the way. It is ten times
+/// what the states are right to...
+const NO_SLIP: f64 = 1e-9;
 
 /// ... unless it is faster than this at the end, m/s, where the course's interpolation may be off.
 const DEPARTED: f64 = 1e-5;

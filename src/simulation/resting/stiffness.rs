@@ -1,0 +1,97 @@
+//! Slips whose directions follow the forces far faster than anything else moves: steps of a resting contact are implicit in
+//! them.
+//!
+//! Friction of size `f` on a ball turns a slip `u` against the forces within `|u|/f`. Where it all but holds the ball, the
+//! slip stays small for long, down to a thousandth of what an explicit step would have to resolve.
+
+use glam::DVec2;
+
+use super::{Phase, Resting, STIFF, TimeScale, Trial};
+use crate::{
+    physics::{BallState, Friction},
+    simulation::extrapolation::{Mode, Stiff},
+    table::{BALLS, Table},
+};
+
+/// Steps are implicit in all directions that follow the forces at least so often in them, as soon as one is stiff.
+const SOFT: f64 = 0.25;
+
+/// By what angle, in radians, a friction is turned to see what that changes.
+const TURN: f64 = 1e-4;
+
+/// A force changes a slip on the cloth by so many times what it changes the ball's speed, and a slip of two balls, each of
+/// which gets it, by twice as much.
+const RESPONSE: f64 = 3.5;
+
+impl Resting {
+    /// The slips that are stiff in a step of some `length`, in rescaled time; none if an explicit step does.
+    pub(super) fn stiff(&self, table: &Table, from: &Trial, length: f64) -> Option<Stiff> {
+        let balls = &from.step.end.balls;
+        let length = length * self.time_rate(table.radius, balls);
+        let mut slips = Vec::new();
+        let mut stiffest = 0.0_f64;
+        self.slips(table.radius, balls, &from.forces, |place, index, slip, _| {
+            let place = place(index, 0.0);
+            let (friction, does) = match place {
+                TimeScale::Contact(index, _) => {
+                    let limit = from.forces.friction_limit(table, &self.contacts, index);
+                    (2.0 * RESPONSE * limit, self.set.contact[index])
+                }
+                TimeScale::Roll(ball, _) => (table.rolling_friction * table.gravity, self.set.roll[ball]),
+                TimeScale::Cloth(ball, _) => (RESPONSE * self.constants.sliding, self.set.cloth[ball]),
+                TimeScale::Time => return,
+            };
+            let slip = if let Friction::Slips(start) = does { slip + start } else { slip };
+            let turns = friction * length / slip.length();
+            if turns > SOFT && slip != DVec2::ZERO {
+                stiffest = stiffest.max(turns);
+                slips.push((place, slip));
+            }
+        });
+        let mode = |(place, slip)| self.mode(table, from, place, slip);
+        (stiffest > STIFF).then(|| Stiff(slips.into_iter().map(mode).collect()))
+    }
+
+    /// How the slip at one place turns, and what a turn of its friction changes.
+    fn mode(&self, table: &Table, from: &Trial, place: TimeScale, slip: DVec2) -> Mode {
+        let balls = &from.step.end.balls;
+        let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
+        let across = slip.perp().normalize();
+        let turned = |friction: &mut Friction| {
+            if let Friction::Slips(start) = friction {
+                *start += TURN * slip.perp();
+            }
+        };
+        let (mut set, mut row) = (self.set, still);
+        match place {
+            TimeScale::Cloth(ball, _) => {
+                turned(&mut set.cloth[ball]);
+                row.balls[ball].velocity = across;
+                row.balls[ball].spin = -table.radius * across.perp().extend(0.0);
+            }
+            TimeScale::Roll(ball, _) => {
+                turned(&mut set.roll[ball]);
+                row.balls[ball].velocity = across;
+            }
+            TimeScale::Contact(index, _) => {
+                turned(&mut set.contact[index]);
+                let contact = &self.contacts.as_slice()[index];
+                let t = contact.normal(balls).perp();
+                let spin = table.radius * (across.y * t).extend(-across.x);
+                (row.balls[contact.first].velocity, row.balls[contact.first].spin) = (across.x * t, spin);
+                if let Some(second) = contact.second {
+                    (row.balls[second].velocity, row.balls[second].spin) = (-across.x * t, spin);
+                }
+            }
+            TimeScale::Time => {}
+        }
+        let slope = |forces| self.slope(table.radius, balls, forces);
+        let (before, after) = (slope(&from.forces), slope(&self.forces_in(table, &set, balls, &from.forces)));
+        let mut column = still;
+        for ((column, before), after) in column.balls.iter_mut().zip(before.balls).zip(after.balls) {
+            column.velocity = (after.velocity - before.velocity) / (TURN * slip.length());
+            column.spin = (after.spin - before.spin) / (TURN * slip.length());
+        }
+        Mode { row, column }
+    }
+}
