@@ -43,7 +43,7 @@ fn a_seed_plays_the_same_again_and_is_compared_with_what_is_taught_or_the_coach(
     let folder = folder();
     let play = || {
         let args =
-            ["try", "mine", "--shot", "0,0.3,3,5,4", "--repeat", "5", "--skill", "club", "--seed", "3", "--json"];
+            ["try", "mine", "--shot", "0,0.3,3,30,4", "--repeat", "5", "--skill", "club", "--seed", "3", "--json"];
         drill(folder.path(), &[&args[..], &["--budget-ms", "1000"]].concat()).json()
     };
     let (once, again) = (play(), play());
