@@ -21,11 +21,12 @@ const BEHIND: char = '#';
 
 /// Draws the panel: how the object ball is met, or what is met before it.
 pub fn draw_sight(meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
-    let mut title = vec![Span::styled("Sight", ui.theme.text())];
     let is_low = area.height <= LOW + 1;
-    if let Some(Meeting::Ball(hit)) = meeting.filter(|_| is_low) {
-        title.push(Span::styled(format!(" {} %", percent(&hit)), ui.theme.accent()));
-    }
+    let title = match meeting.filter(|_| is_low) {
+        // A share by itself looks like a chance.
+        Some(Meeting::Ball(hit)) => Span::styled(format!("{} % full", percent(&hit)), ui.theme.accent()),
+        _ => Span::styled("Sight", ui.theme.text()),
+    };
     let inner = draw_title(title, area, ui);
     let Some(Meeting::Ball(hit)) = meeting else {
         return draw_words(&words_without_ball(meeting, ui.theme), inner, ui);
