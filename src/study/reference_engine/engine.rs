@@ -44,6 +44,9 @@ pub enum Unjudged {
     /// The table is not level.
     #[error("the table is not level, and rolling on a slope is not part of this engine")]
     Slope,
+    /// Balls can leave the cloth.
+    #[error("the table has a section [flight], and balls in the air are not part of this engine")]
+    Flight,
     /// The events do not end.
     #[error("more than {MOST_STEPS} steps from event to event")]
     Endless,

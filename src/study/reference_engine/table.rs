@@ -43,6 +43,8 @@ pub struct Numbers<R> {
     pub end_ratio: Option<R>,
     /// Whether the table is level.
     is_level: bool,
+    /// Whether its balls leave the cloth.
+    flies: bool,
 }
 
 impl<R: Real> Numbers<R> {
@@ -68,6 +70,7 @@ impl<R: Real> Numbers<R> {
             mass_ratio: mass / R::of(table.cue_mass),
             end_ratio: table.cue_end_mass.map(|end| mass / R::of(end)),
             is_level: table.tilt == glam::DVec2::ZERO,
+            flies: table.flight.is_some(),
         }
     }
 
@@ -78,6 +81,8 @@ impl<R: Real> Numbers<R> {
     pub fn judged(&self) -> Result<(), Unjudged> {
         if self.cushions.iter().any(|cushion| matches!(cushion.meeting, Meeting::Integrated)) {
             Err(Unjudged::IntegratedRail)
+        } else if self.flies {
+            Err(Unjudged::Flight)
         } else if self.is_level {
             Ok(())
         } else {

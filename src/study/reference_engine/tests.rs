@@ -216,4 +216,6 @@ fn what_the_engine_lacks_is_said_and_not_judged() {
     assert_eq!(Truth::of(&integrated, &shot).unwrap_err(), Unjudged::IntegratedRail);
     let tilted = Table { tilt: glam::DVec2::new(1e-3, 0.0), ..thesis() };
     assert_eq!(Truth::of(&tilted, &shot).unwrap_err(), Unjudged::Slope);
+    let flying = Table { flight: Some(crate::table::Flight::default()), ..thesis() };
+    assert_eq!(Truth::of(&flying, &shot).unwrap_err(), Unjudged::Flight);
 }
