@@ -266,4 +266,20 @@ mod tests {
         assert!(check("9,0 1,0 0,0.5").contains("9.0000"));
         assert!(check("0,0 0.05,0 0,0.5").contains("0.0500"));
     }
+
+    #[test]
+    fn what_left_the_table_comes_on_its_spot_or_on_that_of_the_ball_in_its_way() {
+        let (length, radius) = (2.84, 0.03075);
+        let [middle, near, far] = [0.0, -0.71, 0.71].map(|x| DVec2::new(x, 0.0));
+        let (away, outside) = (DVec2::new(1.0, 0.5), DVec2::new(1.6, 0.0));
+        let spotted = |balls, off| Layout::new(balls).with_spotted(length, radius, off).balls;
+        assert_eq!(spotted([away, outside, middle], [false, true, false]), [away, near, middle]);
+        assert_eq!(spotted([away, near, outside], [false, false, true]), [away, near, far]);
+        // The red ball's spot is masked by the cue ball of who has played: it comes on that ball's.
+        let masks = far + DVec2::new(0.05, 0.0);
+        assert_eq!(spotted([masks, away, outside], [false, false, true]), [masks, away, middle]);
+        assert_eq!(spotted([outside, outside, far], [true, true, false]), [middle, near, far]);
+        let all = spotted([outside; BALLS], [true; BALLS]);
+        assert_eq!(all, [middle, near, far]);
+    }
 }
