@@ -251,10 +251,9 @@ impl Why {
         words::capital(&format!("{}.", parts.join("; ")))
     }
 
-    /// The same in few words, for who plays with `cue_ball`, and how the next shot differs first.
+    /// The same in few words beside the chance that it is made, for who plays with `cue_ball`: how the next shot differs first.
     pub fn brief(&self, cue_ball: CueBall) -> String {
         let names = cue_ball.names();
-        let made = self.make_probability.map(|rate| format!("made {}", percent(rate)));
         let second = self.second.as_ref().map_or_else(
             || "nothing else makes the point".to_owned(),
             |second| {
@@ -262,7 +261,7 @@ impl Why {
                 format!("shot 2 ({}){made}", second.parts(names))
             },
         );
-        let parts: Vec<String> = made.into_iter().chain([second]).chain(self.facts(cue_ball)).collect();
+        let parts: Vec<String> = std::iter::once(second).chain(self.facts(cue_ball)).collect();
         format!("{}.", parts.join("; "))
     }
 

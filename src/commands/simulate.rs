@@ -15,7 +15,7 @@ use crate::{
     game::Rule,
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, has_room, least_elevation},
     printing,
-    simulation::{Event, EventKind, Rail, Recording},
+    simulation::{Event, Rail, Recording},
     study::{Stepped, Steps},
     table::{BALL_NAMES, CueBall, Layout, Table},
 };
@@ -148,7 +148,7 @@ impl PlacedEvent {
         let (first, second) = event.kind.balls();
         let heights: Vec<f64> =
             std::iter::once(first).chain(second).map(|ball| recording.height(ball, event.time)).collect();
-        let jump = recording.jump_of(&event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
+        let jump = recording.jump_begun_by(&event);
         Self {
             event,
             at: event.kind.rail().map(|_| recording.state(first, event.time).position),
@@ -345,7 +345,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
             cue_ball.position.y,
             cue_ball.velocity.length(),
         )?;
-        match recording.jump_of(event).filter(|_| matches!(event.kind, EventKind::Jumps(_))) {
+        match recording.jump_begun_by(event) {
             Some(jump) => writeln!(out, ", {}", jump_words(&jump, length))?,
             None => writeln!(out)?,
         }

@@ -107,16 +107,17 @@ impl Recording {
         Jump { ball, start, end, height, distance: distance.unwrap_or_default() }
     }
 
+    /// The flight that an event begins; `None` of another.
+    pub fn jump_begun_by(&self, event: &Event) -> Option<Jump> {
+        matches!(event.kind, EventKind::Jumps(_)).then(|| self.jump_of(event))?
+    }
+
     /// The flight that an event begins or ends; `None` of another.
-    pub fn jump_of(&self, event: &Event) -> Option<Jump> {
-        let jump = |ball: usize, is_it: &dyn Fn(&Jump) -> bool| {
-            self.jumps().into_iter().find(|jump| jump.ball == ball && is_it(jump))
-        };
-        match event.kind {
-            EventKind::Jumps(ball) => jump(ball, &|jump| jump.start == event.time),
-            EventKind::Lands(ball) => jump(ball, &|jump| jump.end == event.time),
-            _ => None,
-        }
+    fn jump_of(&self, event: &Event) -> Option<Jump> {
+        let (EventKind::Jumps(ball) | EventKind::Lands(ball)) = event.kind else { return None };
+        let begun = |other: &Event| other.kind == EventKind::Jumps(ball) && other.time <= event.time;
+        let from = self.events().iter().rposition(begun)?;
+        Some(self.jump(ball, self.events()[from].time, &self.events()[from..]))
     }
 
     /// Whether an event is told to who does not ask for all of them: contacts, flights of some height, and balls that leave

@@ -37,7 +37,7 @@ const TOLD: f64 = 0.1;
 /// How near the least elevation a cue counts as level as it can be, rad: half a degree.
 const LEVEL: f64 = 0.5_f64.to_radians();
 
-/// Elevation below which such a cue is called level, degrees: the rail behind the ball alone asks for two or three.
+/// Elevation from which such a cue is no longer called level, degrees: the rail behind the ball alone asks for two or three.
 const RAISED: f64 = 5.0;
 
 /// What side does at the first cushion.
@@ -138,6 +138,6 @@ impl ShotWords {
 
     /// Whether players call the cue level.
     pub fn has_level_cue(&self) -> bool {
-        self.elevation_deg < 0.5 || self.is_level && self.elevation_deg < RAISED
+        self.elevation_deg < LEVEL.to_degrees() || self.is_level && self.elevation_deg < RAISED
     }
 }

@@ -331,6 +331,7 @@ mod tests {
     /// Why a shot leads, and which system describes it, is worked out after the search: in less time than that of the search, which
     /// a player has set. Counted in shots, since machines differ.
     #[test]
+    #[ignore = "compares times: cargo test --profile quick --lib the_reasons -- --ignored"]
     fn the_reasons_take_no_longer_than_a_short_search() {
         let table = Table::default();
         let layout = Layout::opening(&table);

@@ -163,7 +163,7 @@ pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthU
         other => event_words(other, cue_ball),
     };
     let jump = |event: &Event| {
-        let jump = recording.jump_of(event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
+        let jump = recording.jump_begun_by(event);
         jump.map_or_else(String::new, |jump| format!(", {}", jump_words(&jump, unit)))
     };
     let line = |event: &Event| format!("{} seconds: {}{}.", fixed(event.time, 2), words(event.kind), jump(event));

@@ -1,4 +1,5 @@
-//! A recommended shot as the screen needs it: its recording, the dots of its paths, and how it meets the first ball.
+//! A recommended shot as the screen needs it: its recording, the dots of its paths, what a player calls it, and how it meets the
+//! first ball.
 
 pub mod aiming;
 pub mod film;
@@ -9,6 +10,8 @@ pub mod profile;
 pub mod spin;
 pub mod stroke;
 pub mod what_if;
+
+use std::sync::OnceLock;
 
 use glam::DVec2;
 
@@ -98,6 +101,8 @@ pub struct Shot {
     pub words: ShotWords,
     /// The sort of shot that it is; `None` where no ball is met.
     pub pattern: Option<&'static Pattern>,
+    /// Its jump from the side, once somebody has looked.
+    profile: OnceLock<Option<Profile>>,
 }
 
 impl Shot {
@@ -129,8 +134,14 @@ impl Shot {
             contacts: (1..BALLS).filter_map(|ball| first_contact(&recording, ball)).collect(),
             words: ShotWords::of_technique(table, &layout, &cue, &technique),
             pattern: Pattern::of(&technique),
+            profile: OnceLock::new(),
             recording,
         }
+    }
+
+    /// Its jump on `table`, as one who looks from the side sees it; `None` where nothing jumps.
+    pub fn profile(&self, table: &Table) -> Option<&Profile> {
+        self.profile.get_or_init(|| Profile::of(table, &self.recording)).as_ref()
     }
 
     /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.

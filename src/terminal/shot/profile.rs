@@ -122,7 +122,7 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
 
 /// The noses that the ball meets or flies over.
 fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<Passed> {
-    let top = table.rail.height.unwrap_or(table.radius);
+    let top = |rail: Rail| table.rail.own(rail).height.or(table.rail.height).unwrap_or(table.radius);
     recording
         .events()
         .iter()
@@ -145,7 +145,7 @@ fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
         .filter_map(|(rail, time)| {
             // The last look may be rounded to before the end.
             let point = points.iter().find(|point| point.time >= time).or(points.last())?;
-            Some(Passed { what: Obstacle::Nose(rail), way: point.way, top })
+            Some(Passed { what: Obstacle::Nose(rail), way: point.way, top: top(rail) })
         })
         .collect()
 }

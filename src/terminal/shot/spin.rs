@@ -27,9 +27,6 @@ pub struct Spin {
 }
 
 impl Spin {
-    /// The word of a ball that has left the table.
-    pub const OFF: &'static str = "off";
-
     /// The spin of a ball of `radius`, m, that moves in the way `motion`.
     pub fn of(state: &BallState, motion: Motion, radius: f64) -> Self {
         let speed = state.velocity.length();
@@ -50,7 +47,7 @@ impl Spin {
             Motion::Rolling => "rolls",
             Motion::Resting => "touches",
             Motion::Flying => "flies",
-            Motion::OffTable => Self::OFF,
+            Motion::OffTable => "off",
             Motion::Stationary if speed == 0.0 && side.abs() > STILL => "spins",
             Motion::Stationary => "",
         };

@@ -7,7 +7,7 @@ use crate::{
         jump_words,
         words::{LengthUnit, height_words},
     },
-    simulation::{Event, EventKind, Recording},
+    simulation::{Event, Recording},
     terminal::{
         shot::playback::passed,
         ui::{Ui, draw_title, write_right},
@@ -38,7 +38,7 @@ impl ListedEvents<'_> {
     /// What happens, in no more than `room` columns if there are words so short; of a jump also how high and how far.
     fn words(&self, event: Event, room: usize, ui: &Ui) -> String {
         let words = event_words(event.kind, ui.theme.cue_ball);
-        let jump = self.recording.jump_of(&event).filter(|_| matches!(event.kind, EventKind::Jumps(_)));
+        let jump = self.recording.jump_begun_by(&event);
         let Some(jump) = jump else { return words };
         let height = height_words(jump.height, self.unit);
         let name = ui.theme.names()[jump.ball];

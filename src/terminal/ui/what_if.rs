@@ -7,7 +7,7 @@ use crate::{
     table::CueBall,
     terminal::{
         shot::WhatIf,
-        ui::{Ui, draw_title, write_paragraphs},
+        ui::{Ui, draw_title, spell, write_paragraphs},
         words::percent,
     },
 };
@@ -40,7 +40,7 @@ pub fn draw_what_if(what_if: &WhatIf, beside: &Beside, area: Rect, ui: &mut Ui) 
     title.extend(made.map(|made| Span::styled(format!(" {} %", percent(made)), ui.theme.text())));
     let inner = draw_title(title, area, ui);
     let outcome_style = if what_if.is_made() { ui.theme.good() } else { ui.theme.warning() };
-    let plain = |words: String| if ui.caps.unicode { words } else { words.replace('\u{b0}', " deg") };
+    let plain = |words: String| spell(&words, ui.caps);
     let paragraphs = [
         (plain(what_if.outcome(cue_ball, units)), outcome_style),
         (plain(what_if.difference(teacher, cue_ball, units)), ui.theme.text()),

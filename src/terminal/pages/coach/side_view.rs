@@ -17,9 +17,8 @@ pub(super) enum Seen {
 
 impl CoachPage {
     /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
-    pub fn profile(&self) -> Option<Profile> {
-        let shot = self.shot().filter(|_| self.seen == Seen::FromTheSide)?;
-        Profile::of(self.table(), &shot.recording)
+    pub fn profile(&self) -> Option<&Profile> {
+        self.shot().filter(|_| self.seen == Seen::FromTheSide)?.profile(self.table())
     }
 
     /// Shows the jump from the side, or no longer; where nothing jumps that high it says so.

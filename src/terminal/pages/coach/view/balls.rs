@@ -7,6 +7,7 @@ use ratatui::{
 };
 
 use crate::{
+    physics::Motion,
     table::BALLS,
     terminal::{
         Mode,
@@ -62,15 +63,16 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
             let time = coach.playback.readout;
             let state = shot.recording.state(ball, time);
             let speed = state.velocity.length();
-            let spin = Spin::of(&state, shot.recording.motion(ball, time), coach.table().radius);
+            let motion = shot.recording.motion(ball, time);
+            if motion == Motion::OffTable {
+                write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, "off the table", style);
+                return;
+            }
+            let spin = Spin::of(&state, motion, coach.table().radius);
             (state.position, Some(speed), spin.word)
         }
         None => (coach.layout().balls[ball], None, ""),
     };
-    if motion == Spin::OFF {
-        write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, "off the table", style);
-        return;
-    }
     write_right(ui.buffer, area.x, area.x + X_END, area.y, &millimetres(place.x), style);
     write_right(ui.buffer, area.x, area.x + Y_END, area.y, &millimetres(place.y), style);
     if let Some(speed) = speed {

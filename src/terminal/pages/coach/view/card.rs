@@ -6,10 +6,16 @@ use ratatui::{
 };
 
 use crate::{
-    coach::words::{English, TipUnit, pace_word, short},
+    coach::{
+        Mark,
+        words::{English, TIP, TipUnit, pace_word, short},
+    },
     terminal::{
         Proposal,
-        pages::coach::{CoachPage, view::shot::WIDE},
+        pages::coach::{
+            CoachPage,
+            view::{shot::WIDE, told::place_along},
+        },
         ui::{Ui, draw_title, spell},
         words::{chance_words, fixed, percent, rail_word},
     },
@@ -58,10 +64,12 @@ type Row = (&'static str, String);
 /// Fourteen columns at most, the more needful rows first.
 fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let words = &proposal.shot.words;
+    // The unit has no room.
+    let bare = |diamonds: f64, decimals: usize| place_along(coach, diamonds, decimals).replace(" mm", "");
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
         // The side of the ball has no row then; the sentence has it.
-        format!("{} {} first", rail_word(cushion.rail), short(cushion.diamond, 1))
+        format!("{} {} first", rail_word(cushion.rail), bare(cushion.diamond, 1))
     }));
     match words.first {
         None => rows.push("no ball".to_owned()),
@@ -81,7 +89,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
         degrees => format!("raised {degrees}\u{b0}"),
     });
-    let mark = |mark: crate::coach::Mark| format!("{} {}", rail_word(mark.rail), fixed(mark.diamond, 2));
+    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), bare(mark.diamond, 2));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
     rows.into_iter().map(|row| ("", row)).collect()
 }
@@ -96,7 +104,9 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         },
     );
     let hit = match words.before.first() {
-        Some(cushion) => format!("{} {} first, {hit}", rail_word(cushion.rail), short(cushion.diamond, 1)),
+        Some(cushion) => {
+            format!("{} {} first, {hit}", rail_word(cushion.rail), place_along(coach, cushion.diamond, 1))
+        }
         None => hit,
     };
     let english = match words.english {
@@ -109,7 +119,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
         degrees => format!("raised {degrees}\u{b0}"),
     };
-    let mark = |mark: crate::coach::Mark| format!("{} rail {}", rail_word(mark.rail), fixed(mark.diamond, 2));
+    let mark = |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, 2));
     vec![
         ("hit", hit),
         ("side", side_words(proposal, coach) + english),
@@ -123,26 +133,26 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
 
 fn side_words(proposal: &Proposal, coach: &CoachPage) -> String {
     let tips = proposal.shot.words.tips_right;
-    offset(tips, proposal.shot.cue.a, coach)
+    offset(tips, coach)
         .map_or_else(|| "no side".to_owned(), |text| format!("{text} {}", if tips > 0.0 { "right" } else { "left" }))
 }
 
 fn height_words(proposal: &Proposal, coach: &CoachPage) -> String {
     let tips = proposal.shot.words.tips_above;
-    offset(tips, proposal.shot.cue.b, coach).map_or_else(
+    offset(tips, coach).map_or_else(
         || "centre height".to_owned(),
         |text| format!("{text} {}", if tips > 0.0 { "above" } else { "below" }),
     )
 }
 
-/// How far the tip is from the middle, to half a tip or half a millimetre; `None` where that is not at all. `radii` is the same
-/// in ball radii.
-fn offset(tips: f64, radii: f64, coach: &CoachPage) -> Option<String> {
-    let (value, unit) = match coach.units.tip {
-        TipUnit::Tips => (tips.abs(), "tip"),
-        TipUnit::Mm => (1e3 * coach.table().radius * radii.abs(), "mm"),
+/// How far the tip is from the middle, to half a tip or a tenth of a millimetre, as in the sentence; `None` where that is not at
+/// all.
+fn offset(tips: f64, coach: &CoachPage) -> Option<String> {
+    let (value, parts, unit) = match coach.units.tip {
+        TipUnit::Tips => (tips.abs(), 2.0, "tip"),
+        TipUnit::Mm => (1e3 * coach.table().radius * TIP * tips.abs(), 10.0, "mm"),
     };
-    let value = 0.5 * (2.0 * value).round();
+    let value = (parts * value).round() / parts;
     let plural = if unit == "tip" && value > 1.0 { "s" } else { "" };
     (value > 0.0).then(|| format!("{} {unit}{plural}", short(value, 1)))
 }

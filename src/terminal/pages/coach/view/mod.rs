@@ -81,12 +81,12 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
     };
     draw_table(&view, panes.table, ui);
     if let Some(lesson) = lesson {
-        draw_numbers(lesson, coach.table(), &table_mapping(coach, area.screen), ui);
+        draw_numbers(lesson, coach.table(), &Mapping::fit(coach.table(), panes.table), ui);
     }
     draw_panels(coach, &panes, ui);
     if let Some(profile) = profile {
         let time = coach.watched().map(|_| coach.playback.time);
-        draw_profile(&profile, time, coach.units.length, side, ui);
+        draw_profile(profile, time, coach.units.length, side, ui);
     }
     let message = coach.message.clone();
     if let Some((question, field)) = coach.asked() {
@@ -201,7 +201,10 @@ pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target
     if mapping.bed.contains(at) {
         return Some(Target::Table(mapping));
     }
-    let (panes, _) = panes(coach, area);
+    let (panes, side) = panes(coach, area);
+    if side.contains(at) {
+        return None;
+    }
     let (_, panel) = views(coach.view, &panes).find(|(view, _)| *view == View::Chances)?;
     let advised = coach.shown().filter(|_| panel.contains(at) && coach.what_if().is_none())?;
     choice_at(advised, panel, at.y).map(Target::Shot)
@@ -238,7 +241,8 @@ fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
         });
         return Message::plain(format!("{} {words}", pictures[picture % pictures.len()]));
     }
-    if let Some(verdict) = coach.verdict() {
+    // Beside a stroke of one's own it is told already.
+    if let Some(verdict) = coach.verdict().filter(|_| coach.what_if().is_none()) {
         let words = verdict.words(coach.cue_ball(), coach.units.length);
         return if verdict.is_made() { Message::good(words) } else { Message::poor(words) };
     }
@@ -246,7 +250,7 @@ fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
         Some(shot) if coach.playback.time == 0.0 => aim_words(coach, shot, room, ui),
         Some(shot) => {
             let (events, time) = (coach.events(shot), coach.playback.readout);
-            events.get(passed(&events, time)).map_or("no contact comes any more".to_owned(), |next| {
+            events.get(passed(&events, time)).map_or("nothing more of it is listed".to_owned(), |next| {
                 format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
             })
         }

@@ -82,7 +82,7 @@ impl Panes {
     /// from the table, else in the place of the view's panel and the shot's.
     pub fn with_side_view(self) -> (Self, Rect) {
         let Rect { x, y, width, height } = self.table;
-        if self.info.y == self.shot.y {
+        if !self.is_beside() {
             return (self, self.info.union(self.shot));
         }
         let bottom = self.info.y.max(y + SIDE_ROWS).min(y + height.max(SIDE_ROWS));

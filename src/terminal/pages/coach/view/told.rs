@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::{Mark, words::PlaceUnit},
+    coach::words::PlaceUnit,
     terminal::{
         AdviceState, Proposal,
         pages::coach::{
@@ -62,16 +62,21 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
     [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }
 
+/// A place along a cushion in the player's unit, of diamonds with so many decimals.
+pub fn place_along(coach: &CoachPage, diamonds: f64, decimals: usize) -> String {
+    match coach.units.place {
+        PlaceUnit::Diamonds => fixed(diamonds, decimals),
+        PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
+    }
+}
+
 /// The line of aim in few words, and in fewer: where the cue comes from and where it points, as diamonds or millimetres along
 /// the rails.
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
-    let (is_mm, diamond) = (coach.units.place == PlaceUnit::Mm, coach.table().diamond());
-    let place = |mark: Mark| {
-        if is_mm { format!("{} mm", fixed(1e3 * diamond * mark.diamond, 0)) } else { fixed(mark.diamond, 2) }
-    };
-    let [behind, ahead] = [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place(mark)));
-    let unit = if is_mm { "" } else { "diamond " };
+    let [behind, ahead] =
+        [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place_along(coach, mark.diamond, 2)));
+    let unit = if coach.units.place == PlaceUnit::Mm { "" } else { "diamond " };
     [
         format!("aim from {unit}{} {} to {} {}", behind.1, behind.0, ahead.1, ahead.0),
         format!("aim {} {} {} {} {}", behind.0, behind.1, ui.caps.pick("→", ">"), ahead.0, ahead.1),
