@@ -21,6 +21,11 @@ impl Failure {
         Self { message: message.to_string(), code: 2 }
     }
 
+    /// What was begun can go on by the same command: exit code 75, as schedulers know it (`EX_TEMPFAIL` of sysexits.h).
+    pub fn unfinished(message: impl Display) -> Self {
+        Self { message: message.to_string(), code: 75 }
+    }
+
     /// The process' exit code.
     pub const fn code(&self) -> u8 {
         self.code

@@ -9,7 +9,7 @@ use crate::{
     game::Reward,
     learning::{
         evaluation::Score,
-        network::weights::{Reader, WeightsError, Writer},
+        nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
     table::{Layout, Table},

@@ -1,7 +1,7 @@
 //! Agents that learn to play: what they see, what they do, and how they get better.
 //!
 //! [`ddpg`] is the agent that coaches, with its way of seeing the table; [`thesis`] holds the thesis' own three; both learn
-//! with what [`network`] has. A [`run`] on disk drives any [`learner`] of the [`agents`]. What comes out is a [`policy`]; how
+//! with what [`nn`] has. A [`run`] on disk drives any [`learner`] of the [`agents`]. What comes out is a [`policy`]; how
 //! good it is [`evaluation`] tells.
 
 pub mod agents;
@@ -9,7 +9,7 @@ mod calendar;
 pub mod ddpg;
 pub mod evaluation;
 pub mod learner;
-pub mod network;
+pub mod nn;
 mod normal;
 pub mod run;
 pub mod settings;

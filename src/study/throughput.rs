@@ -2,6 +2,7 @@
 
 use std::{
     f64::consts::PI,
+    sync::Arc,
     thread,
     time::{Duration, Instant},
 };
@@ -14,9 +15,17 @@ use super::clock::timed;
 use crate::{
     coach::{Coach, Request},
     game::Reward,
-    learning::thesis::{
-        actor_critic::ActorCritic,
-        update::{Batch, Rates, Sizes},
+    learning::{
+        ddpg::{
+            action::Action, agent::Ddpg, hyperparameters::Hyperparameters, observation::Observation,
+            observation_batch::ObservationBatch,
+        },
+        nn::mlp::Operations,
+        thesis::{
+            actor_critic::{ActorCritic, Layers, Rates},
+            batch::Batch,
+            replay::StoredTransition,
+        },
     },
     physics::CueInputs,
     simulation::Recording,
@@ -45,9 +54,9 @@ pub enum ThroughputError {
 pub struct Figure {
     /// What is counted.
     pub what: &'static str,
-    /// Layers and batch, where networks learn.
+    /// Layers, batch and operations, where networks learn.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sizes: Option<&'static str>,
+    pub sizes: Option<String>,
     /// The table.
     pub table: String,
     /// Threads that worked at it.
@@ -86,7 +95,7 @@ impl Machine {
 /// Where the networks cannot be used.
 pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figure>, ThroughputError> {
     let mut figures = Vec::new();
-    let mut note = |what, sizes, table: &Table, threads, per_second| {
+    let mut note = |what, sizes: Option<String>, table: &Table, threads, per_second| {
         let figure = Figure { what, sizes, table: table.name.clone(), threads, per_second };
         tell(&figure);
         figures.push(figure);
@@ -108,8 +117,13 @@ pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figu
     note("recommendations", None, coach.table(), 1, rate(time, &layouts, advise));
     let decide = |layout: &Layout| coach.policy_shot(layout, request.rule);
     note("network decisions", None, coach.table(), 1, rate(time, &layouts, decide));
-    for (sizes, hidden, batch, goes_on) in UPDATES {
-        note("network updates", Some(sizes), coach.table(), 1, updates(time, hidden, batch, goes_on)?);
+    for (operations, how) in OPERATIONS {
+        for update in THESIS_UPDATES {
+            let what = format!("{}: {how}", update.0);
+            note("network updates", Some(what), coach.table(), 1, thesis_updates(time, update, operations)?);
+        }
+        let per_second = coach_updates(time, coach.table(), operations)?;
+        note("network updates", Some(format!("the networks that coach: {how}")), coach.table(), 1, per_second);
     }
     Ok(figures)
 }
@@ -150,43 +164,69 @@ fn rate_on<T: Sync, R>(threads: usize, time: Duration, items: &[T], work: impl F
     })
 }
 
-/// Updates that are measured: their sizes in words, the hidden layers of actor and critic, the batch, and whether the
-/// episodes in it go on, so that the target networks are asked as well. The first batch is that of thesis Table 4, with
-/// the layers of the example to which it refers (its reference 20).
-type Measured = (&'static str, [&'static [usize]; 2], usize, bool);
-const UPDATES: [Measured; 4] = [
+/// How the passes of networks are computed, and how that is told.
+const OPERATIONS: [(Operations, &str); 2] =
+    [(Operations::Fused, "a network as one operation"), (Operations::Plain, "candle's own layers")];
+
+/// The networks of thesis Table 4 and of the example to which it refers (its reference 20): hidden layers of actor and critic,
+/// the batch, and whether the episodes in it go on, so that the target networks are asked as well.
+type ThesisUpdate = (&'static str, [&'static [usize]; 2], usize, bool);
+const THESIS_UPDATES: [ThesisUpdate; 3] = [
     ("actor 16-16-16, critic 32-32-32, batch 32", [&[16; 3], &[32; 3]], 32, true),
     ("the same, one shot an episode", [&[16; 3], &[32; 3]], 32, false),
     ("actor and critic 256-256, batch 256", [&[256; 2], &[256; 2]], 256, true),
-    ("the same, one shot an episode", [&[256; 2], &[256; 2]], 256, false),
 ];
 
-/// Updates of critic, actor and their averaged copies in a second of the thread's own time (on Linux; elsewhere the wall's),
-/// from a batch that is at hand.
-fn updates(
-    time: Duration,
-    [actor, critic]: [&[usize]; 2],
-    batch: usize,
-    goes_on: bool,
-) -> Result<f64, candle_core::Error> {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
-    let sizes = Sizes::new(6, 2, actor, critic);
-    // Slow enough to stay finite, for the same batch again and again is nothing to learn from.
-    let rates = Rates { learning_rate: 1e-6, discount: 0.99, keep: 0.999, gradient_clip: 1.0 };
-    let mut agent = ActorCritic::random(sizes.clone(), rates, batch, &mut rng)?;
-    let mut batch = Batch::new(&sizes, batch);
-    for values in [&mut batch.inputs, &mut batch.next_inputs, &mut batch.rewards] {
-        values.fill_with(|| rng.random_range(-1.0..1.0));
-    }
-    batch.goes_on.fill(f32::from(u8::from(goes_on)));
+/// Runs `update` again and again; how often a second of the thread's own time (on Linux; elsewhere the wall's).
+fn updates_a_second<T>(time: Duration, mut update: impl FnMut() -> candle_core::Result<T>) -> candle_core::Result<f64> {
     let start = Instant::now();
     let mut done = 0_u64;
     let (worked, seconds) = timed(|| {
         while done == 0 || start.elapsed() < time {
-            agent.update(&mut batch)?;
+            update()?;
             done += 1;
         }
         Ok(())
     });
     worked.map(|()| done as f64 / seconds)
+}
+
+/// Updates of the thesis' critic, actor and their averaged copies, from a batch that is at hand.
+fn thesis_updates(
+    time: Duration,
+    (_, [actor, critic], rows, goes_on): ThesisUpdate,
+    operations: Operations,
+) -> candle_core::Result<f64> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
+    let layers = Layers { actor: actor.to_vec(), critic: critic.to_vec() };
+    // Slow enough to stay finite, for the same batch again and again is nothing to learn from.
+    let rates = Rates { learning_rate: 1e-6, keep: 0.999, gradient_clip: 1.0 };
+    let mut agent = ActorCritic::random(&layers, rates, &mut rng)?.with(operations);
+    let mut number = || rng.random_range(-1.0..1.0);
+    let drawn: Vec<StoredTransition> = (0..rows)
+        .map(|_| StoredTransition {
+            state: std::array::from_fn(|_| number()),
+            action: std::array::from_fn(|_| number()),
+            index: 0,
+            reward: number(),
+            goes_on,
+            next: std::array::from_fn(|_| number()),
+        })
+        .collect();
+    let batch = Batch::new(&drawn.iter().collect::<Vec<_>>(), 0.99)?;
+    updates_a_second(time, || agent.update(&batch))
+}
+
+/// Updates of the networks that coach, with the settings that trained them, from a batch that is at hand.
+fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candle_core::Result<f64> {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
+    let settings =
+        Hyperparameters { critic_learning_rate: 1e-6, actor_learning_rate: 1e-6, ..Hyperparameters::default() };
+    let (rows, space) = (settings.batch, settings.actions);
+    let observations = (0..rows).map(|row| Observation::new(&Layout::random(table, &mut rng), row % 4)).collect();
+    let observed = ObservationBatch::new(&Arc::new(table.clone()), space, observations)?;
+    let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
+    let successes: Vec<f32> = (0..rows).map(|_| f32::from(u8::from(rng.random_bool(0.1)))).collect();
+    let mut agent = Ddpg::new(settings, &mut rng)?.with(operations);
+    updates_a_second(time, || agent.update(&observed, &actions, &successes, 1.0))
 }

@@ -4,7 +4,7 @@ use carom::{
     game::Reward,
     learning::{
         learner::{Agent as Line, Learner, TrainingPlan},
-        network::weights::{Reader, Writer},
+        nn::weights::{Reader, Writer},
         thesis::{
             agent::{Agent, Progress},
             ddpg::{PlainDdpg, PlainDdpgSettings},

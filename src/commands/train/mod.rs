@@ -30,7 +30,7 @@ use crate::{
         agents::AGENTS,
         evaluation::Score,
         learner::StartError,
-        run::{Ending, Limits, Run, RunError, discard, seeds::is_group},
+        run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
     },
     printing,
 };
@@ -73,6 +73,10 @@ pub struct Args {
     /// The run's folder; by default a new one among the user's runs.
     #[arg(long, value_name = "DIR")]
     run: Option<PathBuf>,
+    /// Go on with the run in the folder of --run where it holds one, and start it where it holds none: the same command
+    /// again and again brings a run to its end.
+    #[arg(long, requires = "run")]
+    r#continue: bool,
     /// Train so many seeds, from --seed on, each in a folder of the run's folder, and write the spread to seeds.csv.
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1000))]
     seeds: Option<u64>,
@@ -80,7 +84,7 @@ pub struct Args {
     /// with.
     #[arg(long, value_name = "RUN", conflicts_with_all = [
         "agent", "reward", "table", "seed", "steps", "config", "set", "from", "evaluate_every", "evaluation_layouts", "run",
-        "seeds",
+        "seeds", "continue",
     ])]
     resume: Option<PathBuf>,
     /// Seeds that are trained at the same time, a thread each.
@@ -95,6 +99,10 @@ pub struct Args {
     /// Print the metrics, or the list, as JSON Lines on standard output.
     #[arg(long)]
     json: bool,
+    /// Print nothing on standard output but, at the end, what the run is to make large: the mean reward on the held-out
+    /// layouts, over the seeds where there are several.
+    #[arg(long, conflicts_with_all = ["json", "list"])]
+    objective: bool,
 }
 
 fn agents() -> String {
@@ -112,6 +120,7 @@ struct TrainOptions<'a> {
     limit: Option<Duration>,
     stop: &'a (dyn Fn() -> bool + Sync),
     json: bool,
+    objective: bool,
 }
 
 impl TrainOptions<'_> {
@@ -135,11 +144,18 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // A terminal that is hung up, as when an ssh connection breaks, is no reason to stop: the run can be watched and
     // stopped from the next one.
     flag::register(SIGHUP, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
-    let options = TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json };
+    let options = TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
     if let Some(name) = &args.resume {
         return resume(&run_named(name), args.jobs, &options);
     }
     let read = spec::read(args)?;
+    if args.r#continue && is_group(&read.folder) {
+        return multi_seed::resume(&read.folder, args.jobs, &options);
+    }
+    if args.r#continue && holds_checkpoints(&read.folder) {
+        spec::same_order(&read).map_err(Failure::wrong_input)?;
+        return resume(&read.folder, args.jobs, &options);
+    }
     if let Some(seeds) = args.seeds {
         return multi_seed::start(read, seeds, args.jobs, &options);
     }
@@ -177,20 +193,23 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let ending = run.train(&options.limits(options.limit), &mut progress);
     progress.close();
     match ending.map_err(failure)? {
-        Ending::Finished(score) => say_result(&run, score, options.json)?,
+        Ending::Finished(score) => say_result(&run, score, options)?,
         Ending::Stopped(score) => {
-            say_result(&run, score, options.json)?;
-            tell(how_to_go_on(run.folder()));
+            say_result(&run, score, options)?;
+            return Err(how_to_go_on(run.folder()));
         }
         Ending::Abandoned => abandon(run).map_err(failure)?,
     }
     Ok(())
 }
 
-fn say_result(run: &Run, score: Score, json: bool) -> io::Result<()> {
+fn say_result(run: &Run, score: Score, options: &TrainOptions<'_>) -> io::Result<()> {
+    if options.objective {
+        return writeln!(printing::stdout(), "{}", score.mean_reward);
+    }
     let learner = run.learner();
     let result = if run.policy_path().exists() { run.policy_path() } else { run.folder().to_owned() };
-    if json {
+    if options.json {
         return Ok(());
     }
     writeln!(
@@ -213,8 +232,8 @@ fn abandon(run: Run) -> Result<(), RunError> {
     Ok(())
 }
 
-fn how_to_go_on(folder: &Path) -> String {
-    format!("stopped early; go on with: carom train --resume \"{}\"", folder.display())
+fn how_to_go_on(folder: &Path) -> Failure {
+    Failure::unfinished(format_args!("stopped early; go on with: carom train --resume \"{}\"", folder.display()))
 }
 
 fn failure(error: RunError) -> Failure {

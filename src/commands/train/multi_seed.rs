@@ -50,7 +50,9 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
         workers.into_iter().map(std::thread::ScopedJoinHandle::join).collect()
     });
     let spread = group.write_spread().map_err(failure)?;
-    if let Some(spread) = spread.filter(|_| !options.json) {
+    if let Some(spread) = spread.filter(|_| options.objective) {
+        writeln!(printing::stdout(), "{}", spread.mean)?;
+    } else if let Some(spread) = spread.filter(|_| !options.json) {
         let sd = spread.sd.map(|sd| format!(", standard deviation {sd:.4}")).unwrap_or_default();
         writeln!(
             printing::stdout(),
@@ -76,10 +78,7 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
     if !errors.is_empty() {
         return Err(Failure::failed(errors.join("; ")));
     }
-    if !finished {
-        tell(how_to_go_on(group.folder()));
-    }
-    Ok(())
+    if finished { Ok(()) } else { Err(how_to_go_on(group.folder())) }
 }
 
 /// Trains the run with this seed and returns whether it is finished.

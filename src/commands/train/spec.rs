@@ -9,7 +9,7 @@ use crate::{
     commands::{Failure, input::table_named, lookup::run_named},
     learning::{
         learner::TrainingPlan,
-        run::{Schedule, origin::Weights, run_name, seeds::TrainingSpec},
+        run::{Config, Schedule, origin::Weights, run_name, seeds::TrainingSpec},
         timestamp,
     },
     storage::{self, Places},
@@ -47,6 +47,27 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
     let spec = TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table };
     Ok(Read { spec, weights, folder })
+}
+
+/// Whether the run in the folder was started by such an order; else a sentence that names the difference.
+pub fn same_order(read: &Read) -> Result<(), String> {
+    let Ok(config) = Config::read(&read.folder) else { return Ok(()) };
+    let TrainingSpec { agent, plan, table, .. } = &read.spec;
+    let pairs = [
+        ("agent", config.agent, agent.clone()),
+        ("reward", config.plan.reward.to_string(), plan.reward.to_string()),
+        ("seed", config.plan.seed.to_string(), plan.seed.to_string()),
+        ("steps", config.plan.shots.to_string(), plan.shots.to_string()),
+        ("table", config.table.name, table.name.clone()),
+    ];
+    match pairs.into_iter().find(|(_, theirs, ours)| theirs != ours) {
+        None => Ok(()),
+        Some((what, theirs, ours)) => Err(format!(
+            "the run in {} has {what} {theirs}, not {ours}: --continue goes on with the run of the same order; choose another \
+             folder by --run",
+            read.folder.display()
+        )),
+    }
 }
 
 /// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them.

@@ -5,7 +5,7 @@
 //! that play, are evaluated and are shipped.
 
 use candle_core::{Device, Result, Tensor, bail};
-use candle_nn::ops::sigmoid;
+use candle_nn::{Module, Optimizer, ops::sigmoid};
 use rand::Rng;
 
 use super::{
@@ -14,9 +14,9 @@ use super::{
     networks::Networks,
     observation_batch::{ObservationBatch, action_rows},
 };
-use crate::learning::network::{
+use crate::learning::nn::{
     adam::{Adam, soft_update},
-    pass::Wanted,
+    mlp::Operations,
 };
 
 /// What an update reports.
@@ -44,14 +44,26 @@ impl Ddpg {
     /// # Errors
     /// Whatever candle reports.
     pub fn new(hyper: Hyperparameters, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
-        let online = Networks::random(&hyper, rng)?;
+        Self::starting_from(Networks::random(&hyper, rng)?, hyper)
+    }
+
+    /// An agent that begins to learn with these networks.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn starting_from(online: Networks, hyper: Hyperparameters) -> Result<Self> {
         Ok(Self {
             target: online.duplicate()?,
-            actor_optimiser: Adam::new(online.actor.parameters().elem_count())?,
-            critic_optimiser: Adam::new(online.critic.parameters().elem_count())?,
+            actor_optimiser: Adam::new(vec![online.actor.parameters().clone()], hyper.actor_adam())?,
+            critic_optimiser: Adam::new(vec![online.critic.parameters().clone()], hyper.critic_adam())?,
             online,
             hyper,
         })
+    }
+
+    /// This agent with other operations in its networks.
+    pub fn with(self, operations: Operations) -> Self {
+        Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
     }
 
     /// What the agent was made with.
@@ -85,56 +97,36 @@ impl Ddpg {
         if actions.len() != count || successes.len() != count {
             bail!("{count} observations, {} actions and {} successes are no batch", actions.len(), successes.len());
         }
-        let (clip, rate) = (self.hyper.gradient_clip, lr_factor * self.hyper.critic_learning_rate);
-        let (gradient, critic) = self.critic_gradient(observed, actions, successes)?;
-        self.critic_optimiser.step(self.online.critic.parameters(), &gradient, rate, clip)?;
+        let loss = self.critic_loss(observed, actions, successes)?;
+        self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
+        self.critic_optimiser.backward_step(&loss)?;
 
-        let rate = lr_factor * self.hyper.actor_learning_rate;
-        let (gradient, actor) = self.actor_gradient(&observed.first(self.hyper.actor_batch)?)?;
-        self.actor_optimiser.step(self.online.actor.parameters(), &gradient, rate, clip)?;
+        let (climbed, probability) = self.actor_goal(&observed.first(self.hyper.actor_batch)?)?;
+        self.actor_optimiser.set_learning_rate(lr_factor * self.hyper.actor_learning_rate);
+        self.actor_optimiser.backward_step(&climbed.neg()?)?;
 
         soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.target_rate)?;
         soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.target_rate)?;
-        Ok(UpdateStats { critic, actor })
+        let number = |tensor: &Tensor| tensor.to_scalar::<f32>().map(f64::from);
+        Ok(UpdateStats { critic: number(&loss)?, actor: -number(&probability)? })
     }
 
-    /// The mean cross entropy between the critic's probabilities and what happened, and its gradient.
-    fn critic_gradient(
-        &self,
-        observed: &ObservationBatch,
-        actions: &[Action],
-        successes: &[f32],
-    ) -> Result<(Tensor, f64)> {
-        let count = actions.len();
-        let actions = action_rows(observed.space(), actions)?;
-        let successes = Tensor::from_slice(successes, (count, 1), &Device::Cpu)?;
-        let judged = self.online.critic.record(&observed.with_actions(&actions)?, Wanted::Parameters)?;
-        let logits = judged.outputs();
-        // Along a logit the cross entropy rises with what was expected minus what happened.
-        let errors = ((sigmoid(logits)? - &successes)? / count as f64)?;
-        let (_, gradient) = judged.backward(&errors)?;
-        let loss = mean_cross_entropy(logits, &successes)?.to_scalar::<f32>()?;
-        Ok((wanted(gradient)?, f64::from(loss)))
+    /// The mean cross entropy between the critic's probabilities and what happened.
+    fn critic_loss(&self, observed: &ObservationBatch, actions: &[Action], successes: &[f32]) -> Result<Tensor> {
+        let taken = action_rows(observed.space(), actions)?;
+        let successes = Tensor::from_slice(successes, (actions.len(), 1), &Device::Cpu)?;
+        let logits = self.online.critic.forward(&observed.with_actions(&taken)?)?;
+        mean_cross_entropy(&logits, &successes)
     }
 
-    /// The deterministic policy gradient, downhill: every head climbs the critic from its own action. The number is
-    /// minus the mean probability that the critic gives the heads.
-    fn actor_gradient(&self, observed: &ObservationBatch) -> Result<(Tensor, f64)> {
+    /// What the actor climbs, from every head's own action (the deterministic policy gradient): the mean of the critic's
+    /// probability and of a share of its logit; beside it the mean probability.
+    fn actor_goal(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
         let Networks { actor, critic } = &self.online;
-        let proposed = actor.record(observed.states(), Wanted::Parameters)?;
-        let actions = proposed.outputs().tanh()?.reshape(((), observed.space().actions()))?;
-        let (inputs, join) = observed.record_actions(&actions)?;
-        let judged = critic.record(&inputs, Wanted::Inputs)?;
-        let success = sigmoid(judged.outputs())?;
-
-        // Along a logit the probability s rises with s (1 - s), and the logit itself with 1.
-        let slope = ((&success * (1.0 - &success)?)? + self.hyper.logit_weight)?;
-        let (along_inputs, _) = judged.backward(&(slope / -(success.elem_count() as f64))?)?;
-        let along_actions = join.backward(&wanted(along_inputs)?)?;
-        // The slope of the hyperbolic tangent is 1 - tanh².
-        let along_outputs = (along_actions * (1.0 - actions.sqr()?)?)?.reshape(proposed.outputs().shape())?;
-        let (_, gradient) = proposed.backward(&along_outputs)?;
-        Ok((wanted(gradient)?, -f64::from(success.mean_all()?.to_scalar::<f32>()?)))
+        let actions = actor.forward(observed.states())?.tanh()?.reshape(((), observed.space().actions()))?;
+        let logits = critic.forward_frozen(&observed.with_actions(&actions)?)?;
+        let probability = sigmoid(&logits)?.mean_all()?;
+        Ok(((&probability + (logits.mean_all()? * self.hyper.logit_weight)?)?, probability))
     }
 }
 
@@ -145,21 +137,16 @@ fn mean_cross_entropy(logits: &Tensor, successes: &Tensor) -> Result<Tensor> {
     (softplus - (logits * successes)?)?.mean_all()
 }
 
-fn wanted(gradient: Option<Tensor>) -> Result<Tensor> {
-    match gradient {
-        Some(gradient) => Ok(gradient),
-        None => bail!("this gradient was not recorded"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{action::ActionSpace, observation::Observation},
+        learning::{
+            ddpg::{action::ActionSpace, observation::Observation},
+            nn::mlp::Mlp,
+        },
         table::{Layout, Table},
     };
-    use candle_core::Var;
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
     use std::sync::Arc;
@@ -188,50 +175,38 @@ mod tests {
         (agent, ObservationBatch::new(&table, space, observations).unwrap(), actions, successes)
     }
 
-    fn assert_close(ours: &Tensor, loss: &Tensor, parameters: &Var) {
-        let gradients = loss.backward().unwrap();
-        let theirs = gradients.get(parameters).unwrap().to_vec1::<f32>().unwrap();
-        let largest = theirs.iter().fold(0.0, |largest: f32, x| largest.max(x.abs()));
-        assert!(largest > 1e-4);
-        for (ours, theirs) in ours.to_vec1::<f32>().unwrap().iter().zip(theirs) {
-            assert!((ours - theirs).abs() < 1e-5 * largest.max(1.0), "{ours} against {theirs}");
-        }
+    /// The slope of `goal` along `gradient` itself is its length squared; moving the parameters shows it.
+    fn assert_is_gradient(network: &Mlp, goal: impl Fn() -> Tensor) {
+        let gradients = goal().backward().unwrap();
+        let gradient = gradients.get(network.parameters()).unwrap();
+        let length = gradient.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
+        let start = network.parameters().copy().unwrap();
+        let at = |step: f32| {
+            let moved = (&start + (gradient * f64::from(step / length)).unwrap()).unwrap();
+            network.parameters().set(&moved).unwrap();
+            f64::from(goal().to_scalar::<f32>().unwrap())
+        };
+        let slope = (at(1e-3) - at(-1e-3)) / 2e-3;
+        network.parameters().set(&start).unwrap();
+        assert!(length > 1e-3 && (slope / f64::from(length) - 1.0).abs() < 0.02, "{slope} against {length}");
     }
 
     #[test]
-    fn the_critics_gradient_is_candles_gradient_of_the_cross_entropy() {
+    fn both_gradients_are_slopes_of_what_is_learnt() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
             let (agent, observed, actions, successes) = agent_and_batch(space);
-            let (gradient, loss) = agent.critic_gradient(&observed, &actions, &successes).unwrap();
-            let critic = &agent.online.critic;
-            let actions = action_rows(observed.space(), &actions).unwrap();
-            let successes = Tensor::from_slice(&successes, (20, 1), &Device::Cpu).unwrap();
-            let logits = critic.forward(&observed.with_actions(&actions).unwrap()).unwrap();
-            let theirs = mean_cross_entropy(&logits, &successes).unwrap();
-            assert_eq!(f64::from(theirs.to_scalar::<f32>().unwrap()), loss);
-            assert_close(&gradient, &theirs, critic.parameters());
+            let Networks { actor, critic } = &agent.online;
+            assert_is_gradient(critic, || agent.critic_loss(&observed, &actions, &successes).unwrap());
+            assert_is_gradient(actor, || agent.actor_goal(&observed).unwrap().0);
         }
     }
 
     #[test]
-    fn the_actors_gradient_is_candles_gradient_of_what_it_climbs() {
-        for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let (agent, observed, ..) = agent_and_batch(space);
-            let (gradient, _) = agent.actor_gradient(&observed).unwrap();
-            let actions = agent
-                .online
-                .actor
-                .forward(observed.states())
-                .unwrap()
-                .tanh()
-                .unwrap()
-                .reshape(((), observed.space().actions()))
-                .unwrap();
-            let logits = agent.online.critic.forward_frozen(&observed.with_actions(&actions).unwrap()).unwrap();
-            let weighted = (&logits * agent.hyper.logit_weight).unwrap();
-            let climbed = (sigmoid(&logits).unwrap() + weighted).unwrap().mean_all().unwrap();
-            assert_close(&gradient, &climbed.neg().unwrap(), agent.online.actor.parameters());
-        }
+    fn the_actor_leaves_the_critic_as_it_is() {
+        let (agent, observed, ..) = agent_and_batch(ActionSpace::Full);
+        let gradients = agent.actor_goal(&observed).unwrap().0.backward().unwrap();
+        assert!(gradients.get(agent.online.critic.parameters()).is_none());
+        assert!(gradients.get(agent.online.actor.parameters()).is_some());
     }
 
     #[test]

@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{action::ActionSpace, exploration::Exploration};
-use crate::learning::settings::{
-    SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
+use crate::learning::{
+    nn::adam::AdamConfig,
+    settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
 };
 
 /// What can be tuned. The defaults trained the bundled policies, but for what the model card says.
@@ -78,6 +79,16 @@ impl Default for Hyperparameters {
 }
 
 impl Hyperparameters {
+    /// The critic's optimiser at the start of a run.
+    pub const fn critic_adam(&self) -> AdamConfig {
+        AdamConfig { learning_rate: self.critic_learning_rate, gradient_clip: self.gradient_clip }
+    }
+
+    /// The actor's.
+    pub const fn actor_adam(&self) -> AdamConfig {
+        AdamConfig { learning_rate: self.actor_learning_rate, gradient_clip: self.gradient_clip }
+    }
+
     /// Checks every setting.
     ///
     /// # Errors

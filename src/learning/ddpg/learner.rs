@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::{
+    agent::Ddpg,
     hyperparameters::Hyperparameters,
     networks::Networks,
     observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
@@ -14,7 +15,7 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{Agent, Iteration, Learner, StartError, TrainingPlan, note_of},
-        network::weights::{Reader, WeightsError, Writer},
+        nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
     table::{Layout, Table},
@@ -119,8 +120,7 @@ impl Learner for Trainer {
             actor: network("actor", ACTOR_INPUTS, own.actor.sizes())?,
             critic: network("critic", CRITIC_INPUTS, own.critic.sizes())?,
         };
-        self.agent.target = adopted.duplicate()?;
-        self.agent.online = adopted;
+        self.agent = Ddpg::starting_from(adopted, self.agent.hyper.clone())?;
         Ok(())
     }
 }

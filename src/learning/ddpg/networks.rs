@@ -8,7 +8,7 @@ use super::{
     hyperparameters::Hyperparameters,
     observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS, ObservationBatch, actions_in},
 };
-use crate::learning::network::mlp::Mlp;
+use crate::learning::nn::mlp::{Mlp, Operations};
 
 /// Steps of a sequence that fills the square evenly (powers of the inverse of the plastic number, Roberts 2018).
 const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
@@ -51,6 +51,11 @@ impl Networks {
     /// Whatever candle reports.
     pub fn duplicate(&self) -> Result<Self> {
         Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()? })
+    }
+
+    /// These networks with other operations.
+    pub fn with(self, operations: Operations) -> Self {
+        Self { actor: self.actor.with(operations), critic: self.critic.with(operations) }
     }
 
     /// The heads' actions, the heads of an observation one after the other.

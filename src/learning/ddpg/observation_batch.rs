@@ -11,7 +11,7 @@ use super::{
     observation::Observation,
 };
 use crate::{
-    learning::network::tensors::{stored_values, values},
+    learning::nn::tensors::{stored_values, values},
     table::Table,
 };
 
@@ -107,49 +107,14 @@ impl ObservationBatch {
     pub fn with_actions(&self, actions: &Tensor) -> Result<Tensor> {
         actions.apply_op1(Join { observed: self.clone(), slopes: OnceLock::new(), differentiate: actions.track_op() })
     }
-
-    /// As [`ObservationBatch::with_actions`], but outside candle's automatic differentiation, with the operation that takes
-    /// gradients back from the critic's input to the actions.
-    ///
-    /// # Errors
-    /// As [`ObservationBatch::with_actions`].
-    pub fn record_actions(&self, actions: &Tensor) -> Result<(Tensor, Join)> {
-        let join = Join { observed: self.clone(), slopes: OnceLock::new(), differentiate: true };
-        Ok((actions.apply_op1_no_bwd(&join)?, join))
-    }
 }
 
 /// The operation that appends actions to observations.
-pub struct Join {
+struct Join {
     observed: ObservationBatch,
     /// Slopes of the action features along the actions, row after row, kept by the forward pass for the backward pass.
     slopes: OnceLock<Vec<Action>>,
     differentiate: bool,
-}
-
-impl Join {
-    /// The gradient for the actions from that for the critic's input.
-    ///
-    /// # Errors
-    /// Where the operation has not run forward.
-    pub fn backward(&self, gradient: &Tensor) -> Result<Tensor> {
-        let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
-        let (storage, layout) = gradient.storage_and_layout();
-        let gradient = stored_values(&storage, layout)?;
-        let space = self.observed.space;
-        let (used, rows) = (space.actions(), slopes.len() / ACTION_FEATURES);
-        let mut out: Vec<f32> = Vec::with_capacity(rows * used);
-        for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(CRITIC_INPUTS)) {
-            let mut sum = [0.0; ACTIONS];
-            for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
-                for (sum, slope) in sum.iter_mut().zip(slope) {
-                    *sum += slope * error;
-                }
-            }
-            out.extend(&sum[..used]);
-        }
-        Tensor::from_vec(out, (rows, used), &Device::Cpu)
-    }
 }
 
 impl CustomOp1 for Join {
@@ -192,7 +157,22 @@ impl CustomOp1 for Join {
     }
 
     fn bwd(&self, _actions: &Tensor, _inputs: &Tensor, gradient: &Tensor) -> Result<Option<Tensor>> {
-        self.backward(gradient).map(Some)
+        let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
+        let (storage, layout) = gradient.storage_and_layout();
+        let gradient = stored_values(&storage, layout)?;
+        let space = self.observed.space;
+        let (used, rows) = (space.actions(), slopes.len() / ACTION_FEATURES);
+        let mut out: Vec<f32> = Vec::with_capacity(rows * used);
+        for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(CRITIC_INPUTS)) {
+            let mut sum = [0.0; ACTIONS];
+            for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
+                for (sum, slope) in sum.iter_mut().zip(slope) {
+                    *sum += slope * error;
+                }
+            }
+            out.extend(&sum[..used]);
+        }
+        Tensor::from_vec(out, (rows, used), &Device::Cpu).map(Some)
     }
 }
 

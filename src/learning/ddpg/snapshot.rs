@@ -19,11 +19,7 @@ use super::{
 use crate::{
     learning::{
         learner::note_of,
-        network::{
-            adam::Adam,
-            mlp::Mlp,
-            weights::{Reader, WeightsError, Writer},
-        },
+        nn::weights::{Reader, WeightsError, Writer},
     },
     table::Table,
 };
@@ -56,16 +52,8 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
         writer.add_network(&format!("{name}.actor"), &networks.actor)?;
         writer.add_network(&format!("{name}.critic"), &networks.critic)?;
     }
-    let mut steps = [0; 2];
-    let optimisers = [("actor", &agent.actor_optimiser), ("critic", &agent.critic_optimiser)];
-    for (steps, (name, optimiser)) in steps.iter_mut().zip(optimisers) {
-        let (moments, taken) = optimiser.state();
-        *steps = taken;
-        for (order, moment) in moments.iter().enumerate() {
-            let values: Vec<f32> = moment.to_vec1()?;
-            writer.add(format!("{name}.moment.{order}"), &[values.len()], &values);
-        }
-    }
+    writer.add_optimiser("actor", &agent.actor_optimiser)?;
+    writer.add_optimiser("critic", &agent.critic_optimiser)?;
     let held = replay.transitions();
     let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
     let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
@@ -81,8 +69,8 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
         shots: trainer.shots,
         updates: trainer.updates,
         rng: trainer.rng.clone(),
-        actor_steps: steps[0],
-        critic_steps: steps[1],
+        actor_steps: agent.actor_optimiser.steps(),
+        critic_steps: agent.critic_optimiser.steps(),
         replay_next: replay.next(),
     })
 }
@@ -103,20 +91,11 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         })
     };
     let (online, target) = (networks("online")?, networks("target")?);
-    let optimiser = |name: &str, network: &Mlp, steps| -> Result<Adam, WeightsError> {
-        let moment = |order: usize| -> Result<Vec<f32>, WeightsError> {
-            let name = format!("{name}.moment.{order}");
-            let (_, values) = reader.array(&name)?;
-            let expected = network.parameters().elem_count();
-            let wrong = || WeightsError::Array { name, expected: format!("{expected} values") };
-            if values.len() == expected { Ok(values) } else { Err(wrong()) }
-        };
-        Ok(Adam::from_state([moment(0)?, moment(1)?], steps)?)
-    };
+    let hyper = &note.task.hyperparameters;
     let agent = Ddpg {
-        actor_optimiser: optimiser("actor", &online.actor, note.actor_steps)?,
-        critic_optimiser: optimiser("critic", &online.critic, note.critic_steps)?,
-        hyper: note.task.hyperparameters.clone(),
+        actor_optimiser: reader.optimiser("actor", &online.actor, hyper.actor_adam(), note.actor_steps)?,
+        critic_optimiser: reader.optimiser("critic", &online.critic, hyper.critic_adam(), note.critic_steps)?,
+        hyper: hyper.clone(),
         online,
         target,
     };

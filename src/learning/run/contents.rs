@@ -14,7 +14,7 @@ use super::{
 use crate::{
     learning::{
         learner::{Agent, Learner},
-        network::weights::{Reader, WeightsError, Writer},
+        nn::weights::{Reader, WeightsError, Writer},
     },
     storage,
 };

@@ -1,6 +1,6 @@
 //! Why a checkpoint cannot be used.
 
-use crate::learning::network::weights::WeightsError;
+use crate::learning::nn::weights::WeightsError;
 
 /// Version of what a checkpoint holds.
 pub const FORMAT: u32 = 2;

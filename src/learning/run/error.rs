@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::damage::Damage;
-use crate::learning::{PolicyError, agents::UnknownAgent, learner::StartError, network::weights::WeightsError};
+use crate::learning::{PolicyError, agents::UnknownAgent, learner::StartError, nn::weights::WeightsError};
 
 /// Why a run cannot start, go on or be saved.
 #[derive(Debug, thiserror::Error)]

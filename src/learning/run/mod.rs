@@ -13,6 +13,7 @@ mod contents;
 mod damage;
 mod discard;
 mod error;
+mod event_file;
 pub mod examples;
 pub mod follow;
 mod heartbeat;
@@ -23,6 +24,7 @@ mod number;
 pub mod origin;
 pub mod quantity;
 pub mod request;
+mod result;
 pub mod seeds;
 pub mod status;
 mod training;
@@ -54,9 +56,11 @@ pub const METRICS: &str = "metrics.jsonl";
 pub const POLICY: &str = "policy.safetensors";
 
 /// All that a run writes into its folder, the lock last.
-const FILES: [&str; 9] = [
+const FILES: [&str; 11] = [
     config::FILE,
     METRICS,
+    event_file::FILE,
+    result::FILE,
     POLICY,
     checkpoint::CURRENT,
     checkpoint::PREVIOUS,

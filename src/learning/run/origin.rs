@@ -14,7 +14,7 @@ use crate::{
     learning::{
         Policy,
         learner::{Learner, note_of},
-        network::weights::{Reader, WeightsError},
+        nn::weights::{Reader, WeightsError},
     },
     storage::{self, write_atomic},
     table::Table,

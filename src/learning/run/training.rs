@@ -9,10 +9,12 @@ use super::{
     METRICS, Run, RunError, Schedule,
     clock::Clock,
     error::file,
+    event_file::EventFile,
     examples::Examples,
     heartbeat::Heartbeat,
-    metrics::{MetricsFile, Record},
+    metrics::{self, MetricsFile, Record},
     request::Request,
+    result::RunResult,
     status::Phase,
 };
 use crate::{
@@ -58,6 +60,8 @@ pub struct Limits<'a> {
 /// Where training reports to.
 struct Reporting<'a> {
     metrics: MetricsFile,
+    /// None where it cannot be written: it is for looking at, and nothing is lost.
+    events: Option<EventFile>,
     clock: Clock,
     heartbeat: Heartbeat,
     layouts: Vec<Layout>,
@@ -74,10 +78,17 @@ impl Run {
     pub fn train(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
         let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
+        let events = metrics::read(&path).and_then(|records| EventFile::create(&self.folder, &records)).ok();
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
-        let mut reporting = Reporting { metrics, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
-        let ending = self.iterate_until(limits, &mut reporting);
+        let mut reporting =
+            Reporting { metrics, events, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };
+        let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
+            if let Ending::Finished(score) = ending {
+                RunResult::of(self.learner.as_ref(), score).write(&self.folder)?;
+            }
+            Ok(ending)
+        });
         let (phase, reason) = match &ending {
             Ok(Ending::Finished(_)) => (Phase::Finished, None),
             Ok(Ending::Stopped(_) | Ending::Abandoned) => (Phase::Stopped, None),
@@ -173,6 +184,9 @@ impl Run {
             let measuring = reporting.clock.seconds() - trained;
             let record = reporting.clock.record(self.learner.as_ref(), self.state.accumulator.take(), score, measuring);
             reporting.metrics.push(&record);
+            if reporting.events.as_mut().is_some_and(|events| events.push(&record).is_err()) {
+                reporting.events = None;
+            }
             reporting.watcher.line(&record);
             // Until there is room it waits in memory. No checkpoint is written before it is.
             let _ = reporting.metrics.flush();

@@ -9,7 +9,7 @@ use super::{
     carom::Episode,
     environment::{Action, Environment, Observation},
 };
-use crate::learning::network::weights::{Reader, WeightsError, Writer};
+use crate::learning::nn::weights::{Reader, WeightsError, Writer};
 use crate::learning::settings::SettingError;
 
 /// What an agent does.

@@ -1,30 +1,26 @@
 //! The thesis' deep deterministic policy gradient (Algorithm 4, Table 4) with the networks of its reference 20, the
 //! example that comes with keras-rl.
 
-use std::cell::RefCell;
-
-use candle_core::Error;
+use candle_core::{Device, Error, Tensor};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    actor_critic::ActorCritic,
+    actor_critic::{ActorCritic, Layers, Rates},
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
     carom::Episode,
-    environment::{ACTIONS, Action, Observation, STATES},
+    environment::{Action, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
-    pass::Pass,
     q_learning::check_episode,
     replay::{ReplayBuffer, StoredTransition},
-    update::{Batch, Rates, Sizes},
 };
 use crate::learning::settings::{
     SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
 };
 use crate::learning::{
     learner::note_of,
-    network::weights::{Reader, WeightsError, Writer},
+    nn::weights::{Reader, WeightsError, Writer},
 };
 
 /// Settings of [`PlainDdpg`]: Table 4; what the thesis leaves open is as in keras-rl's example.
@@ -104,13 +100,13 @@ impl Settings for PlainDdpgSettings {
 }
 
 impl PlainDdpgSettings {
-    fn sizes(&self) -> Sizes {
-        Sizes::new(STATES, ACTIONS, &self.actor_layers, &self.critic_layers)
+    fn layers(&self) -> Layers {
+        Layers { actor: self.actor_layers.clone(), critic: self.critic_layers.clone() }
     }
 
     fn rates(&self) -> Rates {
-        let Self { learning_rate, discount, keep, gradient_clip, .. } = *self;
-        Rates { learning_rate, discount, keep, gradient_clip }
+        let Self { learning_rate, keep, gradient_clip, .. } = *self;
+        Rates { learning_rate, keep, gradient_clip }
     }
 }
 
@@ -122,9 +118,6 @@ pub struct PlainDdpg {
     replay: ReplayBuffer,
     noise: Action,
     shots: u64,
-    batch: Batch,
-    /// For acting in one state at a time.
-    single: RefCell<Pass>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -136,33 +129,8 @@ struct PlainDdpgState {
 }
 
 impl PlainDdpg {
-    fn with(
-        settings: PlainDdpgSettings,
-        networks: ActorCritic,
-        replay: ReplayBuffer,
-        noise: Action,
-        shots: u64,
-    ) -> Self {
-        let batch = Batch::new(networks.sizes(), settings.batch);
-        let single = RefCell::new(Pass::new(&networks.sizes().actor, 1));
-        Self { settings, networks, replay, noise, shots, batch, single }
-    }
-
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
-        let Batch { inputs, rewards, goes_on, next_inputs } = &mut self.batch;
-        let rows = inputs.as_chunks_mut::<{ STATES + ACTIONS }>().0.iter_mut();
-        let rows = rows.zip(next_inputs.as_chunks_mut::<{ STATES + ACTIONS }>().0).zip(rewards).zip(goes_on);
-        for (((input, next), reward), goes_on) in rows {
-            if let Some(drawn) = self.replay.draw(rng) {
-                input[..STATES].copy_from_slice(&drawn.state);
-                input[STATES..].copy_from_slice(&drawn.action);
-                next[..STATES].copy_from_slice(&drawn.next);
-                *reward = drawn.reward;
-                *goes_on = f32::from(u8::from(drawn.goes_on));
-            }
-        }
-        let seen = self.networks.update(&mut self.batch)?;
-        Ok(UpdateStats { loss: seen.loss, value: seen.value })
+        self.networks.update(&self.replay.batch(self.settings.batch, self.settings.discount, rng)?)
     }
 }
 
@@ -172,9 +140,9 @@ impl Agent for PlainDdpg {
     type Settings = PlainDdpgSettings;
 
     fn new(settings: PlainDdpgSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
-        let networks = ActorCritic::random(settings.sizes(), settings.rates(), settings.batch, rng)?;
+        let networks = ActorCritic::random(&settings.layers(), settings.rates(), rng)?;
         let replay = ReplayBuffer::new(settings.memory);
-        Ok(Self::with(settings, networks, replay, Action::default(), 0))
+        Ok(Self { settings, networks, replay, noise: Action::default(), shots: 0 })
     }
 
     fn settings(&self) -> &PlainDdpgSettings {
@@ -203,9 +171,9 @@ impl Agent for PlainDdpg {
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
-        let mut choice = Choice::default();
-        self.networks.act(&mut self.single.borrow_mut(), &seen.state, &mut choice.action)?;
-        Ok(choice)
+        let state = Tensor::from_slice(&seen.state, (1, STATES), &Device::Cpu)?;
+        let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
+        Ok(Choice { action: std::array::from_fn(|index| action[index]), index: 0 })
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
@@ -227,31 +195,16 @@ impl Agent for PlainDdpg {
     fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
         let PlainDdpgState { shots, updates, next, noise } =
             serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-        let (sizes, rates) = (settings.sizes(), settings.rates());
-        let networks = ActorCritic::from_values(sizes, rates, settings.batch, values(&settings, reader)?, updates)?;
+        let (_, values) = reader.array("networks")?;
+        let networks = ActorCritic::from_values(&settings.layers(), settings.rates(), &values, updates)?;
         let replay = ReplayBuffer::restore(settings.memory, reader, next)?;
-        Ok(Self::with(settings, networks, replay, noise, shots))
+        Ok(Self { settings, networks, replay, noise, shots })
     }
 
     /// The learning networks become both the learning ones and the targets; the optimisers start again.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
-        let mut values = values(&self.settings, reader)?;
-        let (sizes, rates) = (self.settings.sizes(), self.settings.rates());
-        values.truncate(sizes.parameters().iter().sum());
-        values.extend_from_within(..);
-        values.resize(sizes.values(), 0.0);
-        self.networks = ActorCritic::from_values(sizes, rates, self.settings.batch, values, 0)?;
+        let (_, values) = reader.array("networks")?;
+        self.networks = ActorCritic::from_weights(&self.settings.layers(), self.settings.rates(), &values)?;
         Ok(())
     }
-}
-
-/// The networks' values in a file, as many as the settings want.
-fn values(settings: &PlainDdpgSettings, reader: &Reader<'_>) -> Result<Vec<f32>, WeightsError> {
-    let (_, values) = reader.array("networks")?;
-    let expected = settings.sizes().values();
-    if values.len() == expected {
-        return Ok(values);
-    }
-    let expected = format!("{expected} values, as networks of sizes {:?} have", settings.sizes());
-    Err(WeightsError::Array { name: "networks".to_owned(), expected })
 }

@@ -1,14 +1,15 @@
 //! Deep Q-learning (thesis Algorithm 3, Tables 2 and 3).
 
-use candle_core::{Device, Error, Tensor, bail};
+use candle_core::{Device, Error, Tensor};
+use candle_nn::{Module, Optimizer, loss::mse};
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    actor_critic::glorot,
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
+    batch::number,
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
     exploration::Epsilon,
@@ -18,10 +19,9 @@ use super::{
 use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
     learner::note_of,
-    network::{
-        adam::Adam,
+    nn::{
+        adam::{Adam, AdamConfig},
         mlp::Mlp,
-        pass::Wanted,
         weights::{Reader, WeightsError, Writer},
     },
 };
@@ -107,55 +107,29 @@ struct DqnState {
 }
 
 impl DqnSettings {
+    const fn adam(&self) -> AdamConfig {
+        AdamConfig { learning_rate: self.learning_rate, gradient_clip: f64::INFINITY }
+    }
+
     fn sizes(&self) -> Vec<usize> {
         [&[STATES], self.layers.as_slice(), &[DISCRETE_ACTIONS as usize]].concat()
     }
 }
 
-/// Place and value of the largest number.
-fn largest(values: &[f32]) -> (usize, f32) {
-    values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
-}
-
 impl Dqn {
     /// Learns from a batch that is drawn from the memory.
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
-        let (rows, actions) = (self.settings.batch, DISCRETE_ACTIONS as usize);
-        let drawn: Vec<&StoredTransition> = (0..rows).filter_map(|_| self.replay.draw(rng)).collect();
-        let states = |of: fn(&StoredTransition) -> [f32; STATES]| {
-            let values: Vec<f32> = drawn.iter().flat_map(|transition| of(transition)).collect();
-            Tensor::from_vec(values, (drawn.len(), STATES), &Device::Cpu)
-        };
-        // The target network is not asked where every episode of the batch was over.
-        let next: Vec<f32> = if drawn.iter().any(|transition| transition.goes_on) {
-            let values =
-                self.target.forward_frozen(&states(|transition| transition.next)?)?.flatten_all()?.to_vec1()?;
-            values.chunks_exact(actions).map(|row: &[f32]| largest(row).1).collect()
-        } else {
-            vec![0.0; rows]
-        };
-        let judged = self.online.record(&states(|transition| transition.state)?, Wanted::Parameters)?;
-        let values: Vec<f32> = judged.outputs().flatten_all()?.to_vec1()?;
-        let mut errors = vec![0.0; values.len()];
-        let (mut loss, mut value) = (0.0, 0.0);
-        for (((row, errors), transition), next) in
-            values.chunks_exact(actions).zip(errors.chunks_exact_mut(actions)).zip(&drawn).zip(next)
-        {
-            let next = if transition.goes_on { self.settings.discount as f32 * next } else { 0.0 };
-            let index = transition.index as usize;
-            let error = row[index] - (transition.reward + next);
-            errors[index] = 2.0 * error / rows as f32;
-            loss += f64::from(error * error) / rows as f64;
-            value += f64::from(largest(row).1) / rows as f64;
-        }
-        let (_, gradient) = judged.backward(&Tensor::from_vec(errors, (rows, actions), &Device::Cpu)?)?;
-        let Some(gradient) = gradient else { bail!("the gradient of the network was not recorded") };
-        self.optimiser.step(self.online.parameters(), &gradient, self.settings.learning_rate, f64::INFINITY)?;
+        let batch = self.replay.batch(self.settings.batch, self.settings.discount, rng)?;
+        let wanted = batch.targets(|states| self.target.forward_frozen(states)?.max_keepdim(1))?;
+        let values = self.online.forward(&batch.states)?;
+        let loss = mse(&values.gather(&batch.indices, 1)?, &wanted)?;
+        self.optimiser.backward_step(&loss)?;
+        let value = values.detach().max(1)?.mean_all()?;
         self.updates += 1;
         if self.updates.is_multiple_of(self.settings.target_every) {
             self.target = self.online.duplicate()?;
         }
-        Ok(UpdateStats { loss, value })
+        Ok(UpdateStats { loss: number(&loss)?, value: number(&value)? })
     }
 }
 
@@ -170,10 +144,10 @@ impl Agent for Dqn {
 
     fn new(settings: DqnSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
         let sizes = settings.sizes();
-        let online = Mlp::from_parameters(&sizes, glorot(&sizes, rng))?;
+        let online = Mlp::glorot(&sizes, rng)?;
         Ok(Self {
             target: online.duplicate()?,
-            optimiser: Adam::new(online.parameters().elem_count())?,
+            optimiser: Adam::new(vec![online.parameters().clone()], settings.adam())?,
             replay: ReplayBuffer::new(settings.memory),
             online,
             settings,
@@ -207,8 +181,7 @@ impl Agent for Dqn {
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
         let state = Tensor::from_slice(&seen.state, (1, STATES), &Device::Cpu)?;
-        let values: Vec<f32> = self.online.forward_frozen(&state)?.flatten_all()?.to_vec1()?;
-        Ok(choice(largest(&values).0 as u32))
+        Ok(choice(self.online.forward_frozen(&state)?.flatten_all()?.argmax(0)?.to_scalar()?))
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
@@ -220,28 +193,16 @@ impl Agent for Dqn {
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
         writer.add_network("online", &self.online)?;
         writer.add_network("target", &self.target)?;
-        for (order, moment) in self.optimiser.state().0.iter().enumerate() {
-            writer.add(format!("moment.{order}"), moment.dims(), &moment.to_vec1()?);
-        }
+        writer.add_optimiser("", &self.optimiser)?;
         note_of(&DqnState { shots: self.shots, updates: self.updates, next: self.replay.save(writer) })
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
         let DqnState { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let online = network(&settings, reader, "online")?;
-        let moment = |order: usize| {
-            let name = format!("moment.{order}");
-            let (shape, values) = reader.array(&name)?;
-            let expected = online.parameters().elem_count();
-            if shape == [expected] {
-                Ok(values)
-            } else {
-                Err(WeightsError::Array { name, expected: format!("{expected} values") })
-            }
-        };
         Ok(Self {
             target: network(&settings, reader, "target")?,
-            optimiser: Adam::from_state([moment(0)?, moment(1)?], updates)?,
+            optimiser: reader.optimiser("", &online, settings.adam(), updates)?,
             replay: ReplayBuffer::restore(settings.memory, reader, next)?,
             online,
             settings,
@@ -253,6 +214,7 @@ impl Agent for Dqn {
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
         let online = network(&self.settings, reader, "online")?;
         self.target = online.duplicate()?;
+        self.optimiser = Adam::new(vec![online.parameters().clone()], self.settings.adam())?;
         self.online = online;
         Ok(())
     }

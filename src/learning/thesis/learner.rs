@@ -16,7 +16,7 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{self, Iteration, Learner, StartError, TrainingPlan, note_of},
-        network::weights::{Reader, WeightsError, Writer},
+        nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
     table::{Layout, Table},

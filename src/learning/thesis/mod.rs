@@ -1,19 +1,16 @@
 //! The thesis' three agents (its chapter 4): Q-learning, deep Q-learning and a plain deep deterministic policy gradient.
 //!
 //! An [`agent`] plays against an [`environment`], which is [`carom`] or anything else that has states of six numbers
-//! and actions of two. The plain DDPG learns by one candle operation, [`update`]. What the thesis found with them, and
-//! what they find here, is in `docs/thesis.md`.
+//! and actions of two. What the thesis found with them, and what they find here, is in `docs/thesis.md`.
 
 pub mod actor_critic;
 pub mod agent;
+pub mod batch;
 pub mod carom;
 pub mod ddpg;
 pub mod dqn;
 pub mod environment;
 pub mod exploration;
-mod kernels;
 pub mod learner;
-mod pass;
 pub mod q_learning;
 pub mod replay;
-pub mod update;

@@ -17,7 +17,7 @@ use super::{
 use crate::learning::settings::{SettingError, check, check_positive, check_share};
 use crate::learning::{
     learner::note_of,
-    network::weights::{Reader, WeightsError, Writer},
+    nn::weights::{Reader, WeightsError, Writer},
 };
 
 /// Settings of [`QLearning`]. The thesis gives the squares, the actions and epsilon-greedy, but no numbers.

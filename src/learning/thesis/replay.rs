@@ -1,12 +1,14 @@
 //! The library of experiences (thesis 4.3.1): transitions that were played, the oldest making room for the newest.
 
+use candle_core::Error;
 use rand::{Rng, RngExt};
 
 use super::{
     agent::Transition,
+    batch::Batch,
     environment::{ACTIONS, Action, STATES, State},
 };
-use crate::learning::network::weights::{Reader, WeightsError, Writer};
+use crate::learning::nn::weights::{Reader, WeightsError, Writer};
 
 /// One shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,8 +84,17 @@ impl ReplayBuffer {
     }
 
     /// A transition drawn uniformly; none from an empty ring.
-    pub fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Option<&StoredTransition> {
+    fn draw(&self, rng: &mut (impl Rng + ?Sized)) -> Option<&StoredTransition> {
         if self.held.is_empty() { None } else { Some(&self.held[rng.random_range(0..self.held.len())]) }
+    }
+
+    /// A batch of so many transitions, each drawn uniformly from a ring that holds some.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn batch(&self, rows: usize, discount: f64, rng: &mut (impl Rng + ?Sized)) -> Result<Batch, Error> {
+        let drawn: Vec<&StoredTransition> = (0..rows).filter_map(|_| self.draw(rng)).collect();
+        Batch::new(&drawn, discount)
     }
 
     /// Adds what is held to a file; returns where the next one goes.

@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use serde_json::Value;
 
-use super::common::{SHORT, carom, done, folder, start, wait_for};
+use super::common::{SHORT, carom, done, folder, start, unfinished, wait_for};
 
 #[test]
 fn a_run_trains_a_policy_that_can_be_evaluated() {
@@ -60,11 +60,11 @@ fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile(
 
     let interrupt = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(interrupt.unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert_eq!(child.wait().unwrap().code(), Some(75));
     assert!(run.join("policy.safetensors").exists());
     let stopped = listed();
     assert_eq!(stopped["state"], "interrupted");
-    let resumed = done(here, &format!("train --resume {name} --minutes 0.002"));
+    let resumed = unfinished(here, &format!("train --resume {name} --minutes 0.002"));
     assert!(resumed.err.contains("carom train --resume"), "{}", resumed.err);
     assert!(listed()["shots"].as_u64() > stopped["shots"].as_u64());
     let table = done(here, "train --list").out;
@@ -137,4 +137,26 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
         assert!(outcome.out.is_empty(), "{line}");
     }
     assert!(!here.join("new").exists() && !here.join("nowhere").exists());
+}
+
+#[test]
+fn one_command_starts_a_run_goes_on_with_it_and_gives_the_number_to_compare() {
+    let folder = folder();
+    let here = folder.path();
+    let line = format!("{SHORT} --run again --continue --objective");
+    let early = unfinished(here, &format!("{line} --minutes 0.00001"));
+    assert_eq!(early.out.lines().count(), 1, "{}", early.out);
+    let result = || fs::read_to_string(here.join("again/result.json"));
+    assert!(result().is_err(), "it is not finished");
+    let objective: f64 = done(here, &line).out.trim().parse().unwrap();
+    let result: Value = serde_json::from_str(&result().unwrap()).unwrap();
+    assert_eq!(result["held_out_reward"].as_f64(), Some(objective));
+    assert_eq!(done(here, &line).out.trim().parse(), Ok(objective), "a finished run stays as it is");
+    let other = carom(here, &line.replace("--seed 3", "--seed 4"));
+    assert_eq!(other.code, Some(2));
+    assert!(other.err.contains("seed 3, not 4"), "{}", other.err);
+    // TensorBoard finds the file by this part of its name.
+    let events = fs::read(here.join("again/events.out.tfevents.carom")).unwrap();
+    let has = |part: &[u8]| events.windows(part.len()).any(|window| window == part);
+    assert!(has(b"brain.Event:2") && has(b"eval/mean_reward"));
 }

@@ -36,7 +36,7 @@ fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
     let delays = (1..=KILLS[1]).map(|kill| Duration::from_secs_f64(0.004 + 0.15 * (f64::from(kill) * 0.618).fract()));
     let mut hits = 0;
     for delay in delays {
-        let mut child = start(here, &resume_or_start(&killed, seed));
+        let mut child = start(here, &start_or_continue(seed));
         std::thread::sleep(delay);
         child.kill().unwrap();
         if child.wait().unwrap().code().is_some() {
@@ -48,15 +48,14 @@ fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
             break;
         }
     }
-    done(here, &resume_or_start(&killed, seed));
+    done(here, &start_or_continue(seed));
     assert!(whole.wait().unwrap().success());
     Files::of(&here.join("whole")).assert_same(&Files::of(&killed), &format!("seed {seed}, after {hits} kills"));
     hits
 }
 
-/// A run that is killed before its first checkpoint is none: it can be started again in the same folder.
-fn resume_or_start(run: &Path, seed: u32) -> String {
-    let is_run =
-        ["checkpoint.safetensors", "checkpoint-previous.safetensors"].iter().any(|name| run.join(name).exists());
-    if is_run { "train --resume killed".to_owned() } else { format!("{LONG} --seed {seed} --run killed") }
+/// The same command starts a run and goes on with it. A run that is killed before its first checkpoint is none.
+fn start_or_continue(seed: u32) -> String {
+    format!("{LONG} --seed {seed} --run killed --continue")
+}
 }

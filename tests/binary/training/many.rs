@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::common::{Files, SHORT, carom, done, folder};
+use super::common::{Files, SHORT, carom, done, folder, unfinished};
 
 #[test]
 fn several_seeds_are_the_single_runs_and_go_on_as_one() {
@@ -22,9 +22,9 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     Files::of(&here.join("four")).assert_same(&Files::of(&here.join("whole/seed-4")), "alone and among others");
 
     // Stopped before the first seed is through, then again.
-    let parts = done(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
+    let parts = unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
     assert!(parts.err.contains("--resume"), "{}", parts.err);
-    done(here, "train --resume parts --minutes 0.0005");
+    unfinished(here, "train --resume parts --minutes 0.0005");
     let json = done(here, "train --resume parts --json");
     assert!(json.out.lines().all(|line| serde_json::from_str::<Value>(line).unwrap()["seed"].is_u64()));
     assert_eq!(spread("parts"), spread("whole"));

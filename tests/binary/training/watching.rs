@@ -11,7 +11,7 @@ use std::{
 
 use serde_json::Value;
 
-use super::common::{SHORT, carom, command, done, folder, start, wait_for};
+use super::common::{SHORT, carom, command, done, folder, start, unfinished, wait_for};
 use crate::program::outcome;
 
 /// A run of some seconds with many lines.
@@ -90,7 +90,7 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
 fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
     let folder = folder();
     let here = folder.path();
-    done(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "60000")));
+    unfinished(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "60000")));
     let list = |state: &str| {
         let list = done(here, "train --list . --json").out;
         let run = lines(&list).remove(0);
@@ -115,7 +115,7 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
         let mut training = start(here, &format!("{LONG} --run {word}"));
         wait_for(&run.join("metrics.jsonl"), &mut training);
         fs::write(run.join("request"), word).unwrap();
-        assert!(training.wait().unwrap().success());
+        assert_eq!(training.wait().unwrap().code(), Some(if is_kept { 75 } else { 0 }));
         assert_eq!(run.join("policy.safetensors").exists(), is_kept);
         assert_eq!(run.exists(), is_kept, "{word}");
     }

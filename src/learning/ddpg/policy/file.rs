@@ -14,7 +14,7 @@ use crate::{
             networks::Networks,
             observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
         },
-        network::weights::{Reader, WeightsError, Writer},
+        nn::weights::{Reader, WeightsError, Writer},
     },
     storage::{self, write_atomic},
     table::Table,

@@ -16,6 +16,12 @@ use pulp::{Arch, Simd, WithSimd};
 /// Rows of the output that are computed together. With 4 vectors a row this fills 24 of 32 registers.
 const ROWS: usize = 6;
 
+/// The same where nothing is copied: eight sums at a time hide how long a multiply-add takes.
+const SMALL_ROWS: usize = 8;
+
+/// Most values of a right matrix that is read where it is; it fits into the innermost cache.
+const SMALL: usize = 1 << 12;
+
 /// A matrix inside a slice.
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix<'a> {
@@ -80,6 +86,17 @@ impl<'a> Matrix<'a> {
         }
     }
 
+    /// The values of a transposed matrix in the order of its own rows.
+    fn transposed_values(&self) -> Vec<f32> {
+        let mut values = vec![0.0; self.values.len()];
+        for (column, from) in self.values.chunks_exact(self.rows).enumerate() {
+            for (row, value) in from.iter().enumerate() {
+                values[row * self.columns + column] = *value;
+            }
+        }
+        values
+    }
+
     #[inline(always)]
     fn row(&self, row: usize) -> &'a [f32] {
         &self.values[row * self.columns..][..self.columns]
@@ -107,8 +124,12 @@ impl WithSimd for Product<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        let columns = self.right.columns;
+        let is_small = self.right.values.len() <= SMALL && self.left.rows >= SMALL_ROWS;
         // As many vectors a row as the registers hold, but no more than the matrix fills.
-        match self.right.columns.div_ceil(S::F32_LANES) {
+        match columns.div_ceil(S::F32_LANES) {
+            _ if is_small && columns.is_multiple_of(S::F32_LANES) => self.tiles::<S, true>(simd),
+            1 if is_small => self.tiles::<S, false>(simd),
             1 => self.blocks::<S, 1>(simd),
             2 => self.blocks::<S, 2>(simd),
             _ if S::REGISTER_COUNT < 32 => self.blocks::<S, 2>(simd),
@@ -118,6 +139,7 @@ impl WithSimd for Product<'_> {
 }
 
 impl Product<'_> {
+    /// The product of large matrices, through copies in the order in which they are read.
     #[inline(always)]
     fn blocks<S: Simd, const WIDTH: usize>(self, simd: S) {
         let Product { left, right, out } = self;
@@ -131,7 +153,8 @@ impl Product<'_> {
         for first in (0..left.rows).step_by(ROWS) {
             left.pack_rows::<ROWS>(first, &mut rows);
             for (index, panel) in panels.chunks_exact(panel_size).enumerate() {
-                let sums = tile::<S, WIDTH>(simd, &rows, panel);
+                let vectors = S::as_simd_f32s(panel).0.as_chunks::<WIDTH>().0.iter().copied();
+                let sums = tile(simd, rows.as_chunks::<ROWS>().0.iter().copied().zip(vectors));
                 let column = index * width;
                 let kept = width.min(right.columns - column);
                 for (row, sums) in sums.iter().enumerate().take(left.rows - first) {
@@ -143,18 +166,54 @@ impl Product<'_> {
             }
         }
     }
+
+    /// The product of small matrices, read where they are: copying them takes longer than multiplying them. The last tile of
+    /// rows overlaps the one before. A right matrix is as wide as some vectors, or else (not `WHOLE`) narrower than one.
+    #[inline(always)]
+    fn tiles<S: Simd, const WHOLE: bool>(self, simd: S) {
+        let Product { left, right, out } = self;
+        let columns = right.columns;
+        let transposed = if right.transposed { right.transposed_values() } else { Vec::new() };
+        let values = if right.transposed { &transposed } else { right.values };
+        for row in (0..left.rows).step_by(SMALL_ROWS).map(|row| row.min(left.rows - SMALL_ROWS)) {
+            for column in (0..columns).step_by(S::F32_LANES) {
+                let vectors = values[column..].chunks(columns).map(|row| {
+                    [if WHOLE { S::as_simd_f32s(&row[..S::F32_LANES]).0[0] } else { simd.partial_load_f32s(row) }]
+                });
+                let sums: [[S::f32s; 1]; SMALL_ROWS] = if left.transposed {
+                    let lines = left.values.chunks_exact(left.rows);
+                    let lines = lines.map(|line| *line[row..].first_chunk().unwrap_or(&[0.0; SMALL_ROWS]));
+                    tile(simd, lines.zip(vectors))
+                } else {
+                    let lines: [&[f32]; SMALL_ROWS] = std::array::from_fn(|index| left.row(row + index));
+                    let lines = (0..left.columns).map(|inner| std::array::from_fn(|index| lines[index][inner]));
+                    tile(simd, lines.zip(vectors))
+                };
+                for (index, [sum]) in sums.into_iter().enumerate() {
+                    let to = &mut out[(row + index) * columns + column..];
+                    if WHOLE {
+                        S::as_mut_simd_f32s(&mut to[..S::F32_LANES]).0[0] = sum;
+                    } else {
+                        simd.partial_store_f32s(&mut to[..columns], sum);
+                    }
+                }
+            }
+        }
+    }
 }
 
-/// The product of packed rows and a packed panel, held in registers.
+/// Sums of products, held in registers: of the left matrix so many rows, of the right one so many vectors, for each inner index.
 #[inline(always)]
-fn tile<S: Simd, const WIDTH: usize>(simd: S, rows: &[f32], panel: &[f32]) -> [[S::f32s; WIDTH]; ROWS] {
+fn tile<S: Simd, const ROWS: usize, const WIDTH: usize>(
+    simd: S,
+    inner: impl Iterator<Item = ([f32; ROWS], [S::f32s; WIDTH])>,
+) -> [[S::f32s; WIDTH]; ROWS] {
     let mut sums = [[simd.splat_f32s(0.0); WIDTH]; ROWS];
-    let (vectors, _) = S::as_simd_f32s(panel);
-    for (left, right) in rows.as_chunks::<ROWS>().0.iter().zip(vectors.as_chunks::<WIDTH>().0) {
+    for (left, right) in inner {
         for (sums, value) in sums.iter_mut().zip(left) {
-            let value = simd.splat_f32s(*value);
+            let value = simd.splat_f32s(value);
             for (sum, right) in sums.iter_mut().zip(right) {
-                *sum = simd.mul_add_e_f32s(value, *right, *sum);
+                *sum = simd.mul_add_e_f32s(value, right, *sum);
             }
         }
     }

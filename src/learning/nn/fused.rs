@@ -3,49 +3,27 @@
 use std::sync::OnceLock;
 
 use candle_core::{CpuStorage, CustomOp2, Device, Layout, Result, Shape, Tensor, bail};
+use pulp::Arch;
 
 use super::{
     matmul::{Matrix, product},
     tensors::{stored_values, values},
 };
 
-/// What gradients are wanted for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
-    /// For the inputs only.
-    Inputs,
-    /// For the parameters only.
-    Parameters,
-    /// For both.
-    Both,
-}
-
-/// Number of weights and biases of a network with layer sizes `sizes`.
-pub fn parameter_count(sizes: &[usize]) -> usize {
-    sizes.windows(2).map(|pair| (pair[0] + 1) * pair[1]).sum()
-}
-
 /// One pass through the network with layer sizes `sizes`, from inputs (rows x inputs) and flat parameters to outputs.
 /// candle's own layers would allocate a dozen intermediate tensors for it.
-pub struct Pass {
+pub struct Fused {
     sizes: Vec<usize>,
+    /// Whether gradients will be asked for along the inputs and along the parameters.
+    gradients: [bool; 2],
     /// Outputs of the hidden layers, kept by the forward pass for the backward pass.
     hidden: OnceLock<Vec<Vec<f32>>>,
-    wanted: Option<Wanted>,
 }
 
-impl Pass {
-    /// A pass that has not run yet.
-    pub fn new(sizes: &[usize], wanted: Option<Wanted>) -> Self {
-        Self { sizes: sizes.to_vec(), hidden: OnceLock::new(), wanted }
-    }
-
-    fn for_inputs(&self) -> bool {
-        matches!(self.wanted, Some(Wanted::Inputs | Wanted::Both))
-    }
-
-    fn for_parameters(&self) -> bool {
-        matches!(self.wanted, Some(Wanted::Parameters | Wanted::Both))
+impl Fused {
+    /// A pass that has not run yet; `gradients` says whether the inputs' and the parameters' will be asked for.
+    pub fn new(sizes: &[usize], gradients: [bool; 2]) -> Self {
+        Self { sizes: sizes.to_vec(), gradients, hidden: OnceLock::new() }
     }
 }
 
@@ -59,7 +37,7 @@ fn layers<'a>(sizes: &'a [usize], mut parameters: &'a [f32]) -> impl Iterator<It
     })
 }
 
-impl CustomOp2 for Pass {
+impl CustomOp2 for Fused {
     fn name(&self) -> &'static str {
         "mlp"
     }
@@ -75,15 +53,18 @@ impl CustomOp2 for Pass {
             let from = outputs.last().map_or(inputs, Vec::as_slice);
             let mut next = product(Matrix::new(from, rows, self.sizes[index]), weights);
             let least = if index + 2 == self.sizes.len() { f32::NEG_INFINITY } else { 0.0 };
-            for row in next.chunks_exact_mut(bias.len()) {
-                for (x, b) in row.iter_mut().zip(bias) {
-                    *x = (*x + b).max(least);
+            // Dispatched so that the loops are compiled for the wide registers of the processor at hand.
+            Arch::new().dispatch(|| {
+                for row in next.chunks_exact_mut(bias.len()) {
+                    for (x, b) in row.iter_mut().zip(bias) {
+                        *x = (*x + b).max(least);
+                    }
                 }
-            }
+            });
             outputs.push(next);
         }
         let Some(last) = outputs.pop() else { bail!("a network needs at least two layer sizes") };
-        if self.wanted.is_some() {
+        if self.gradients.contains(&true) {
             self.hidden.get_or_init(|| outputs);
         }
         Ok((CpuStorage::F32(last), Shape::from((rows, self.sizes[self.sizes.len() - 1]))))
@@ -101,10 +82,11 @@ impl CustomOp2 for Pass {
         let (parameter_storage, parameter_layout) = parameters.storage_and_layout();
         let (inputs, parameters) =
             (stored_values(&input_storage, input_layout)?, stored_values(&parameter_storage, parameter_layout)?);
+        let [for_inputs, for_parameters] = self.gradients;
         let (rows, mut end) = (input_layout.dims()[0], parameters.len());
         // The gradient with respect to the outputs of the layer that is being worked on.
         let mut errors: Vec<f32> = gradient.flatten_all()?.to_vec1()?;
-        let mut parameter_gradient = vec![0.0; if self.for_parameters() { end } else { 0 }];
+        let mut parameter_gradient = vec![0.0; if for_parameters { end } else { 0 }];
         let mut input_gradient = None;
         let layers: Vec<_> = layers(&self.sizes, parameters).collect();
         for (index, (weights, bias)) in layers.into_iter().enumerate().rev() {
@@ -112,7 +94,7 @@ impl CustomOp2 for Pass {
             let from = if index == 0 { inputs } else { &hidden[index - 1] };
             let delta = Matrix::new(&errors, rows, after);
             let start = end - (before * after + bias.len());
-            if self.for_parameters() {
+            if for_parameters {
                 let (weight_part, bias_part) = parameter_gradient[start..end].split_at_mut(before * after);
                 weight_part.copy_from_slice(&product(Matrix::new(from, rows, before).transposed(), delta));
                 for row in errors.chunks_exact(after) {
@@ -123,7 +105,7 @@ impl CustomOp2 for Pass {
             }
             end = start;
             if index == 0 {
-                if self.for_inputs() {
+                if for_inputs {
                     let values = product(delta, weights.transposed());
                     input_gradient = Some(Tensor::from_vec(values, (rows, before), &Device::Cpu)?);
                 }
@@ -135,7 +117,7 @@ impl CustomOp2 for Pass {
                 errors = previous;
             }
         }
-        let parameter_gradient = if self.for_parameters() {
+        let parameter_gradient = if for_parameters {
             let count = parameter_gradient.len();
             Some(Tensor::from_vec(parameter_gradient, count, &Device::Cpu)?)
         } else {

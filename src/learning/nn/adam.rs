@@ -1,17 +1,29 @@
-//! The Adam optimiser with its own, visible state, and the soft update of target networks; both in place.
+//! The Adam optimiser with a state that can be read, and the soft update of target networks; both in place.
 
-use candle_core::{CpuStorage, DType, Device, InplaceOp2, InplaceOp3, Layout, Result, Tensor, Var, bail};
+use candle_core::{CpuStorage, InplaceOp2, InplaceOp3, Layout, Result, Tensor, Var, backprop::GradStore, bail};
+use candle_nn::Optimizer;
 use pulp::Arch;
 
 use super::tensors::{stored_values, values};
 
-/// Adam (Kingma and Ba 2015) for one flat variable.
+/// What an [`Adam`] is made with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdamConfig {
+    /// Size of a step.
+    pub learning_rate: f64,
+    /// Longest gradient, over all variables, that is not shortened.
+    pub gradient_clip: f64,
+}
+
+/// Adam (Kingma and Ba 2015).
 ///
-/// candle's own `AdamW` keeps its moments private, so that a run could not be resumed exactly.
+/// candle's own `AdamW` keeps its moments private, so that a run could not be resumed exactly, and does not clip.
 #[derive(Debug)]
 pub struct Adam {
-    /// Decaying averages of the gradient and of its square.
-    moments: [Tensor; 2],
+    variables: Vec<Var>,
+    /// Decaying averages of each variable's gradient and of its square.
+    moments: Vec<[Tensor; 2]>,
+    config: AdamConfig,
     steps: u32,
 }
 
@@ -20,53 +32,71 @@ const BETA: [f32; 2] = [0.9, 0.999];
 const EPSILON: f32 = 1e-8;
 
 impl Adam {
-    /// An optimiser for `count` parameters that has not taken a step.
+    /// An optimiser that continues from what [`Adam::moments`] and [`Adam::steps`] gave.
     ///
     /// # Errors
-    /// Whatever candle reports.
-    pub fn new(count: usize) -> Result<Self> {
-        let zeros = || Tensor::zeros(count, DType::F32, &Device::Cpu);
-        Ok(Self { moments: [zeros()?, zeros()?], steps: 0 })
-    }
-
-    /// An optimiser that continues from what [`Adam::state`] gave.
-    ///
-    /// # Errors
-    /// Where the two moments differ in length.
-    pub fn from_state(moments: [Vec<f32>; 2], steps: u32) -> Result<Self> {
-        if moments[0].len() != moments[1].len() {
-            bail!("the optimiser's moments have {} and {} values", moments[0].len(), moments[1].len());
+    /// Where a moment has not the shape of its variable.
+    pub fn resume(variables: Vec<Var>, config: AdamConfig, moments: Vec<[Tensor; 2]>, steps: u32) -> Result<Self> {
+        let fit = |(variable, pair): (&Var, &[Tensor; 2])| pair.iter().all(|moment| moment.shape() == variable.shape());
+        if moments.len() != variables.len() || !variables.iter().zip(&moments).all(fit) {
+            bail!("the optimiser's moments do not have the shapes of its variables");
         }
-        let [first, second] = moments.map(|moment| {
-            let count = moment.len();
-            Tensor::from_vec(moment, count, &Device::Cpu)
-        });
-        Ok(Self { moments: [first?, second?], steps })
+        Ok(Self { variables, moments, config, steps })
     }
 
-    /// The decaying averages of the gradient and its square, and the number of steps taken.
-    pub const fn state(&self) -> (&[Tensor; 2], u32) {
-        (&self.moments, self.steps)
+    /// The decaying averages of each variable's gradient and its square.
+    pub fn moments(&self) -> &[[Tensor; 2]] {
+        &self.moments
     }
 
-    /// Moves `parameters` one step down `gradient`, whose norm is first limited to `clip`.
-    ///
-    /// # Errors
-    /// Where the lengths differ.
-    pub fn step(&mut self, parameters: &Var, gradient: &Tensor, learning_rate: f64, clip: f64) -> Result<()> {
-        let norm = norm(gradient)?;
+    /// Steps taken.
+    pub const fn steps(&self) -> u32 {
+        self.steps
+    }
+}
+
+impl Optimizer for Adam {
+    type Config = AdamConfig;
+
+    fn new(variables: Vec<Var>, config: AdamConfig) -> Result<Self> {
+        let zeros = |variable: &Var| Ok([variable.zeros_like()?, variable.zeros_like()?]);
+        let moments = variables.iter().map(zeros).collect::<Result<_>>()?;
+        Ok(Self { variables, moments, config, steps: 0 })
+    }
+
+    /// Moves the variables one step down their gradients; those without one stay.
+    fn step(&mut self, gradients: &GradStore) -> Result<()> {
+        let found: Vec<_> = self
+            .variables
+            .iter()
+            .zip(&self.moments)
+            .filter_map(|(variable, moments)| Some((variable, moments, gradients.get(variable)?)))
+            .collect();
+        let squares: Vec<f64> = found.iter().map(|(.., gradient)| squares(gradient)).collect::<Result<_>>()?;
+        let length = squares.iter().sum::<f64>().sqrt();
+        let AdamConfig { learning_rate, gradient_clip } = self.config;
         // Such a step would destroy the network.
-        if !norm.is_finite() {
+        if !length.is_finite() {
             bail!("the gradient is not finite: the learning rate {learning_rate} may be too high");
         }
-        let scale = (clip / norm).min(1.0) as f32;
+        let scale = (gradient_clip / length).min(1.0) as f32;
         self.steps += 1;
         let correction = BETA.map(|beta| 1.0 - f64::from(beta).powi(self.steps.cast_signed()));
-        let [first, second] = &self.moments;
-        first.inplace_op2(gradient, &Blend { keep: BETA[0], scale, squared: false })?;
-        second.inplace_op2(gradient, &Blend { keep: BETA[1], scale, squared: true })?;
-        let rate = (learning_rate / correction[0]) as f32;
-        parameters.inplace_op3(first, second, &Descend { rate, unbias: (1.0 / correction[1]) as f32 })
+        let descend = Descend { rate: (learning_rate / correction[0]) as f32, unbias: (1.0 / correction[1]) as f32 };
+        for (variable, [first, second], gradient) in found {
+            first.inplace_op2(gradient, &Blend { keep: BETA[0], scale, squared: false })?;
+            second.inplace_op2(gradient, &Blend { keep: BETA[1], scale, squared: true })?;
+            variable.inplace_op3(first, second, &descend)?;
+        }
+        Ok(())
+    }
+
+    fn learning_rate(&self) -> f64 {
+        self.config.learning_rate
+    }
+
+    fn set_learning_rate(&mut self, learning_rate: f64) {
+        self.config.learning_rate = learning_rate;
     }
 }
 
@@ -78,7 +108,8 @@ pub fn soft_update(target: &Var, online: &Var, rate: f64) -> Result<()> {
     target.inplace_op2(online.as_tensor(), &Blend { keep: (1.0 - rate) as f32, scale: 1.0, squared: false })
 }
 
-fn norm(tensor: &Tensor) -> Result<f64> {
+/// Sum of the squares of a tensor's values.
+fn squares(tensor: &Tensor) -> Result<f64> {
     let (storage, layout) = tensor.storage_and_layout();
     let (chunks, rest) = stored_values(&storage, layout)?.as_chunks::<16>();
     // Sixteen sums at a time, which the processor can add side by side.
@@ -88,8 +119,7 @@ fn norm(tensor: &Tensor) -> Result<f64> {
             *sum += x * x;
         }
     }
-    let total: f64 = sums.into_iter().chain(rest.iter().map(|x| x * x)).map(f64::from).sum();
-    Ok(total.sqrt())
+    Ok(sums.into_iter().chain(rest.iter().map(|x| x * x)).map(f64::from).sum())
 }
 
 /// `x <- keep x + (1 - keep) y`, where y is `scale` times the other tensor, or the square of that.
@@ -171,23 +201,25 @@ fn same_length(a: &[f32], b: &[f32]) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use candle_nn::{AdamW, Optimizer, ParamsAdamW};
+    use candle_core::Device;
+    use candle_nn::{AdamW, ParamsAdamW};
 
     fn variable(values: &[f32]) -> Var {
         Var::new(values, &Device::Cpu).unwrap()
     }
 
+    const CONFIG: AdamConfig = AdamConfig { learning_rate: 0.01, gradient_clip: f64::INFINITY };
+
     #[test]
     fn a_hundred_steps_agree_with_candles_own_optimiser_without_weight_decay() {
         let start = [0.5f32, -1.0, 2.0, 0.0, 3.0];
         let (ours, theirs) = (variable(&start), variable(&start));
-        let mut adam = Adam::new(start.len()).unwrap();
+        let mut adam = Adam::new(vec![ours.clone()], CONFIG).unwrap();
         let settings = ParamsAdamW { lr: 0.01, weight_decay: 0.0, ..ParamsAdamW::default() };
         let mut reference = AdamW::new(vec![theirs.clone()], settings).unwrap();
         let loss = |x: &Var| (x.sin().unwrap() + x.sqr().unwrap()).unwrap().sum_all().unwrap();
         for _ in 0..100 {
-            let gradients = loss(&ours).backward().unwrap();
-            adam.step(&ours, gradients.get(&ours).unwrap(), 0.01, f64::INFINITY).unwrap();
+            adam.backward_step(&loss(&ours)).unwrap();
             reference.backward_step(&loss(&theirs)).unwrap();
         }
         let (ours, theirs) = (ours.to_vec1::<f32>().unwrap(), theirs.to_vec1::<f32>().unwrap());
@@ -197,10 +229,21 @@ mod tests {
     }
 
     #[test]
+    fn a_long_gradient_is_shortened_over_all_variables_together() {
+        let (x, y) = (variable(&[3.0]), variable(&[4.0]));
+        let mut adam = Adam::new(vec![x.clone(), y.clone()], AdamConfig { gradient_clip: 1.0, ..CONFIG }).unwrap();
+        let loss = ((x.sqr().unwrap() + y.sqr().unwrap()).unwrap() * 0.5).unwrap().sum_all().unwrap();
+        adam.backward_step(&loss).unwrap();
+        // After one step the averages are a tenth of the gradient, whose length was five.
+        let first: Vec<f32> = adam.moments().iter().map(|[first, _]| first.to_vec1::<f32>().unwrap()[0]).collect();
+        assert!((first[0] - 0.06).abs() < 1e-6 && (first[1] - 0.08).abs() < 1e-6, "{first:?}");
+    }
+
+    #[test]
     fn a_gradient_that_is_not_a_number_is_refused_before_it_does_harm() {
         let parameters = variable(&[1.0, 2.0]);
-        let gradient = Tensor::new(&[f32::NAN, 0.0], &Device::Cpu).unwrap();
-        assert!(Adam::new(2).unwrap().step(&parameters, &gradient, 0.01, 1.0).is_err());
+        let loss = (parameters.as_tensor() * f64::NAN).unwrap().sum_all().unwrap();
+        assert!(Adam::new(vec![parameters.clone()], CONFIG).unwrap().backward_step(&loss).is_err());
         assert_eq!(parameters.to_vec1::<f32>().unwrap(), [1.0, 2.0]);
     }
 

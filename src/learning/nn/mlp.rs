@@ -1,9 +1,22 @@
 //! Multi-layer perceptrons with flat parameters and seeded initialisation.
 
-use candle_core::{CustomOp2, Device, Result, Tensor, Var, bail};
+use candle_core::{Device, Result, Tensor, Var, bail};
+use candle_nn::{Linear, Module};
 use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
 
-use super::pass::{Pass, Wanted, parameter_count};
+use super::fused::Fused;
+
+/// How a network's passes are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Operations {
+    /// The whole network as one operation, [`Fused`].
+    #[default]
+    Fused,
+    /// Layer by layer with candle's own operations: the same to rounding, and slower.
+    Plain,
+}
 
 /// A network of dense layers with rectified linear units between them and a linear output.
 ///
@@ -13,6 +26,12 @@ use super::pass::{Pass, Wanted, parameter_count};
 pub struct Mlp {
     sizes: Vec<usize>,
     parameters: Var,
+    operations: Operations,
+}
+
+/// Number of weights and biases of a network with layer sizes `sizes`, inputs first.
+pub fn parameter_count(sizes: &[usize]) -> usize {
+    sizes.windows(2).map(|pair| (pair[0] + 1) * pair[1]).sum()
 }
 
 impl Mlp {
@@ -23,10 +42,25 @@ impl Mlp {
     /// # Errors
     /// Whatever candle reports.
     pub fn random(sizes: &[usize], rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
+        Self::uniform(sizes, rng, |layer, [inputs, _]| {
+            let shrink = if layer + 2 == sizes.len() { 0.01 } else { 1.0 };
+            shrink * (6.0 / inputs).sqrt()
+        })
+    }
+
+    /// The same with weights uniform within ±sqrt(6 / (inputs + outputs)) (Glorot and Bengio 2010), as Keras begins.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn glorot(sizes: &[usize], rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
+        Self::uniform(sizes, rng, |_, [inputs, outputs]| (6.0 / (inputs + outputs)).sqrt())
+    }
+
+    /// Weights uniform within the bound of their layer, from its number, inputs and outputs; biases zero.
+    fn uniform(sizes: &[usize], rng: &mut (impl Rng + ?Sized), bound: impl Fn(usize, [f32; 2]) -> f32) -> Result<Self> {
         let mut parameters = Vec::with_capacity(parameter_count(sizes));
         for (layer, pair) in sizes.windows(2).enumerate() {
-            let shrink = if layer + 2 == sizes.len() { 0.01 } else { 1.0 };
-            let bound = shrink * (6.0 / pair[0] as f32).sqrt();
+            let bound = bound(layer, [pair[0] as f32, pair[1] as f32]);
             parameters.extend((0..pair[0] * pair[1]).map(|_| rng.random_range(-bound..=bound)));
             parameters.resize(parameters.len() + pair[1], 0.0);
         }
@@ -42,7 +76,8 @@ impl Mlp {
         if parameters.len() != count {
             bail!("a network of sizes {sizes:?} has {count} parameters, not {}", parameters.len());
         }
-        Ok(Self { sizes: sizes.to_vec(), parameters: Var::from_vec(parameters, count, &Device::Cpu)? })
+        let parameters = Var::from_vec(parameters, count, &Device::Cpu)?;
+        Ok(Self { sizes: sizes.to_vec(), parameters, operations: Operations::default() })
     }
 
     /// A network with its own copy of the parameters.
@@ -50,7 +85,12 @@ impl Mlp {
     /// # Errors
     /// Whatever candle reports.
     pub fn duplicate(&self) -> Result<Self> {
-        Self::from_parameters(&self.sizes, self.parameters.to_vec1()?)
+        Ok(Self::from_parameters(&self.sizes, self.parameters.to_vec1()?)?.with(self.operations))
+    }
+
+    /// This network with other operations.
+    pub fn with(self, operations: Operations) -> Self {
+        Self { operations, ..self }
     }
 
     /// This network with another bias in its last layer.
@@ -65,7 +105,7 @@ impl Mlp {
         }
         let start = parameters.len() - outputs;
         parameters[start..].copy_from_slice(bias);
-        Self::from_parameters(&self.sizes, parameters)
+        Ok(Self::from_parameters(&self.sizes, parameters)?.with(self.operations))
     }
 
     /// Layer sizes, inputs first.
@@ -78,15 +118,7 @@ impl Mlp {
         &self.parameters
     }
 
-    /// Outputs (rows x outputs) for inputs (rows x inputs); gradients flow to the parameters and to the inputs.
-    ///
-    /// # Errors
-    /// Where the inputs have another shape.
-    pub fn forward(&self, inputs: &Tensor) -> Result<Tensor> {
-        self.apply(inputs, self.parameters.as_tensor())
-    }
-
-    /// As [`Mlp::forward`], without gradients for the parameters.
+    /// As [`Module::forward`], without gradients for the parameters.
     ///
     /// # Errors
     /// Where the inputs have another shape.
@@ -94,51 +126,36 @@ impl Mlp {
         self.apply(inputs, &self.parameters.as_detached_tensor())
     }
 
-    /// As [`Mlp::forward`], but outside candle's automatic differentiation: the record gives the gradients when asked.
-    ///
-    /// # Errors
-    /// Where the inputs have another shape.
-    pub fn record(&self, inputs: &Tensor, wanted: Wanted) -> Result<Record> {
-        let pass = Pass::new(&self.sizes, Some(wanted));
-        let (inputs, parameters) = (inputs.detach(), self.parameters.as_detached_tensor());
-        let outputs = inputs.apply_op2_no_bwd(&parameters, &pass)?;
-        Ok(Record { pass, inputs, parameters, outputs })
-    }
-
     fn apply(&self, inputs: &Tensor, parameters: &Tensor) -> Result<Tensor> {
-        let wanted = match (inputs.track_op(), parameters.track_op()) {
-            (true, true) => Some(Wanted::Both),
-            (true, false) => Some(Wanted::Inputs),
-            (false, true) => Some(Wanted::Parameters),
-            (false, false) => None,
-        };
-        inputs.apply_op2(parameters, Pass::new(&self.sizes, wanted))
+        match self.operations {
+            Operations::Fused => {
+                let gradients = [inputs.track_op(), parameters.track_op()];
+                inputs.apply_op2(parameters, Fused::new(&self.sizes, gradients))
+            }
+            Operations::Plain => self.apply_layers(inputs, parameters),
+        }
+    }
+
+    fn apply_layers(&self, inputs: &Tensor, parameters: &Tensor) -> Result<Tensor> {
+        let (mut values, mut start) = (inputs.clone(), 0);
+        for (index, pair) in self.sizes.windows(2).enumerate() {
+            let weights = parameters.narrow(0, start, pair[0] * pair[1])?.reshape((pair[0], pair[1]))?;
+            let bias = parameters.narrow(0, start + pair[0] * pair[1], pair[1])?;
+            let layer = Linear::new(weights.t()?, Some(bias));
+            if index > 0 {
+                values = values.relu()?;
+            }
+            values = layer.forward(&values)?;
+            start += (pair[0] + 1) * pair[1];
+        }
+        Ok(values)
     }
 }
 
-/// A forward pass that remembers what its backward pass needs.
-///
-/// candle's own backward pass through the same operation adds every gradient to a tensor of zeros, on a pool of
-/// spinning threads from 65,536 values on; that takes as long as the matrix products.
-pub struct Record {
-    pass: Pass,
-    inputs: Tensor,
-    parameters: Tensor,
-    outputs: Tensor,
-}
-
-impl Record {
-    /// What the network said.
-    pub const fn outputs(&self) -> &Tensor {
-        &self.outputs
-    }
-
-    /// The gradients for the inputs and the parameters, where wanted, from that for the outputs.
-    ///
-    /// # Errors
-    /// Where `gradient` has another shape than the outputs.
-    pub fn backward(&self, gradient: &Tensor) -> Result<(Option<Tensor>, Option<Tensor>)> {
-        self.pass.bwd(&self.inputs, &self.parameters, &self.outputs, gradient)
+impl Module for Mlp {
+    /// Outputs (rows x outputs) for inputs (rows x inputs); gradients flow to the parameters and to the inputs.
+    fn forward(&self, inputs: &Tensor) -> Result<Tensor> {
+        self.apply(inputs, self.parameters.as_tensor())
     }
 }
 
@@ -159,19 +176,6 @@ mod tests {
         (Mlp::from_parameters(&SIZES, parameters).unwrap(), Var::from_vec(inputs, (11, 5), &Device::Cpu).unwrap())
     }
 
-    /// The same network out of candle's own operations.
-    fn plain_forward(parameters: &Tensor, inputs: &Tensor) -> Result<Tensor> {
-        let (mut values, mut start) = (inputs.clone(), 0);
-        for (index, pair) in SIZES.windows(2).enumerate() {
-            let weights = parameters.narrow(0, start, pair[0] * pair[1])?.reshape((pair[0], pair[1]))?;
-            let bias = parameters.narrow(0, start + pair[0] * pair[1], pair[1])?;
-            values = values.matmul(&weights)?.broadcast_add(&bias)?;
-            values = if index + 2 < SIZES.len() { values.relu()? } else { values };
-            start += (pair[0] + 1) * pair[1];
-        }
-        Ok(values)
-    }
-
     fn largest_difference(a: &Tensor, b: &Tensor) -> f32 {
         a.sub(b).unwrap().abs().unwrap().flatten_all().unwrap().max(0).unwrap().to_scalar().unwrap()
     }
@@ -180,7 +184,7 @@ mod tests {
     fn outputs_and_gradients_agree_with_candles_own_operations() {
         let (mlp, inputs) = network_and_inputs();
         let fused = mlp.forward(&inputs).unwrap();
-        let plain = plain_forward(mlp.parameters(), &inputs).unwrap();
+        let plain = mlp.clone().with(Operations::Plain).forward(&inputs).unwrap();
         assert!(largest_difference(&fused, &plain) < 1e-5);
         let loss = |outputs: &Tensor| outputs.sin().unwrap().sum_all().unwrap().backward().unwrap();
         let (fused, plain) = (loss(&fused), loss(&plain));
@@ -207,20 +211,15 @@ mod tests {
     }
 
     #[test]
-    fn a_record_gives_the_gradients_that_are_wanted_and_no_others() {
-        let (mlp, inputs) = network_and_inputs();
-        let outputs = mlp.forward(&inputs).unwrap();
-        let gradients = outputs.sum_all().unwrap().backward().unwrap();
-        let ones = outputs.ones_like().unwrap();
-        for wanted in [Wanted::Inputs, Wanted::Parameters, Wanted::Both] {
-            let record = mlp.record(&inputs, wanted).unwrap();
-            let (for_inputs, for_parameters) = record.backward(&ones).unwrap();
-            assert_eq!(for_inputs.is_some(), wanted != Wanted::Parameters);
-            assert_eq!(for_parameters.is_some(), wanted != Wanted::Inputs);
-            for (ours, variable) in [(for_inputs, &inputs), (for_parameters, mlp.parameters())] {
-                let theirs = gradients.get(variable).unwrap();
-                assert!(ours.is_none_or(|ours| largest_difference(&ours, theirs) == 0.0));
-            }
+    fn a_frozen_network_lets_gradients_through_to_its_inputs_alone() {
+        for operations in [Operations::Fused, Operations::Plain] {
+            let (mlp, inputs) = network_and_inputs();
+            let mlp = mlp.with(operations);
+            let slopes = |outputs: &Tensor| outputs.sum_all().unwrap().backward().unwrap();
+            let (frozen, free) =
+                (slopes(&mlp.forward_frozen(&inputs).unwrap()), slopes(&mlp.forward(&inputs).unwrap()));
+            assert!(frozen.get(mlp.parameters()).is_none() && free.get(mlp.parameters()).is_some());
+            assert_eq!(largest_difference(frozen.get(&inputs).unwrap(), free.get(&inputs).unwrap()), 0.0);
         }
     }
 

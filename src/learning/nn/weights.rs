@@ -2,10 +2,14 @@
 
 use std::collections::HashMap;
 
+use candle_core::{Device, Tensor};
 use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::mlp::Mlp;
+use super::{
+    adam::{Adam, AdamConfig},
+    mlp::Mlp,
+};
 
 /// The one metadata key. All notes stand in one JSON text, because the order of several keys in a file is random and
 /// equal runs would give unequal files.
@@ -68,6 +72,19 @@ impl Writer {
             self.add(format!("{name}.{layer}.weight"), pair, weight);
             self.add(format!("{name}.{layer}.bias"), &pair[1..], bias);
             rest = after;
+        }
+        Ok(())
+    }
+
+    /// Adds the state of a network's optimiser: `name.moment.0` and `name.moment.1`, without the point where `name` is empty.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn add_optimiser(&mut self, name: &str, optimiser: &Adam) -> Result<(), WeightsError> {
+        for pair in optimiser.moments() {
+            for (order, moment) in pair.iter().enumerate() {
+                self.add(moment_name(name, order), moment.dims(), &moment.to_vec1()?);
+            }
         }
         Ok(())
     }
@@ -180,6 +197,29 @@ impl<'a> Reader<'a> {
         }
         Ok(Mlp::from_parameters(&sizes, parameters)?)
     }
+
+    /// The optimiser of `network` that [`Writer::add_optimiser`] wrote after so many steps.
+    ///
+    /// # Errors
+    /// Where it is missing or does not fit the network.
+    pub fn optimiser(&self, name: &str, network: &Mlp, config: AdamConfig, steps: u32) -> Result<Adam, WeightsError> {
+        let moment = |order: usize| -> Result<Tensor, WeightsError> {
+            let name = moment_name(name, order);
+            let (_, values) = self.array(&name)?;
+            let expected = network.parameters().elem_count();
+            if values.len() != expected {
+                return Err(WeightsError::Array { name, expected: format!("{expected} values") });
+            }
+            Ok(Tensor::from_vec(values, expected, &Device::Cpu)?)
+        };
+        let moments = vec![[moment(0)?, moment(1)?]];
+        Ok(Adam::resume(vec![network.parameters().clone()], config, moments, steps)?)
+    }
+}
+
+fn moment_name(optimiser: &str, order: usize) -> String {
+    let point = if optimiser.is_empty() { "" } else { "." };
+    format!("{optimiser}{point}moment.{order}")
 }
 
 #[cfg(test)]

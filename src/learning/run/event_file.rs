@@ -1,0 +1,176 @@
+//! A run's metrics as TensorBoard reads them: a file of events beside `metrics.jsonl`, with the same names.
+//!
+//! The file is a series of records (length, masked checksum, content, masked checksum), each an `Event` in the encoding of
+//! protocol buffers: <https://github.com/tensorflow/tensorflow/blob/master/tensorflow/core/util/event.proto>.
+
+use std::{
+    fs::{File, OpenOptions},
+    io::{self, Write as _},
+    path::Path,
+    time::{SystemTime, UNIX_EPOCH},
+};
+
+use crc::{CRC_32_ISCSI, Crc};
+use serde_json::Value;
+
+use super::metrics::Record;
+
+/// The file's name; TensorBoard finds files by a part of it.
+pub const FILE: &str = "events.out.tfevents.carom";
+
+const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISCSI);
+
+/// The file while the run writes it.
+#[derive(Debug)]
+pub struct EventFile(File);
+
+impl EventFile {
+    /// A file anew, with all lines that the run has written so far.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn create(folder: &Path, records: &[Record]) -> io::Result<Self> {
+        let file = OpenOptions::new().create(true).truncate(true).write(true).open(folder.join(FILE))?;
+        let mut events = Self(file);
+        let mut bytes = framed(&version_event());
+        for record in records {
+            bytes.extend(framed(&event(record, record.seconds)));
+        }
+        events.0.write_all(&bytes)?;
+        Ok(events)
+    }
+
+    /// Adds a line.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn push(&mut self, record: &Record) -> io::Result<()> {
+        self.0.write_all(&framed(&event(record, now())))
+    }
+}
+
+fn now() -> f64 {
+    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
+}
+
+/// A record of the file.
+fn framed(content: &[u8]) -> Vec<u8> {
+    let length = (content.len() as u64).to_le_bytes();
+    [&length, &masked(&length)[..], content, &masked(content)].concat()
+}
+
+/// The checksum as it stands in the file, turned so that a file of files does not contain its own.
+fn masked(bytes: &[u8]) -> [u8; 4] {
+    CHECKSUM.checksum(bytes).rotate_right(15).wrapping_add(0xa282_ead8).to_le_bytes()
+}
+
+/// Numbers of the fields of an `Event`, its `Summary` and a value in that.
+const WALL_TIME: u8 = 1;
+const STEP: u8 = 2;
+const FILE_VERSION: u8 = 3;
+const SUMMARY: u8 = 5;
+const VALUE: u8 = 1;
+const TAG: u8 = 1;
+const SIMPLE_VALUE: u8 = 2;
+
+/// Kinds of fields.
+const VARINT: u8 = 0;
+const DOUBLE: u8 = 1;
+const BYTES: u8 = 2;
+const FLOAT: u8 = 5;
+
+fn version_event() -> Vec<u8> {
+    let mut event = field(WALL_TIME, DOUBLE, &now().to_le_bytes());
+    event.extend(sized(FILE_VERSION, b"brain.Event:2"));
+    event
+}
+
+/// A line of metrics: every number under its name, at its number of shots.
+fn event(record: &Record, wall_time: f64) -> Vec<u8> {
+    let mut summary = Vec::new();
+    for (name, value) in numbers(record) {
+        let value = [sized(TAG, name.as_bytes()), field(SIMPLE_VALUE, FLOAT, &(value as f32).to_le_bytes())].concat();
+        summary.extend(sized(VALUE, &value));
+    }
+    let step = field(STEP, VARINT, &varint(record.shots));
+    [field(WALL_TIME, DOUBLE, &wall_time.to_le_bytes()), step, sized(SUMMARY, &summary)].concat()
+}
+
+/// The finite numbers of a line with their names in `metrics.jsonl`.
+fn numbers(record: &Record) -> Vec<(String, f64)> {
+    let Ok(Value::Object(fields)) = serde_json::to_value(record) else { return Vec::new() };
+    fields.into_iter().filter_map(|(name, value)| Some((name, value.as_f64()?))).collect()
+}
+
+fn field(number: u8, kind: u8, content: &[u8]) -> Vec<u8> {
+    [&[number << 3 | kind], content].concat()
+}
+
+fn sized(number: u8, content: &[u8]) -> Vec<u8> {
+    field(number, BYTES, &[varint(content.len() as u64), content.to_vec()].concat())
+}
+
+/// Seven bits a byte, the lowest first; all bytes but the last have the highest bit set.
+fn varint(mut value: u64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    while value >= 0x80 {
+        bytes.push(value as u8 | 0x80);
+        value >>= 7;
+    }
+    bytes.push(value as u8);
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checksums_and_numbers_are_encoded_as_published() {
+        // RFC 3720, B.4: 32 bytes of zeros.
+        assert_eq!(CHECKSUM.checksum(&[0; 32]), 0x8a91_36aa);
+        // Protocol buffers' own example.
+        assert_eq!(varint(150), [0x96, 0x01]);
+        assert_eq!(varint(0), [0]);
+    }
+
+    #[test]
+    fn a_file_is_a_version_and_an_event_a_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let record = Record {
+            shots: 300,
+            seconds: 1.5,
+            shots_per_second: 100.0,
+            updates: 3,
+            learning_rate: 1e-3,
+            critic_loss: f64::NAN,
+            actor_loss: None,
+            q_value: 0.5,
+            practice_reward: 0.25,
+            exploration: None,
+            memory: None,
+            held_out_reward: None,
+            held_out_reach: None,
+        };
+        let mut file = EventFile::create(folder.path(), std::slice::from_ref(&record)).unwrap();
+        file.push(&record).unwrap();
+        let bytes = std::fs::read(folder.path().join(FILE)).unwrap();
+        let (mut rest, mut events) = (bytes.as_slice(), Vec::new());
+        while let Some((length, after)) = rest.split_first_chunk::<8>() {
+            assert_eq!(after[..4], masked(length));
+            let content = &after[4..][..u64::from_le_bytes(*length) as usize];
+            let end = &after[4 + content.len()..];
+            assert_eq!(end[..4], masked(content));
+            events.push(content);
+            rest = &end[4..];
+        }
+        assert_eq!(events.len(), 3);
+        let has = |event: &[u8], part: &[u8]| event.windows(part.len()).any(|window| window == part);
+        assert!(has(events[0], b"brain.Event:2"));
+        for event in &events[1..] {
+            assert!(has(event, b"rollout/ep_rew_mean") && has(event, &0.25_f32.to_le_bytes()));
+            assert!(has(event, &[STEP << 3, 0xac, 0x02]), "300 shots");
+            assert!(!has(event, b"critic_loss"), "what is no number is left out");
+        }
+    }
+}

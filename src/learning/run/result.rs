@@ -1,0 +1,62 @@
+//! What a finished run has come to, for programs that compare runs.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::error::{RunError, file};
+use crate::{
+    learning::{
+        evaluation::Score,
+        learner::{Learner, TrainingPlan},
+    },
+    storage::write_atomic,
+};
+
+/// The file's name in a run's folder; it is there if and only if the run is finished.
+pub const FILE: &str = "result.json";
+
+/// The content of the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunResult {
+    /// The agent's name.
+    pub agent: String,
+    /// Reward, seed and number of shots.
+    #[serde(flatten)]
+    pub plan: TrainingPlan,
+    /// Name of the table.
+    pub table: String,
+    /// Updates made.
+    pub updates: u64,
+    /// Mean reward on the held-out layouts, without exploration: what is to be made large.
+    pub held_out_reward: f64,
+    /// Share of those layouts in which any proposal earns at least 1.
+    pub held_out_reach: f64,
+    /// Version of carom.
+    pub version: String,
+}
+
+impl RunResult {
+    /// What `learner` has come to with this last measurement.
+    pub fn of(learner: &dyn Learner, score: Score) -> Self {
+        Self {
+            agent: learner.agent().to_owned(),
+            plan: learner.plan(),
+            table: learner.table().name.clone(),
+            updates: learner.updates(),
+            held_out_reward: score.mean_reward,
+            held_out_reach: score.best_of_k,
+            version: super::config::VERSION.to_owned(),
+        }
+    }
+
+    /// Writes it for the run in `folder`.
+    ///
+    /// # Errors
+    /// Whatever the file system reports.
+    pub fn write(&self, folder: &Path) -> Result<(), RunError> {
+        let path = folder.join(FILE);
+        let text = serde_json::to_string_pretty(self).map_err(|error| file(&path)(error.into()))?;
+        write_atomic(&path, (text + "\n").as_bytes()).map_err(file(&path))
+    }
+}
