@@ -141,7 +141,8 @@ pub fn lawful(
         }
         for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
             // A slip that has ended has done so for a ball that nothing holds, too; one that rolls rolls on.
-            if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) {
+            let ends = slip(table.radius, now[ball].velocity, now[ball].spin).length() <= tolerance.ending_slip;
+            if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) && ends {
                 now[ball] = begin[ball];
             }
         }

@@ -28,6 +28,9 @@ const COUPLING: f64 = 10.0;
 /// wedge them.
 const MOST_PULL: f64 = 8.0;
 
+/// The cloth's frictions on two balls change the slip between them by so many times what they change a ball's speed.
+const GRIPPED_SLIP: f64 = 7.0;
+
 /// Slow bounces of one contact that are told one by one; those that follow belong to its chatter.
 const TOLD: u32 = 8;
 
@@ -198,7 +201,16 @@ pub fn settles(
     let set = ActiveSet::of(table, balls, contacts.as_slice(), none);
     let resolved = resolve(table, balls, &contacts, &set, tolerance.slack, None)?;
     let index = resolved.contacts.as_slice().iter().position(|pressing| pressing == contact)?;
-    ends(bodies * resolved.forces.normal[index]).then_some(resolved.contacts)
+    let pull = bodies * resolved.forces.normal[index];
+    // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
+    // bounce.
+    let kick = 2.0 * speed / pull * GRIPPED_SLIP * constants.sliding;
+    let grips =
+        !alone && table.ball_friction.is_none() && contacts.as_slice().iter().any(|other| other.second.is_some());
+    if grips && kick > tolerance.slowest_coupled_bounce {
+        return None;
+    }
+    ends(pull).then_some(resolved.contacts)
 }
 
 #[cfg(test)]

@@ -59,7 +59,7 @@ impl Constants {
             even: table.tilt == DVec2::ZERO && table.rolling_growth == 0.0,
             tilt: table.tilt,
             spinning: spin_deceleration(table),
-            lifts: if table.flight.is_some() { tolerance.slow_bounce } else { f64::INFINITY },
+            lifts: if table.flight.is_some() { tolerance.least_lift } else { f64::INFINITY },
             tolerance,
         }
     }

@@ -107,6 +107,8 @@ pub(super) struct Engine<'a, S, O> {
     pub(super) table: &'a Table,
     pub(super) constants: Constants,
     pub(super) law: ImpactLaw,
+    /// Whether nothing bounces on this table.
+    pub(super) dead: bool,
     /// The cloth, where balls can leave it.
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
@@ -137,6 +139,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
+            dead: table.ball_restitution == 0.0 && table.rail_restitution == 0.0,
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),

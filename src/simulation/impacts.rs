@@ -126,7 +126,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         for time in self.times {
             at_once += u32::from(time <= now + MOMENT);
         }
-        at_once > 1 || self.rounds > MOST_ROUNDS
+        at_once > 1 || self.dead || self.rounds > MOST_ROUNDS
     }
 
     /// All contacts that close now collide together, if there are several.
@@ -140,7 +140,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             _ => self.state(index, now),
         });
         let c = self.constants;
-        let collapsed = self.rounds > MOST_ROUNDS;
+        // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
+        let collapsed = self.dead || self.rounds > MOST_ROUNDS;
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });

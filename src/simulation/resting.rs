@@ -5,6 +5,7 @@
 //! the next. Where a slip ends its direction is singular in time; with time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip
 //! ends like an exponential and everything stays smooth.
 
+mod bounds;
 mod stiffness;
 
 use glam::DVec2;
@@ -162,7 +163,7 @@ impl Resting {
 
     /// Chooses the step and takes it.
     fn advance(&mut self, table: &Table) {
-        let Tolerance { step: exact, shortest_step: shortest, .. } = self.constants.tolerance;
+        let shortest = self.constants.tolerance.shortest_step;
         let begin = Trial {
             span: 0.0,
             step: Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 },
@@ -171,12 +172,12 @@ impl Resting {
         let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
         let (trial, broken) = loop {
             let trial = self.attempt(table, &begin, span);
-            if trial.step.error <= exact || span <= shortest {
+            let Some(shorter) = self.shorter(table, &trial).filter(|_| span > shortest) else {
                 let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
                 let broken = doubtful && !self.holds(table, &trial);
                 break (if broken { self.until_a_law_breaks(table, &begin, &trial) } else { trial }, broken);
-            }
-            span = trial.step.best_length.min(0.7 * span).max(shortest);
+            };
+            span = shorter.max(shortest);
         };
         if trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be followed: time goes on.

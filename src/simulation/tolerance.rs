@@ -44,8 +44,11 @@ pub struct Tolerance {
     pub step: f64,
     /// Forces per mass that are broken or missing by less than this count as rounding, m/s².
     pub slack: f64,
-    /// Bounces slower than this may be the end of a chatter, m/s: the test costs nothing where it cannot matter.
+    /// Bounces slower than this may be the end of a chatter, m/s: the test costs nothing where it cannot matter. It grows
+    /// with the number of bounces that a chatter has.
     pub slow_bounce: f64,
+    /// What a rail lifts more slowly than this stays on the cloth, m/s.
+    pub least_lift: f64,
     /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
     /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
@@ -62,6 +65,13 @@ pub struct Tolerance {
     pub negligible_coupled: f64,
 }
 
+/// How many more bounces a chatter has than at a restitution of 0.95: in inverse proportion to what is lost. Without loss none
+/// ends.
+fn liveliness(table: &Table) -> f64 {
+    let lost = 1.0 - table.ball_restitution.max(table.rail_restitution);
+    if lost > 0.0 { (0.05 / lost).clamp(1.0, 10.0) } else { 1.0 }
+}
+
 impl Tolerance {
     /// What counts as nothing on `table`.
     pub fn of(table: &Table) -> Self {
@@ -73,16 +83,17 @@ impl Tolerance {
             surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
             coupled_gap: 1.6e4 * f64::EPSILON * table.length.max(table.width),
             opening: 2e-11 * speed,
-            pressing: 1e-14 * table.gravity,
+            pressing: 1e-14 * table.gravity.min(5.0 * friction),
             slip: 2e-10 * speed,
             ending_slip: 4e-10 * speed,
-            yielding: 1e-4 * speed,
+            yielding: 1e-5 * speed,
             still: (2e-11 * rolling).sqrt(),
             shortest_step: (8e-13 * speed / friction).min(1e-13),
             shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
             step: 2e-13 * speed.max(table.radius),
-            slack: 1e-12 * table.gravity,
-            slow_bounce: 2e-2 * speed,
+            slack: 1e-12 * table.gravity.min(5.0 * friction),
+            slow_bounce: 2e-2 * speed * liveliness(table),
+            least_lift: 2e-2 * speed,
             slowest_bounce: 2e-10 * speed,
             slowest_in_air: 4e-3 * speed,
             first_bounce: FIRST_BOUNCE * speed,

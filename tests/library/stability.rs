@@ -17,15 +17,8 @@ const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, see
 const KNOWN: &[(&str, f64)] = &[
     ("adversarial shots, table \"textbook\"", 1.00e-03),
     ("adversarial shots, table \"thesis\"", 1.00e-03),
-    ("three balls in line, touching or 1e-16 to 1e-6 m apart", 5.00e-03),
-    ("a ball pressed between ball and cushion", 6.67e-03),
-    ("a ball spinning against another, e = 0.99", 5.00e-03),
-    ("next to no friction", 1.50e-02),
-    ("friction of 10 and 1000 on the cloth, 0.99 in contacts", 2.50e-03),
-    ("no restitution, e = 0", 1.50e-02),
-    ("restitution e = 0.3", 5.00e-03),
-    ("the smallest table, six ball radii wide", 1.00e-02),
-    ("balls of one millimetre and of one metre", 5.00e-03),
+    ("next to no friction", 5.00e-03),
+    ("no restitution, e = 0", 1.00e-02),
 ];
 
 /// Standard deviations by which the share of a known row may be above the measured one.
@@ -127,6 +120,24 @@ fn every_known_row_is_in_the_document() {
             cells.iter().find_map(|cell| cell.split_once(" fail: ")).map_or(0.0, |(failed, _)| failed.parse().unwrap());
         let rate = KNOWN.iter().find(|(row, _)| row == name).map_or(0.0, |(_, rate)| *rate);
         assert!((rate - failed / shots).abs() <= 0.05 * rate + 1e-6, "{name}: {} in the document", failed / shots);
+    }
+}
+
+/// Shots of the table that failed once, each for the cause that it names.
+#[test]
+fn shots_that_failed_hold() {
+    let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).collect();
+    for line in include_str!("../data/mended.jsonl").lines() {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        let table = tables.iter().find(|table| line["table"] == table.name).expect("a table of the cases");
+        let shot = Shot {
+            layout: serde_json::from_value(line["layout"].clone()).unwrap(),
+            cue: serde_json::from_value(line["cue"].clone()).unwrap(),
+        };
+        let figures = examine(table, &shot, &mut Trace::new(table));
+        // How long it takes is for the table to tell.
+        let violations = figures.violations(&Limits { seconds: f64::INFINITY, ..Limits::STRICT.on(table) });
+        assert!(violations.is_empty(), "{}: {violations:?}", line["cause"]);
     }
 }
 

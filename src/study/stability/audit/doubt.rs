@@ -8,7 +8,7 @@ const SHARE: f64 = 32.0 * f64::EPSILON;
 
 /// Speed to which the states of resting contacts are right, m/s: it moves a ball by 1e-9 m in ten seconds. What sticks is
 /// only known to slip by less than that.
-const RESTING_SPEED: f64 = 1e-10;
+pub const RESTING_SPEED: f64 = 1e-10;
 
 /// Place to which the courses of resting contacts are right, m: the work of a force is as uncertain as its way.
 const RESTING_PLACE: f64 = 1e-10;

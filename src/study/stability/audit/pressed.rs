@@ -4,8 +4,9 @@
 //! taken by five points of Gauss and Legendre on each stretch, exact to degree nine.
 
 use super::{
+    doubt::RESTING_SPEED,
     laws::friction,
-    least_squares::{Column, dot, fit},
+    least_squares::{Column, SIZE, dot, fit},
     motion::{Contact, about_vertical, centre, motion, on_cloth},
     on_cushion::OnCushion,
 };
@@ -15,9 +16,9 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Slips and speeds below this at a stretch's start count as none, m/s: what sticks there sticks on the way. It is ten times
-/// what the states are right to...
-const NO_SLIP: f64 = 1e-9;
+/// Slips and speeds below this at a stretch's start count as none, m/s: what sticks there sticks on the way. It is what the
+/// states are right to...
+const NO_SLIP: f64 = RESTING_SPEED;
 
 /// ... unless it is faster than this at the end, m/s, where the course's interpolation may be off.
 const DEPARTED: f64 = 1e-5;
@@ -58,7 +59,8 @@ pub fn work(
             None => BallState::at_rest(glam::DVec2::ZERO),
         })
     };
-    let ends = [from, until].map(|now| motion(table.radius, &states(now)));
+    let at_ends = [from, until].map(states);
+    let ends = at_ends.map(|balls| motion(table.radius, &balls));
     let half = 0.5 * (until - from);
     let mut contacts = Contact::all(table.radius, constants.reach, &states(from + half), gap);
     contacts.retain(|contact| members[contact.first] && contact.second.is_none_or(|second| members[second]));
@@ -74,6 +76,12 @@ pub fn work(
     if members == [false; BALLS] {
         return sum;
     }
+    // Two balls turn about each other: what their slip was at an end is told by the normal there.
+    let slip_at = |contact: &Contact, end: usize| {
+        let [_, along_t, up] = contact.at(&at_ends[end]).directions();
+        size(&along(&[along_t, up], &ends[end]))
+    };
+    let rubs: Vec<bool> = contacts.iter().map(|contact| is_slip(slip_at(contact, 0), slip_at(contact, 1))).collect();
     for (place, weight) in POINTS {
         let now = from + half * (1.0 + place);
         let states = states(now);
@@ -81,9 +89,9 @@ pub fn work(
             Some(course) => rate(course, now - course.start),
             None => states[ball],
         });
-        let contacts: Vec<Contact> = contacts.iter().map(|contact| contact.at(&states)).collect();
-        let speeds = motion(table.radius, &states);
-        let scene = Scene { table, members, speeds, ends };
+        let contacts: Vec<(Contact, bool)> =
+            contacts.iter().zip(&rubs).map(|(contact, rubs)| (contact.at(&states), *rubs)).collect();
+        let scene = Scene { table, members, speeds: motion(table.radius, &states), ends };
         let power = scene.power(&motion(table.radius, &rates), &contacts);
         sum.least += half * weight * (1.0 - INTERPOLATED) * power.least;
         sum.most += half * weight * (1.0 + INTERPOLATED) * power.most;
@@ -114,6 +122,11 @@ fn on_one_cushion(
 /// Whether there is a speed along some directions, by its size at a stretch's start and end.
 fn slips(ends: &[Column; 2], directions: &[Column]) -> bool {
     let [start, end] = [0, 1].map(|end: usize| size(&along(directions, &ends[end])));
+    is_slip(start, end)
+}
+
+/// Whether speeds of these sizes at a stretch's start and end are a slip.
+fn is_slip(start: f64, end: f64) -> bool {
     start > NO_SLIP || end > DEPARTED
 }
 
@@ -154,8 +167,8 @@ impl Scene<'_> {
         (speed > 0.0 && slips(&self.ends, directions)).then_some((now, speed))
     }
 
-    /// The power of all frictions.
-    fn power(&self, accelerations: &Column, contacts: &[Contact]) -> Work {
+    /// The power of all frictions. Of each contact it is known whether it slips.
+    fn power(&self, accelerations: &Column, contacts: &[(Contact, bool)]) -> Work {
         let g = self.table.gravity;
         let mut taken = 0.0;
         // What the known frictions leave of the accelerations, and what unknown forces there are.
@@ -166,47 +179,91 @@ impl Scene<'_> {
                 unknown.extend_from_slice(directions);
                 return false;
             };
-            directions
-                .iter()
-                .zip(along)
-                .for_each(|(direction, along)| add(&mut rest, force * along / speed, direction));
+            add(&mut rest, force / speed, &sum(directions, &along));
             taken += force * speed;
             true
         };
+        let rolling = self.table.rolling_friction * g;
+        // Resistances to rolling that are between none and all, and their speeds.
+        let mut creeping: Vec<(Column, f64)> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             if !cloth(&on_cloth(ball), self.table.sliding_friction * g) {
-                cloth(&centre(ball), self.table.rolling_friction * g);
+                cloth(&centre(ball), rolling);
+            } else if self.creeps(ball)
+                && let Some((velocity, speed)) = self.slip(&centre(ball))
+            {
+                let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
+                creeping.push((sum(&centre(ball), &against), speed));
             }
             cloth(&[about_vertical(ball)], self.table.spinning_friction * g);
         }
-        // The normal forces come first, each with what a unit of it takes.
-        let mut columns = Vec::with_capacity(3 * contacts.len() + unknown.len());
-        let mut prices = Vec::with_capacity(contacts.len());
-        for contact in contacts {
-            let [mut push, along, up] = contact.directions();
-            let mut price = 0.0;
-            match (friction(self.table, contact), self.slip(&[along, up])) {
-                (Some(mu), Some((slip, speed))) => {
-                    slip.iter().zip([along, up]).for_each(|(slip, along)| add(&mut push, -mu * slip / speed, &along));
-                    price = mu * speed;
-                }
-                _ => unknown.extend([along, up]),
+        let mut pushes: Vec<Push> = contacts.iter().map(|contact| self.push(contact)).collect();
+        loop {
+            let prices: f64 = pushes.iter().map(|push| push.price).sum();
+            if prices == 0.0 && creeping.is_empty() {
+                return Work { least: taken, most: taken };
             }
-            prices.push(price);
-            columns.push(push);
+            // The normal forces come first, then the resistances to rolling.
+            let mut columns: Vec<Column> = pushes.iter().map(|push| push.column).collect();
+            columns.extend(creeping.iter().map(|(column, _)| column));
+            columns.extend(&unknown);
+            columns.extend(pushes.iter().flat_map(|push| &push.sticks));
+            let Some(forces) = fit(&columns, &rest).factors else {
+                // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls
+                // ask for.
+                let largest = dot(&rest, &rest).sqrt() + BALLS as f64 * self.table.sliding_friction * g;
+                let rolls: f64 = creeping.iter().map(|(_, speed)| rolling * speed).sum();
+                return Work { least: taken, most: taken + largest * prices + rolls };
+            };
+            // What would have to pull does not touch.
+            let pulls = (0..pushes.len()).min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
+            if let Some(index) = pulls.filter(|&index| forces[index] < 0.0) {
+                pushes.remove(index);
+                continue;
+            }
+            let rubbed: f64 = pushes.iter().zip(&forces).map(|(push, force)| force * push.price).sum();
+            let resisted = creeping.iter().zip(&forces[pushes.len()..]);
+            let rolls: f64 = resisted.map(|((_, speed), force)| force.clamp(0.0, rolling) * speed).sum();
+            return Work { least: taken + rubbed + rolls, most: taken + rubbed + rolls };
         }
-        if prices.iter().all(|price| *price == 0.0) {
-            return Work { least: taken, most: taken };
-        }
-        columns.extend(unknown);
-        if let Some(forces) = fit(&columns, &rest).factors {
-            let rubbed: f64 = forces.iter().zip(&prices).map(|(force, price)| force.max(0.0) * price).sum();
-            return Work { least: taken + rubbed, most: taken + rubbed };
-        }
-        // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls ask for.
-        let largest = dot(&rest, &rest).sqrt() + BALLS as f64 * self.table.sliding_friction * g;
-        Work { least: taken, most: taken + largest * prices.iter().sum::<f64>() }
     }
+
+    /// Whether a ball's slip on the cloth has begun and does not get on: held by its friction and the resistance to rolling, it
+    /// would slip, and without the resistance, which ends with rolling, it would hold. At such an edge the resistance is as much
+    /// as keeps the ball there (Filippov).
+    fn creeps(&self, ball: usize) -> bool {
+        self.ends.iter().all(|end| size(&along(&on_cloth(ball), end)) <= DEPARTED)
+    }
+
+    /// What a unit of a contact's normal force does and takes.
+    fn push(&self, (contact, slips): &(Contact, bool)) -> Push {
+        let [mut column, along_t, up] = contact.directions();
+        let slip = along(&[along_t, up], &self.speeds);
+        let speed = size(&slip);
+        match friction(self.table, contact) {
+            Some(mu) if *slips && speed > 0.0 => {
+                add(&mut column, -mu / speed, &sum(&[along_t, up], &slip));
+                Push { column, price: mu * speed, sticks: Vec::new() }
+            }
+            _ => Push { column, price: 0.0, sticks: vec![along_t, up] },
+        }
+    }
+}
+
+/// A contact that pushes.
+struct Push {
+    /// What a unit of its normal force does, and what its friction takes then.
+    column: Column,
+    price: f64,
+    /// Its friction where it holds.
+    sticks: Vec<Column>,
+}
+
+/// Directions times speeds along them.
+fn sum(directions: &[Column], along: &[f64]) -> Column {
+    let mut sum = [0.0; SIZE];
+    directions.iter().zip(along).for_each(|(direction, along)| add(&mut sum, *along, direction));
+    sum
 }
 
 fn add(to: &mut Column, factor: f64, direction: &Column) {
