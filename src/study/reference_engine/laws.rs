@@ -48,7 +48,7 @@ impl<R: Real> Laws<R> {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {
             Motion::Sliding => Some(ball.slip(numbers).length()),
             Motion::Rolling => Some(ball.velocity.length()),
-            Motion::Stationary => None,
+            Motion::Stationary | Motion::Flying | Motion::OffTable => None,
         });
         let slipping = self.contacts.iter().filter(|(_, slips)| *slips);
         on_cloth.chain(slipping.map(|(contact, _)| contact.slip(numbers, balls).length()))
@@ -76,6 +76,7 @@ impl<R: Real> Laws<R> {
             Motion::Sliding => None,
             Motion::Rolling => Some(ball.slip(numbers).length()),
             Motion::Stationary => Some(ball.slip(numbers).length().max(ball.velocity.length())),
+            Motion::Flying | Motion::OffTable => None,
         });
         let held = self.contacts.iter().filter(|(contact, slips)| !slips && contact.friction(numbers).is_some());
         on_cloth.chain(held.map(|(contact, _)| contact.slip(numbers, balls).length())).fold(R::zero(), R::max)
