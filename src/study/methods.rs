@@ -83,7 +83,8 @@ impl Method {
         }
     }
 
-    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep.
+    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep, and for courses in
+    /// the air, of which no account is kept.
     pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
         let mut trace = Trace::new(table);
         match self {
@@ -95,8 +96,11 @@ impl Method {
             }
             _ => return run.unaccounted,
         }
+        if trace.has_flights() || trace.kept_until < f64::INFINITY {
+            return None;
+        }
         let account = account(table, &trace);
-        (trace.kept_until == f64::INFINITY).then(|| (account.unexplained / account.start).abs())
+        Some((account.unexplained / account.start).abs())
     }
 }
 

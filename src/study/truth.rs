@@ -78,6 +78,11 @@ impl Truth {
         Self { events, end: ends(table, shot), condition, chatters, unaccounted }
     }
 
+    /// Whether a ball leaves the cloth.
+    pub fn flies(&self) -> bool {
+        self.events.iter().any(|(_, kind)| matches!(kind, EventKind::Jumps(_)))
+    }
+
     /// Greatest distance of a ball at rest from where it should be, m.
     pub fn distance(&self, end: &Layout) -> f64 {
         let apart = self.end.iter().zip(places(end)).map(|(truth, ball)| (*truth - ball).length().to_f64());
