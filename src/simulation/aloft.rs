@@ -29,6 +29,7 @@ pub struct Nose {
 }
 
 impl Nose {
+    /// That of a cushion.
     pub fn of(cushion: &Cushion, radius: f64) -> Self {
         let [sine, cosine] = cushion.nose();
         Self { height: radius * sine, beyond: radius * cosine }
