@@ -88,15 +88,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
         )));
     }
-    let tables = match &args.table {
-        Some(name) => with_flights(table_named(name)?),
-        None => {
-            let judged: Vec<Table> = JUDGED.into_iter().map(table_named).collect::<Result<_, _>>()?;
-            let table = Table::default();
-            let flying = Table { flight: table.flight.or(Some(Flight::default())), ..table };
-            judged.into_iter().map(|table| (table, Steepest::USUAL)).chain([(flying, Steepest::FLIGHTS)]).collect()
-        }
-    };
+    let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let size = Size::of(args);
     let studies: Vec<Study> =
@@ -198,6 +190,14 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<()> {
     printing::json(out, value)?;
     writeln!(out)
+}
+
+/// The tables that are judged where none is named: two with usual strokes, and one with steep ones whose balls fly.
+fn judged() -> Result<Vec<(Table, Steepest)>, Failure> {
+    let table = Table::default();
+    let flying = Table { flight: table.flight.or(Some(Flight::default())), ..table };
+    let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
+    flat.chain([Ok((flying, Steepest::FLIGHTS))]).collect()
 }
 
 /// A table with usual strokes, and with steep ones where balls leave its cloth.

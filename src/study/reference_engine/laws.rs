@@ -73,10 +73,9 @@ impl<R: Real> Laws<R> {
     /// The largest slip or speed that counts as none.
     pub fn largest_held(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> R {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {
-            Motion::Sliding => None,
+            Motion::Sliding | Motion::Flying | Motion::OffTable => None,
             Motion::Rolling => Some(ball.slip(numbers).length()),
             Motion::Stationary => Some(ball.slip(numbers).length().max(ball.velocity.length())),
-            Motion::Flying | Motion::OffTable => None,
         });
         let held = self.contacts.iter().filter(|(contact, slips)| !slips && contact.friction(numbers).is_some());
         on_cloth.chain(held.map(|(contact, _)| contact.slip(numbers, balls).length())).fold(R::zero(), R::max)
