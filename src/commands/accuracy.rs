@@ -13,8 +13,8 @@ use super::{Failure, input::table_named, output::tell};
 use crate::{
     printing,
     storage::write_atomic,
-    study::{self, Method, Plan, Study, filmed, random_shots, stability},
-    table::{JUDGED, Table},
+    study::{self, Method, Plan, Steepest, Study, filmed, random_shots, stability},
+    table::{Flight, JUDGED, Table},
 };
 
 /// Measure how exact the simulator is and what that costs: the engine, other root finders, single precision and fixed
@@ -32,7 +32,8 @@ pub struct Args {
     /// Seed of the shots.
     #[arg(long, default_value_t = 2026)]
     seed: u64,
-    /// The table: "match", "textbook", "thesis" or the path of a TOML file. Default: textbook and thesis
+    /// The table: "match", "textbook", "thesis" or the path of a TOML file; where balls leave its cloth, strokes of up to 60
+    /// degrees are studied too. Default: textbook and thesis, and such strokes on match
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
     /// Play the stability table only: a hundred thousand random, ten thousand adversarial and a thousand shots of each
@@ -87,13 +88,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
         )));
     }
-    let tables: Vec<Table> = match &args.table {
-        Some(name) => vec![table_named(name)?],
-        None => JUDGED.into_iter().map(table_named).collect::<Result<_, _>>()?,
-    };
+    let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let size = Size::of(args);
-    let studies: Vec<Study> = tables.into_iter().map(|table| measure(table, &size, args.seed)).collect();
+    let studies: Vec<Study> =
+        tables.into_iter().map(|(table, steepest)| measure(table, steepest, &size, args.seed)).collect();
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
     }
@@ -193,10 +192,25 @@ fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<(
     writeln!(out)
 }
 
-fn measure(table: Table, size: &Size, seed: u64) -> Study {
-    let shots = random_shots(&table, size.shots, seed);
+/// The tables that are judged where none is named: two with usual strokes, and one with steep ones whose balls fly.
+fn judged() -> Result<Vec<(Table, Steepest)>, Failure> {
+    let table = Table::default();
+    let flying = Table { flight: table.flight.or(Some(Flight::default())), ..table };
+    let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
+    flat.chain([Ok((flying, Steepest::FLIGHTS))]).collect()
+}
+
+/// A table with usual strokes, and with steep ones where balls leave its cloth.
+fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
+    let flying = table.flight.is_some().then(|| (table.clone(), Steepest::FLIGHTS));
+    [(table, Steepest::USUAL)].into_iter().chain(flying).collect()
+}
+
+fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Study {
+    let shots = random_shots(&table, size.shots, seed, steepest);
     let bar = progress_bar(shots.len(), &table.name);
-    let plan = Plan { table, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
+    let plan =
+        Plan { table, steepest, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
     let study = plan.run(|done| bar.set_position(done as u64));
     bar.finish_and_clear();
     study

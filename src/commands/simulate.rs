@@ -309,12 +309,6 @@ fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
 }
 
 fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -> Result<Played, Failure> {
-    if steps.is_some() && table.flight.is_some() {
-        return Err(Failure::wrong_input(format_args!(
-            "--method steps keeps balls on the cloth; the table \"{}\" has a section [flight]: leave it out, or take --method events",
-            table.name
-        )));
-    }
     match steps {
         None => Ok((bounded::play(table, layout, cue)?, None)),
         Some(steps) => {

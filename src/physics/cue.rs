@@ -199,7 +199,7 @@ impl Impulse {
         Self { velocity, spin, lift: 0.0 }
     }
 
-    /// Checks that both are numbers and not out of all proportion. A ball at rest is accepted: it stays where it lies.
+    /// Checks that all three are numbers and not out of all proportion. A ball at rest is accepted: it stays where it lies.
     ///
     /// # Errors
     /// The first problem found.

@@ -24,7 +24,7 @@ impl From<BallState> for SpatialState {
 
 impl SpatialState {
     /// What of it is seen from above: the state of a ball on the cloth if it is there.
-    pub fn from_above(&self) -> BallState {
+    pub fn seen_from_above(&self) -> BallState {
         BallState { position: self.position.truncate(), velocity: self.velocity.truncate(), spin: self.spin }
     }
 

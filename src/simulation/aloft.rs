@@ -7,11 +7,14 @@ use glam::DVec3;
 
 use super::{
     Constants, Rail, Segment,
+    ball_ball::Triangle,
+    contacts::cushion_gap,
     hops::{Arc, Hops},
-    predict::{Ahead, polynomial_closes, shifted, travel},
+    predict::{Ahead, lesser, polynomial_closes, shifted, travel},
     roots::{MAX_DEGREE, first_crossing_of_quartic},
+    savings::Savings,
 };
-use crate::physics::{Cushion, Cushions};
+use crate::physics::{Cushion, Cushions, Motion};
 
 /// Landings that are gone through at most: after so many the hops of the liveliest cloth are lower than an atom.
 const MOST_LANDINGS: u32 = 4000;
@@ -26,16 +29,23 @@ pub struct Nose {
 }
 
 impl Nose {
+    /// That of a cushion.
     pub fn of(cushion: &Cushion, radius: f64) -> Self {
         let [sine, cosine] = cushion.nose();
         Self { height: radius * sine, beyond: radius * cosine }
     }
 
     /// The way from a ball's centre to the nose of `rail`, m; one that points into the table has been passed over.
-    pub fn from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
+    pub fn way_from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
         let n = rail.normal();
         let inwards = gap(constants, rail, centre) + self.beyond;
         (-inwards * n).extend(self.height - centre.z)
+    }
+
+    /// How far from touching the cushion on the cloth a ball can be, seen from above, that touches the nose from the air, no more
+    /// than `top` above the cloth, m: the nose stands out most at its own height.
+    fn margin(&self, radius: f64, top: f64) -> f64 {
+        lesser(radius - self.beyond, top * self.height.max(0.0) / self.beyond)
     }
 
     /// When a ball on `arc` meets the nose of `rail`, or comes down on the rail behind it, s since the arc's beginning and not
@@ -46,7 +56,7 @@ impl Nose {
         let (climb, n) = (arc.velocity.z, rail.normal());
         let approach = -arc.velocity.truncate().dot(n);
         let gap = gap(constants, rail, arc.position);
-        if gap - (approach * lasts).max(0.0) > radius - self.beyond + tolerance.touching {
+        if gap - (approach * lasts).max(0.0) > self.margin(radius, top(arc, gravity)) + tolerance.surely_apart {
             return None;
         }
         // Beside the nose, below it, and the square of the distance but for R², without cancellation.
@@ -74,8 +84,22 @@ impl Nose {
 
 /// How far a ball is from touching the cushion, seen from above, m.
 fn gap(constants: &Constants, rail: Rail, centre: DVec3) -> f64 {
+    cushion_gap(constants, rail.normal(), centre.truncate())
+}
+
+/// The greatest height on an arc, m.
+fn top(arc: &Arc, gravity: f64) -> f64 {
+    let climb = arc.velocity.z.max(0.0);
+    arc.position.z + 0.5 * climb * climb / gravity
+}
+
+/// Whether a ball surely does not come near the nose of `rail` on this arc and all that follow, which are lower, in the `rest`
+/// of the time.
+fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: f64, rail: Rail) -> bool {
     let n = rail.normal();
-    n.abs().dot(constants.reach) + centre.truncate().dot(n)
+    let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity().dot(n));
+    let nearest = gap(constants, rail, arc.position) - rest * approach.max(0.0);
+    nearest > nose.margin(constants.radius, top(arc, hops.gravity())) + constants.tolerance.surely_apart
 }
 
 /// When and where the ball of a flying `segment` meets the nose of a cushion, or comes down behind it: s after the segment's
@@ -86,13 +110,17 @@ pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment)
     for landings in 0..MOST_LANDINGS {
         let arc = hops.arc(landings);
         let rest = duration - arc.begin;
-        let within = arc.position.truncate().abs() + hops.fastest(&arc) * rest + constants.radius;
-        if rest <= 0.0 || within.cmplt(constants.reach).all() {
+        // The last hops are shorter than time can tell.
+        if rest <= 0.0 || arc.end <= arc.begin {
             return None;
         }
-        let mut first: Option<(f64, Rail)> = None;
+        let (mut first, mut is_away): (Option<(f64, Rail)>, bool) = (None, true);
         for rail in Rail::ALL {
             let nose = Nose::of(cushions.at(rail), constants.radius);
+            if stays_away(constants, &nose, hops, &arc, rest, rail) {
+                continue;
+            }
+            is_away = false;
             if let Some(time) = nose.meets(constants, &arc, hops.gravity(), rail)
                 && first.is_none_or(|(earliest, _)| time < earliest)
             {
@@ -102,8 +130,28 @@ pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment)
         if let Some((time, rail)) = first {
             return Some((arc.begin + time, rail));
         }
+        if is_away {
+            return None;
+        }
     }
     None
+}
+
+/// A piece of a course: a polynomial.
+struct Piece {
+    /// Its coefficients.
+    course: [DVec3; 6],
+    /// When they end to hold, s since the search's beginning.
+    ends: f64,
+    /// In the air, the greatest speed along the cloth from now on, m/s.
+    fastest: Option<f64>,
+}
+
+impl Piece {
+    /// How far the ball can get along the cloth within `time`, m.
+    fn farthest(&self, time: f64) -> f64 {
+        self.fastest.map_or_else(|| travel(&self.course.map(DVec3::length), time), |fastest| fastest * time)
+    }
 }
 
 /// A course as it is gone through, piece by piece.
@@ -120,26 +168,21 @@ impl<'a> Pieces<'a> {
         Self { segment, begin, flight: segment.hops().map(|hops| (hops, hops.landings(begin).min(MOST_LANDINGS))) }
     }
 
-    /// Coefficients of the course about `after` seconds since the search's beginning, and when they end to hold, s since then.
-    fn piece(&self, after: f64) -> ([DVec3; 6], f64) {
+    /// The course about `after` seconds since the search's beginning.
+    fn piece(&self, after: f64) -> Piece {
         let Some((hops, landings)) = self.flight else {
             let on_cloth = shifted(self.segment, self.segment.start + self.begin + after);
-            return (on_cloth.map(|c| c.extend(0.0)), f64::INFINITY);
+            return Piece { course: on_cloth.map(|c| c.extend(0.0)), ends: f64::INFINITY, fastest: None };
         };
         let arc = hops.arc(landings);
         let since = self.begin + after - arc.begin;
         let fall = DVec3::new(0.0, 0.0, -0.5 * hops.gravity());
         let position = arc.position + since * (arc.velocity + since * fall);
         let velocity = arc.velocity + 2.0 * since * fall;
-        ([position, velocity, fall, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO], arc.end - self.begin)
-    }
-
-    /// How far the ball can get along the cloth within `time` of a piece, m.
-    fn farthest(&self, piece: &[DVec3; 6], time: f64) -> f64 {
-        match self.flight {
-            Some((hops, landings)) => hops.fastest(&hops.arc(landings)) * time,
-            None => travel(&piece.map(DVec3::length), time),
-        }
+        // The last hops are shorter than time can tell.
+        let ends = if arc.end > arc.begin { arc.end - self.begin } else { f64::INFINITY };
+        let course = [position, velocity, fall, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO];
+        Piece { course, ends, fastest: Some(hops.fastest(&arc)) }
     }
 
     fn land(&mut self) {
@@ -149,26 +192,42 @@ impl<'a> Pieces<'a> {
     }
 }
 
+/// Whether one ball in the air surely passes by another that lies still.
+fn passes_by(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> bool {
+    let (flies, lies) = match balls {
+        [one, other] if other.motion == Motion::Stationary => (one, other),
+        [one, other] if one.motion == Motion::Stationary => (other, one),
+        _ => return false,
+    };
+    let Some(hops) = flies.hops() else { return false };
+    let state = hops.state_after(now - flies.start);
+    let way = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity(), horizon);
+    way.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
+}
+
 /// When two balls meet of which one at least is in the air, within `horizon` seconds of time `now`.
-pub fn balls_ahead_in_space(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> Ahead {
+pub fn balls_ahead_in_space<S: Savings>(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> Ahead {
+    if S::COURSES_APART && passes_by(constants, balls, now, horizon) {
+        return Ahead::Nothing;
+    }
     let mut balls = balls.map(|segment| Pieces::new(segment, now));
     let mut after = 0.0;
     while after < horizon {
-        let [(one, one_ends), (other, other_ends)] = [balls[0].piece(after), balls[1].piece(after)];
-        let d: [DVec3; 6] = std::array::from_fn(|power| one[power] - other[power]);
+        let [one, other] = [balls[0].piece(after), balls[1].piece(after)];
+        let d: [DVec3; 6] = std::array::from_fn(|power| one.course[power] - other.course[power]);
         let rest = horizon - after;
-        let reach = balls[0].farthest(&one, rest) + balls[1].farthest(&other, rest);
+        let reach = one.farthest(rest) + other.farthest(rest);
         if d[0].truncate().length() - constants.diameter > constants.tolerance.surely_apart + reach {
             return Ahead::Nothing;
         }
-        let ends = one_ends.min(other_ends).min(horizon);
+        let ends = one.ends.min(other.ends).min(horizon);
         if let Ahead::Meeting(time) = meet(constants, &d, ends - after) {
             return Ahead::Meeting(after + time);
         }
         if ends >= horizon || balls.iter().any(|ball| ball.flight.is_some_and(|(_, count)| count >= MOST_LANDINGS)) {
             return Ahead::Nothing;
         }
-        for (ball, its) in balls.iter_mut().zip([one_ends, other_ends]) {
+        for (ball, its) in balls.iter_mut().zip([one.ends, other.ends]) {
             if its <= ends {
                 ball.land();
             }

@@ -28,7 +28,7 @@ pub fn balls_ahead<S: Savings>(
 ) -> Ahead {
     if first.course.is_some() || second.course.is_some() {
         return if first.motion == Motion::Flying || second.motion == Motion::Flying {
-            balls_ahead_in_space(constants, [first, second], now, horizon)
+            balls_ahead_in_space::<S>(constants, [first, second], now, horizon)
         } else {
             curved_balls_ahead(constants, first, second, now, horizon)
         };
@@ -76,7 +76,8 @@ fn approach<S: Savings>(
     first_crossing_of_quartic(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
-/// A triangle that contains a stretch of a course: the control points of its parabola.
+/// A triangle that contains a stretch of a course: the control points of a parabola, or how far a ball gets with any velocity
+/// between two.
 #[derive(Clone, Copy)]
 pub struct Triangle {
     start: DVec2,
@@ -89,6 +90,11 @@ impl Triangle {
     #[inline(always)]
     pub fn new(p: DVec2, v: DVec2, k: DVec2, horizon: f64) -> Self {
         Self { start: p, bend: p + 0.5 * horizon * v, end: p + horizon * (v + horizon * k) }
+    }
+
+    /// The triangle around a course from `p` whose velocity goes along a line from `v` to `last`, for a time.
+    pub fn between(p: DVec2, v: DVec2, last: DVec2, time: f64) -> Self {
+        Self { start: p, bend: p + time * v, end: p + time * last }
     }
 
     /// Whether a line separates the triangle from all that is nearer to `place` than `distance`. The lines that are

@@ -1,5 +1,7 @@
 //! Which balls touch cushions or each other.
 
+use glam::DVec2;
+
 use super::{Constants, Rail, extrapolation::State};
 use crate::{
     physics::{Contact, Contacts},
@@ -55,8 +57,13 @@ fn gap(constants: &Constants, balls: &State, contact: &Contact) -> f64 {
     let place = balls[contact.first].position;
     match contact.second {
         Some(second) => place.distance(balls[second].position) - constants.diameter,
-        None => contact.cushion_normal.abs().dot(constants.reach) + place.dot(contact.cushion_normal),
+        None => cushion_gap(constants, contact.cushion_normal, place),
     }
+}
+
+/// Distance of a ball at `place` on the cloth from a cushion with this normal, m.
+pub fn cushion_gap(constants: &Constants, normal: DVec2, place: DVec2) -> f64 {
+    normal.abs().dot(constants.reach) + place.dot(normal)
 }
 
 /// Rounds in which gaps are closed: what one contact needs opens others a little.

@@ -134,7 +134,7 @@ pub(super) struct Engine<'a, S, O> {
 }
 
 impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
-    fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
+    pub(super) fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
         Self {
             table,
             constants: Constants::of(table),
@@ -191,7 +191,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
                 None if self.balls[source].rail_after < self.balls[source].lasts => self.rebound(source, next),
                 None => match self.balls[source].segment.motion {
                     Motion::Resting => self.rest_on(next),
-                    Motion::Flying => self.stay_on_cloth(source, next),
+                    Motion::Flying => self.stay_on_cloth(source, &mut next),
                     _ => self.change_motion(source, next),
                 },
             };
@@ -265,6 +265,12 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     /// Whether the shot has taken more work than any should.
     pub(super) const fn is_exhausted(&self) -> bool {
         self.work > MOST_WORK
+    }
+
+    /// As if the shot had taken more work than any should.
+    #[cfg(test)]
+    pub(super) fn exhaust(&mut self) {
+        self.work = MOST_WORK + 1;
     }
 
     /// Takes note of a step of resting contacts.

@@ -7,7 +7,7 @@ use super::{
     aloft::Nose,
     chatter::Chatters,
     contact_mode::ContactMode,
-    contacts::PAIRS,
+    contacts::{PAIRS, PAIRS_OF},
     engine::{Ball, Engine, Meeting, either, only},
     hops::Hops,
     savings::Savings,
@@ -34,10 +34,11 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     pub(super) fn launch_in_space(&mut self, index: usize, now: f64, state: &SpatialState) -> ControlFlow<()> {
         let low = state.position.z <= 0.0;
         let was_low = self.is_on_cloth(index);
-        let cloth = match self.cloth {
+        let given_up = self.is_exhausted() && !self.is_above_another(index, now, state);
+        let cloth = match self.cloth.filter(|_| !given_up) {
             Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
             _ => {
-                self.launch(index, now, &state.from_above());
+                self.launch(index, now, &state.seen_from_above());
                 return if was_low { ControlFlow::Continue(()) } else { self.tell(now, EventKind::Lands(index)) };
             }
         };
@@ -58,9 +59,17 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
     }
 
-    /// The end of a ball's hops.
+    /// Whether a ball in the air would come down on another one, were it let down where it is.
+    fn is_above_another(&self, index: usize, now: f64, state: &SpatialState) -> bool {
+        let place = state.position.truncate();
+        let overlaps = |other: usize| self.state(other, now).position.distance(place) < self.constants.diameter;
+        state.position.z > 0.0 && PAIRS_OF[index].iter().any(|&(_, other)| overlaps(other))
+    }
+
+    /// The end of a ball's hops at `time`, which becomes that of the last event if the ball then moves alone.
     #[cold]
-    pub(super) fn stay_on_cloth(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+    pub(super) fn stay_on_cloth(&mut self, index: usize, time: &mut f64) -> ControlFlow<()> {
+        let now = *time;
         let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
         self.close(index, now);
         self.launch(index, now, &end);
@@ -70,7 +79,11 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             Motion::Stationary => self.tell(now, EventKind::RollingStationary(index))?,
             _ => {}
         }
-        self.look_ahead_of(now, index)
+        self.look_ahead_of(now, index)?;
+        if S::ALONE && S::KEPT_PREDICTIONS && self.moves_alone(index) {
+            return self.play_alone(index, time);
+        }
+        ControlFlow::Continue(())
     }
 
     /// A ball that a cushion has lifted.
@@ -92,10 +105,10 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
         self.close(index, now);
         let cushion = *self.law.cushions.at(rail);
-        let to_nose = Nose::of(&cushion, c.radius).from(&c, rail, state.position);
+        let to_nose = Nose::of(&cushion, c.radius).way_from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
             let segment =
-                Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.from_above().position) };
+                Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.seen_from_above().position) };
             self.set(index, segment, f64::INFINITY);
             self.tell(now, EventKind::LeavesTable(index))?;
             return self.look_ahead_of(now, index);
@@ -156,5 +169,43 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
             cloth.answer(self.constants.radius, state);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::{
+        simulation::{All, Event},
+        table::{Flight, Layout, Table},
+    };
+
+    struct Nobody;
+
+    impl Observer for Nobody {
+        fn event(&mut self, _: Event) -> ControlFlow<()> {
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// What becomes of a ball 5 cm above the cloth at `place` when a shot has taken all the work that it may.
+    fn given_up_at(place: DVec2) -> Motion {
+        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let layout = Layout::new([DVec2::ZERO, DVec2::new(0.5, 0.1), DVec2::new(-0.5, 0.1)]);
+        let mut observer = Nobody;
+        let mut engine = Engine::<All, Nobody>::new(&table, &layout, &mut observer);
+        engine.exhaust();
+        let velocity = DVec3::new(0.3, 0.0, -0.2);
+        let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
+        assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
+        engine.balls[0].segment.motion
+    }
+
+    #[test]
+    fn a_ball_in_the_air_is_let_down_when_a_shot_is_given_up_but_not_on_another() {
+        assert_eq!(given_up_at(DVec2::new(0.2, 0.0)), Motion::Stationary);
+        assert_eq!(given_up_at(DVec2::new(0.49, 0.11)), Motion::Flying);
     }
 }

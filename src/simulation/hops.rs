@@ -9,12 +9,15 @@ use glam::{DVec2, DVec3};
 use super::Constants;
 use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, turned_by_cloth};
 
+/// Up to so many landings powers are multiplied; an exponential costs as much as that.
+const FEW: u32 = 8;
+
 /// From one landing to the next: a parabola.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
-    /// When it begins and ends, s since the course's start.
+    /// When it begins, s since the course's start.
     pub begin: f64,
-    /// The end.
+    /// When it ends, s since the course's start.
     pub end: f64,
     /// Centre at its beginning, m; `z` is the height over the place on the cloth.
     pub position: DVec3,
@@ -38,8 +41,6 @@ pub struct Hops {
     rub: f64,
     /// The landing at which no slip is left, counted from none; `None` if the ball still slides after the last hop.
     sticks: Option<u32>,
-    /// The restitution's logarithm.
-    decay: f64,
     /// How long all of it lasts, s, and the velocity along the cloth at the end, m/s.
     duration: f64,
     last: DVec2,
@@ -67,7 +68,6 @@ impl Hops {
             slip: size,
             rub,
             sticks: None,
-            decay: (e - 1.0).ln_1p(),
             duration: 0.0,
             last: DVec2::ZERO,
         };
@@ -82,17 +82,31 @@ impl Hops {
 
     /// `(1 - eⁿ) / (1 - e)`: the sum of the first `n` powers of the restitution.
     fn powers(&self, count: u32) -> f64 {
-        if count == 0 { 0.0 } else { -self.power(count).exp_m1() / (1.0 - self.cloth.restitution) }
+        let e = self.cloth.restitution;
+        if count <= FEW {
+            (0..count).fold(0.0, |sum, _| sum * e + 1.0)
+        } else {
+            -self.power(count).exp_m1() / (1.0 - e)
+        }
+    }
+
+    /// The restitution's logarithm.
+    fn decay(&self) -> f64 {
+        (self.cloth.restitution - 1.0).ln_1p()
     }
 
     /// `n ln e`.
     fn power(&self, count: u32) -> f64 {
-        f64::from(count) * self.decay
+        f64::from(count) * self.decay()
     }
 
     /// `eⁿ`.
     fn decayed(&self, count: u32) -> f64 {
-        if count == 0 { 1.0 } else { self.power(count).exp() }
+        if count <= FEW {
+            (0..count).fold(1.0, |power, _| power * self.cloth.restitution)
+        } else {
+            self.power(count).exp()
+        }
     }
 
     /// The first landing whose friction would take all slip.
@@ -108,7 +122,7 @@ impl Hops {
             return None;
         }
         // The logarithm may be off by one.
-        let near = (left.ln() / self.decay).ceil().min(1e6) as u32;
+        let near = (left.ln() / self.decay()).ceil().min(1e6) as u32;
         (near.saturating_sub(2)..=near + 1).find(|&landing| self.powers(landing + 1) >= least)
     }
 
@@ -203,7 +217,7 @@ impl Hops {
         }
         let since = (t - self.first) / (self.per_speed() * self.landing * e);
         let left = (1.0 - e).mul_add(-since, 1.0);
-        if left <= 0.0 { u32::MAX } else { 1 + (left.ln() / self.decay).floor().clamp(0.0, 1e9) as u32 }
+        if left <= 0.0 { u32::MAX } else { 1 + (left.ln() / self.decay()).floor().clamp(0.0, 1e9) as u32 }
     }
 
     /// Position, velocity and spin `t` seconds after the start.
@@ -221,6 +235,11 @@ impl Hops {
         SpatialState { position, velocity: arc.velocity - fallen * DVec3::Z, spin }
     }
 
+    /// The velocity along the cloth after the last hop, m/s. All before it lie between the first and this one.
+    pub fn last_velocity(&self) -> DVec2 {
+        self.last
+    }
+
     /// The greatest speed along the cloth from that arc on, m/s.
     pub fn fastest(&self, arc: &Arc) -> f64 {
         // Velocities lie on a line: the longest stands at one of its ends.
@@ -230,12 +249,6 @@ impl Hops {
     /// Gravitational acceleration, m/s².
     pub fn gravity(&self) -> f64 {
         self.cloth.gravity
-    }
-
-    /// The greatest height from the start on, m.
-    pub fn highest(&self) -> f64 {
-        let climb = self.start.velocity.z.max(0.0);
-        self.start.position.z + 0.5 * climb * climb / self.cloth.gravity
     }
 }
 

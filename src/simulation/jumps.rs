@@ -48,8 +48,8 @@ pub struct OffTable {
 }
 
 impl OffTable {
-    /// Of balls that are at `places`, m, of which those named have left the table, which the others and the spots make a
-    /// `layout`.
+    /// How each ball left the table that `off_table` names: `places` are where the balls are in the end, m, and `layout` has
+    /// those balls back on their spots.
     fn all(reach: DVec2, places: [DVec2; BALLS], off_table: [bool; BALLS], layout: &Layout) -> [Option<Self>; BALLS] {
         std::array::from_fn(|ball| {
             let place = places[ball];

@@ -30,6 +30,7 @@ mod tolerance;
 mod tests;
 
 pub use crate::table::Rail;
+pub use aloft::Nose;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, StepBudget};

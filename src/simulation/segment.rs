@@ -237,7 +237,7 @@ impl Segment {
         }
     }
 
-    /// The same in space, `t` seconds after the start.
+    /// Position, velocity and spin in space `t` seconds after the start: in the air, or on the cloth.
     pub fn spatial_after(&self, constants: &Constants, t: f64) -> SpatialState {
         self.hops().map_or_else(|| self.state_after(constants, t).into(), |hops| hops.state_after(t))
     }

@@ -34,7 +34,8 @@ pub struct Tolerance {
     /// Balls in resting contact that are all slower than this are at rest, m/s: they would roll on for less than 1e-11 m,
     /// in ever smaller steps as their slips fade with their speeds.
     pub still: f64,
-    /// Shortest step of a resting contact, s: frictions change a speed by a hundredth of what counts as a slip meanwhile.
+    /// Shortest step of a resting contact, s: frictions change a speed by less than a two-hundredth of what counts as a slip
+    /// meanwhile, and it is never more than 1e-13 s.
     /// Larger: what ends is overshot, and flips. Smaller: steps are rounded away.
     pub shortest_step: f64,
     /// In shorter steps, s, the places at both ends, which are rounded, say less of the velocity than the velocities do.

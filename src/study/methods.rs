@@ -7,6 +7,7 @@ use super::{
     shots::StudyShot,
     stability::{Trace, account},
     steps::Steps,
+    truth::motion,
 };
 use crate::{
     simulation::{Event, EventKind, Observer, simulate},
@@ -82,7 +83,8 @@ impl Method {
         }
     }
 
-    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep.
+    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep, and for courses in
+    /// the air, of which no account is kept.
     pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
         let mut trace = Trace::new(table);
         match self {
@@ -94,8 +96,11 @@ impl Method {
             }
             _ => return run.unaccounted,
         }
+        if trace.has_flights() || trace.kept_until < f64::INFINITY {
+            return None;
+        }
         let account = account(table, &trace);
-        (trace.kept_until == f64::INFINITY).then(|| (account.unexplained / account.start).abs())
+        Some((account.unexplained / account.start).abs())
     }
 }
 
@@ -131,14 +136,12 @@ impl Observer for Events {
 }
 
 fn plain<R: Real>(table: &Table, shot: &StudyShot, finder: Finder<R>) -> Option<Run> {
-    let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
     let flat = |v: glam::DVec2| Vector::new(R::of(v.x), R::of(v.y), R::zero());
-    let spin = Vector::new(R::of(w.x), R::of(w.y), R::of(w.z));
-    let played = play(&Numbers::of(table), shot.layout.balls.map(flat), flat(v), spin, finder).ok()?;
-    let point = |v: Vector<R>| glam::DVec2::new(v.x.to_f64(), v.y.to_f64());
+    let (velocity, spin) = motion(shot);
+    let played = play(&Numbers::of(table), shot.layout.balls.map(flat), velocity, spin, finder).ok()?;
     Some(Run {
         events: played.events.iter().map(|(time, kind)| (time.to_f64(), *kind)).collect(),
-        end: Layout::new(played.end.map(|ball| point(ball.position))),
+        end: played.layout(table),
         unaccounted: Some((played.energy[1] / played.energy[0]).to_f64().abs()),
     })
 }

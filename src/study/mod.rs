@@ -25,7 +25,7 @@ pub use plots::{error_against_condition, error_against_time};
 pub use precision::{Plan, Point, Row, Study, Summary};
 pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references};
 pub use report::{csv, text};
-pub use shots::{StudyShot, random_shots};
+pub use shots::{Steepest, StudyShot, random_shots};
 pub use statistics::{Share, Spread};
 pub use steps::{StepError, Stepped, Steps};
 pub use truth::Truth;

@@ -37,7 +37,7 @@ pub fn error_against_time(studies: &[Study]) -> String {
             let points: Vec<_> = rows.filter_map(point_of).collect();
             (!points.is_empty()).then(|| Series { name: family.to_owned(), color, mark, points })
         });
-        Panel { title: format!("\"{}\" table", study.summary.table), series: series.collect() }
+        Panel { title: title(study), series: series.collect() }
     });
     let panels: Vec<Panel> = panels.collect();
     let points = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
@@ -54,6 +54,11 @@ pub fn error_against_time(studies: &[Study]) -> String {
         panels,
     }
     .svg(SIZE.0, SIZE.1)
+}
+
+/// The table of a study, and how far the cue is raised on it.
+fn title(study: &Study) -> String {
+    format!("\"{}\" table, cue up to {:.0}°", study.summary.table, study.summary.steepest_deg)
 }
 
 fn point_of(row: &Row) -> Option<Spot> {
@@ -73,7 +78,7 @@ pub fn error_against_condition(studies: &[Study]) -> String {
             let points = conditions.map(line).collect();
             series.push(Series { name: name.to_owned(), color, mark: Mark::Dashes, points });
         }
-        Panel { title: format!("\"{}\" table", study.summary.table), series }
+        Panel { title: title(study), series }
     });
     let panels: Vec<Panel> = panels.collect();
     let dots = || {

@@ -7,7 +7,7 @@ use super::{
     errors::Errors,
     methods::{Method, Run},
     reference_engine::Unjudged,
-    shots::StudyShot,
+    shots::{Steepest, StudyShot},
     statistics::{Share, Spread},
     truth::Truth,
 };
@@ -28,6 +28,8 @@ const SHOT_SECONDS: f64 = 8.0;
 pub struct Plan {
     /// The table.
     pub table: Table,
+    /// How far the cue is raised in its shots.
+    pub steepest: Steepest,
     /// The shots.
     pub shots: Vec<StudyShot>,
     /// The methods.
@@ -43,6 +45,8 @@ pub struct Plan {
 pub struct Row {
     /// The table's name.
     pub table: String,
+    /// Up to how many degrees the cue is raised.
+    pub steepest_deg: f64,
     /// The method's family.
     pub method: &'static str,
     /// Its time step, s.
@@ -106,6 +110,10 @@ pub struct Study {
 pub struct Summary {
     /// The table's name.
     pub table: String,
+    /// Up to how many degrees the cue is raised.
+    pub steepest_deg: f64,
+    /// Of the judged shots, the share in which a ball leaves the cloth.
+    pub flies: Share,
     /// Shots with known truth: all others are neither judged nor timed.
     pub judged: Share,
     /// Of those, the share in which balls chatter or rest against something while they move.
@@ -185,6 +193,8 @@ impl Plan {
         };
         let summary = Summary {
             table: self.table.name.clone(),
+            steepest_deg: self.steepest.degrees(),
+            flies: Share::of(known().map(Truth::flies)),
             judged: Share::of(truths.iter().map(Result::is_ok)),
             chatters: Share::of(known().map(|truth| truth.chatters)),
             condition_m: Spread::of(known().map(|truth| truth.condition)),
@@ -214,6 +224,7 @@ impl Plan {
         });
         Row {
             table: self.table.name.clone(),
+            steepest_deg: self.steepest.degrees(),
             method: method.family(),
             dt: method.time_step(),
             shots: gathered.shots.len(),

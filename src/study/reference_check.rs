@@ -11,7 +11,7 @@ use super::{
 use crate::{
     physics::CueInputs,
     simulation::{EventKind, Rail, Recording},
-    table::{Layout, Table},
+    table::Layout,
 };
 
 /// Goal for the engine's error over `(1 + condition) 2^-53`: the median.
@@ -23,7 +23,7 @@ pub const GOAL_P99: f64 = 64.0;
 /// One reference file.
 #[derive(Clone, Debug, Serialize)]
 pub struct ReferenceRow {
-    /// The file's name: shots, hard or contact.
+    /// The file's name: shots, hard, contact or flights.
     pub file: &'static str,
     /// Its shots.
     pub shots: usize,
@@ -45,7 +45,7 @@ pub struct ReferenceRow {
     pub engine_to_truth_m: Option<Spread>,
 }
 
-/// All three files; a shot whose table or layout is refused counts as infinitely wrong.
+/// All files; a shot whose table or layout is refused counts as infinitely wrong.
 pub fn check_references() -> Vec<ReferenceRow> {
     references().into_iter().map(|(file, shots)| row(file, &shots)).collect()
 }
@@ -80,7 +80,8 @@ fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
 }
 
 fn check(reference: &Reference) -> Checked {
-    let table = Table::preset(&reference.preset).ok();
+    let table = reference.table();
+    let known_end = table.as_ref().map_or(reference.end, |table| reference.end_on(table));
     let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok()).map(|(truth, _)| truth);
     let written = reference.cue;
     let cue = CueInputs {
@@ -99,12 +100,12 @@ fn check(reference: &Reference) -> Checked {
     let end = recording.as_ref().map(Recording::final_layout);
     Checked {
         unit: reference.condition.map(|condition| (1.0 + condition) * f64::ROUNDING),
-        truth: truth.as_ref().map(|truth| truth.distance(&reference.end)),
+        truth: truth.as_ref().map(|truth| truth.distance(&known_end)),
         truth_wrong: truth
             .as_ref()
             .filter(|_| has_events)
             .map(|truth| differs(&mut truth.events.iter().map(|event| event.1))),
-        engine: end.as_ref().map_or(f64::INFINITY, |end| distance(end, &reference.end)),
+        engine: end.as_ref().map_or(f64::INFINITY, |end| distance(end, &known_end)),
         engine_wrong: has_events
             .then(|| recording.as_ref().is_none_or(|it| differs(&mut it.events().iter().map(|event| event.kind)))),
         engine_to_truth: truth.zip(end).map(|(truth, end)| truth.distance(&end)),

@@ -52,8 +52,16 @@ fn references_text(out: &mut String, rows: &[ReferenceRow]) {
 }
 
 fn study_text(out: &mut String, study: &Study) {
-    let Summary { table, judged, chatters, condition_m, truth_energy, truth_cost_us } = &study.summary;
-    let _ = writeln!(out, "Table \"{table}\": {} random shots, the same for every method.", judged.of);
+    let Summary { table, steepest_deg, flies, judged, chatters, condition_m, truth_energy, truth_cost_us } =
+        &study.summary;
+    let _ = writeln!(
+        out,
+        "Table \"{table}\": {} random shots, the cue raised up to {steepest_deg:.0} degrees, the same for every method.",
+        judged.of
+    );
+    if flies.count > 0 {
+        let _ = writeln!(out, "Balls leave the cloth in {:.1} % of them.", percent(*flies));
+    }
     let _ = writeln!(
         out,
         "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}",
@@ -159,7 +167,7 @@ fn flips(share: Share) -> String {
 pub fn csv(studies: &[Study]) -> String {
     let spreads = ["cost_us", "rest_m", "rest_units", "time_s", "time_units", "energy"];
     let shares = ["beyond_1e_9_m", "wrong_sequence", "flips_straight", "flips_three_cushion"];
-    let mut out = "table,method,dt_s,shots,failed,mean_cost_us".to_owned();
+    let mut out = "table,steepest_deg,method,dt_s,shots,failed,mean_cost_us".to_owned();
     for name in spreads {
         let _ = write!(out, ",{name}_median,{name}_p99,{name}_worst");
     }
@@ -169,8 +177,8 @@ pub fn csv(studies: &[Study]) -> String {
     out.push('\n');
     for row in studies.iter().flat_map(|study| &study.rows) {
         let dt = row.dt.map_or_else(String::new, |dt| format!("{dt:e}"));
-        let Row { table, method, shots, failed, cost_us, .. } = row;
-        let _ = write!(out, "{table},\"{method}\",{dt},{shots},{failed},{cost_us:.3}");
+        let Row { table, steepest_deg, method, shots, failed, cost_us, .. } = row;
+        let _ = write!(out, "{table},{steepest_deg:.0},\"{method}\",{dt},{shots},{failed},{cost_us:.3}");
         let spreads = [row.cost_spread_us, row.rest_m, row.rest_units, row.time_s, row.time_units, row.energy];
         for spread in spreads {
             let _ = match spread {

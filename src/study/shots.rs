@@ -8,11 +8,25 @@ use serde::Deserialize;
 
 use crate::{
     physics::{CueInputs, Impulse, strike},
-    table::{Layout, Table},
+    simulation::EventKind,
+    table::{Flight, Layout, Table},
 };
 
-/// Steepest elevation that is drawn, rad.
-const STEEPEST: f64 = 0.35;
+/// The steepest elevation that is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steepest(f64);
+
+impl Steepest {
+    /// That of usual strokes: 20 degrees.
+    pub const USUAL: Self = Self(0.35);
+    /// That of jumps and massés: 60 degrees.
+    pub const FLIGHTS: Self = Self(std::f64::consts::FRAC_PI_3);
+
+    /// It in degrees.
+    pub fn degrees(self) -> f64 {
+        self.0.to_degrees().round()
+    }
+}
 
 /// Cue speeds that are drawn, m/s.
 const SPEEDS: std::ops::Range<f64> = 0.5..6.0;
@@ -53,13 +67,14 @@ impl StudyShot {
     }
 }
 
-/// `count` shots drawn from `seed`: balls anywhere, the tip within the miscue limit, aimed somewhere at an object ball.
-pub fn random_shots(table: &Table, count: usize, seed: u64) -> Vec<StudyShot> {
+/// `count` shots drawn from `seed`: balls anywhere, the tip within the miscue limit, the cue raised up to `steepest`, aimed
+/// somewhere at an object ball.
+pub fn random_shots(table: &Table, count: usize, seed: u64, steepest: Steepest) -> Vec<StudyShot> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    (0..count).map(|_| random_shot(table, &mut rng)).collect()
+    (0..count).map(|_| random_shot(table, steepest, &mut rng)).collect()
 }
 
-fn random_shot(table: &Table, rng: &mut impl Rng) -> StudyShot {
+fn random_shot(table: &Table, steepest: Steepest, rng: &mut impl Rng) -> StudyShot {
     let layout = Layout::random(table, rng);
     let [cue_ball, target, _] = if rng.random() {
         layout.balls
@@ -75,7 +90,7 @@ fn random_shot(table: &Table, rng: &mut impl Rng) -> StudyShot {
     // Rounded to what a person could type, so that the command line gives the same bits.
     let digits = |x: f64| (1e6 * x).round() / 1e6;
     let degrees = |x: f64| digits(x.to_degrees()).to_radians();
-    let theta = degrees(rng.random_range(0.0..STEEPEST));
+    let theta = degrees(rng.random_range(0.0..steepest.0));
     let phi = degrees(line.to_angle() + thin.asin());
     let cue = CueInputs { a: digits(a), b: digits(b), theta, phi, speed: digits(rng.random_range(SPEEDS)) };
     StudyShot::new(table, layout, cue)
@@ -131,8 +146,27 @@ pub struct ReferenceEvent {
     pub rail: Option<String>,
 }
 
-/// The three reference files by name: ordinary shots, hard ones, and resting contacts.
-pub fn references() -> [(&'static str, Vec<Reference>); 3] {
+impl Reference {
+    /// The table that it is played on, `None` if there is none of its name: with the cloth's defaults where a ball leaves it.
+    pub fn table(&self) -> Option<Table> {
+        let flies = self.events.iter().any(|event| event.kind == EventKind::Jumps(0).name());
+        let table = Table::preset(&self.preset).ok()?;
+        Some(if flies { Table { flight: table.flight.or(Some(Flight::default())), ..table } } else { table })
+    }
+
+    /// Where the balls are in the end, those that left the table on their spots.
+    pub fn end_on(&self, table: &Table) -> Layout {
+        let leaves = |ball| {
+            let is_it =
+                |event: &ReferenceEvent| event.balls == [ball] && event.kind == EventKind::LeavesTable(ball).name();
+            self.events.iter().any(is_it)
+        };
+        self.end.with_spotted(table.length, table.radius, std::array::from_fn(leaves))
+    }
+}
+
+/// The reference files by name: ordinary shots, hard ones, resting contacts, and flights.
+pub fn references() -> [(&'static str, Vec<Reference>); 4] {
     let read = |text: &str| {
         let line = |line| serde_json::from_str(line).expect("the bundled reference shots are valid: a test reads them");
         text.lines().map(line).collect()
@@ -141,6 +175,7 @@ pub fn references() -> [(&'static str, Vec<Reference>); 3] {
         ("shots", read(include_str!("../../tests/data/shots.jsonl"))),
         ("hard", read(include_str!("../../tests/data/hard.jsonl"))),
         ("contact", read(include_str!("../../tests/data/contact.jsonl"))),
+        ("flights", read(include_str!("../../tests/data/flights.jsonl"))),
     ]
 }
 
@@ -151,7 +186,7 @@ mod tests {
     #[test]
     fn every_drawn_shot_can_be_played_again_from_its_command_line() {
         let table = Table::preset("textbook").unwrap();
-        for shot in random_shots(&table, 200, 5) {
+        for shot in random_shots(&table, 200, 5, Steepest::USUAL) {
             shot.cue.validate().unwrap();
             shot.cue.validate_tip(table.miscue_limit + 1e-6).unwrap();
             let line = shot.command_line(&table);
@@ -165,6 +200,6 @@ mod tests {
     #[test]
     fn the_bundled_reference_shots_are_valid() {
         let counts = references().map(|(_, shots)| shots.len());
-        assert_eq!(counts, [80, 84, 40]);
+        assert_eq!(counts, [80, 84, 40, 60]);
     }
 }

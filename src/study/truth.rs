@@ -1,7 +1,7 @@
 //! What really becomes of a shot: the reference engine in double-double, and how much the shot amplifies a change.
 
 use super::{
-    reference_engine::{DoubleDouble, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
+    reference_engine::{DoubleDouble, Motion, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
     shots::{Reference, StudyShot},
 };
 use crate::{
@@ -21,13 +21,14 @@ const CHATTER: f64 = 1e-6;
 pub struct Truth {
     /// All events.
     pub events: Vec<(f64, EventKind)>,
-    /// Where the balls come to rest, m.
+    /// Where the balls come to rest, m; those that left the table are on their spots.
     pub end: [Vector<DoubleDouble>; BALLS],
     /// How far the end moves per unit of relative change in speed or angle, m: the worse of the two.
     pub condition: f64,
-    /// Whether balls chatter, so that what is told of their bounces depends on where a method stops telling.
+    /// Whether balls chatter or slide off one another in bounces, so that what is told of these depends on where a method stops
+    /// telling.
     pub chatters: bool,
-    /// Kinetic energy at the start for which nothing accounts at the end, as a share.
+    /// Energy at the start for which nothing accounts at the end, as a share.
     pub unaccounted: f64,
 }
 
@@ -39,9 +40,7 @@ impl Truth {
     pub fn of(table: &Table, shot: &StudyShot) -> Result<Self, Unjudged> {
         let numbers = Numbers::of(table);
         let of = DoubleDouble::of;
-        let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
-        let velocity = Vector::new(of(v.x), of(v.y), of(0.0));
-        let spin = Vector::new(of(w.x), of(w.y), of(w.z));
+        let (velocity, spin) = motion(shot);
         let true_shot = play(&numbers, places(&shot.layout), velocity, spin, by_extrema)?;
         let faster = of(1.0) + of(CHANGE);
         // The impulse is linear in the cue's speed, and turns with its direction.
@@ -50,10 +49,10 @@ impl Truth {
         let turn = |v: Vector<DoubleDouble>| v + Vector::up().cross(v) * angle;
         let turned = play(&numbers, places(&shot.layout), turn(velocity), turn(spin), by_extrema)?;
         let moved = |other: &Shot<DoubleDouble>| {
-            let apart = true_shot.end.iter().zip(&other.end).map(|(a, b)| (a.position - b.position).length().to_f64());
-            apart.fold(0.0, f64::max) / CHANGE
+            let ends = ends(table, &true_shot).into_iter().zip(ends(table, other));
+            ends.map(|(a, b)| (a - b).length().to_f64()).fold(0.0, f64::max) / CHANGE
         };
-        Ok(Self::from_shot(&true_shot, moved(&faster).max(moved(&turned))))
+        Ok(Self::from_shot(table, &true_shot, moved(&faster).max(moved(&turned))))
     }
 
     /// The truth of a reference shot, from the angles in degrees on.
@@ -69,14 +68,19 @@ impl Truth {
         let (velocity, spin) =
             strike(&numbers, &Stroke { a: of(cue.a), b: of(cue.b), theta, phi, speed: of(cue.speed) });
         let shot = play(&numbers, places(&reference.layout), velocity, spin, by_extrema)?;
-        Ok((Self::from_shot(&shot, reference.condition.unwrap_or(0.0)), shot.duration))
+        Ok((Self::from_shot(table, &shot, reference.condition.unwrap_or(0.0)), shot.duration))
     }
 
-    fn from_shot(shot: &Shot<DoubleDouble>, condition: f64) -> Self {
+    fn from_shot(table: &Table, shot: &Shot<DoubleDouble>, condition: f64) -> Self {
         let events: Vec<_> = shot.events.iter().map(|(time, kind)| (time.to_f64(), *kind)).collect();
-        let chatters = shot.pressed || chatters(&events);
+        let chatters = shot.pressed || shot.slides || chatters(&events);
         let unaccounted = (shot.energy[1] / shot.energy[0]).to_f64();
-        Self { events, end: shot.end.map(|ball| ball.position), condition, chatters, unaccounted }
+        Self { events, end: ends(table, shot), condition, chatters, unaccounted }
+    }
+
+    /// Whether a ball leaves the cloth.
+    pub fn flies(&self) -> bool {
+        self.events.iter().any(|(_, kind)| matches!(kind, EventKind::Jumps(_)))
     }
 
     /// Greatest distance of a ball at rest from where it should be, m.
@@ -93,6 +97,23 @@ impl Truth {
 
 fn places(layout: &Layout) -> [Vector<DoubleDouble>; BALLS] {
     layout.balls.map(|ball| Vector::new(DoubleDouble::of(ball.x), DoubleDouble::of(ball.y), DoubleDouble::of(0.0)))
+}
+
+/// Velocity and spin of a shot's cue ball.
+pub fn motion<R: Real>(shot: &StudyShot) -> (Vector<R>, Vector<R>) {
+    let (v, w) = (shot.impulse.velocity.extend(shot.impulse.lift), shot.impulse.spin);
+    let vector = |v: glam::DVec3| Vector::new(R::of(v.x), R::of(v.y), R::of(v.z));
+    (vector(v), vector(w))
+}
+
+/// Where a shot's balls are at rest; those that left the table are on their spots.
+fn ends(table: &Table, shot: &Shot<DoubleDouble>) -> [Vector<DoubleDouble>; BALLS] {
+    let spotted = places(&shot.layout(table));
+    std::array::from_fn(
+        |ball| {
+            if shot.end[ball].motion == Motion::OffTable { spotted[ball] } else { shot.end[ball].position }
+        },
+    )
 }
 
 fn chatters(events: &[(f64, EventKind)]) -> bool {
@@ -115,18 +136,19 @@ mod tests {
     use super::*;
     use crate::{
         physics,
-        study::{shots::random_shots, stability::adversarial},
+        study::{
+            shots::{Steepest, random_shots},
+            stability::adversarial,
+        },
     };
 
     fn judges_all(random: usize, adversarial_shots: usize) {
         let judge = |table: &Table, shot: &StudyShot| {
-            let vector = |x, y, z| Vector::new(DoubleDouble::of(x), DoubleDouble::of(y), DoubleDouble::of(z));
-            let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
-            let (velocity, spin) = (vector(v.x, v.y, 0.0), vector(w.x, w.y, w.z));
+            let (velocity, spin) = motion(shot);
             play(&Numbers::of(table), places(&shot.layout), velocity, spin, by_extrema).unwrap();
         };
         for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
-            for shot in random_shots(&table, random, 1) {
+            for shot in random_shots(&table, random, 1, Steepest::USUAL) {
                 judge(&table, &shot);
             }
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);

@@ -1,6 +1,6 @@
 //! A contact of two balls, or of a ball and a cushion: its geometry, its speeds and its laws.
 
-use super::{Ball, Numbers, Real, Vector, table::normal};
+use super::{Ball, Motion, Numbers, Real, Vector, table::normal};
 use crate::{
     simulation::{EventKind, Rail},
     table::BALLS,
@@ -37,6 +37,13 @@ impl Contact {
     pub fn has(self, ball: usize) -> bool {
         let (first, second) = self.balls();
         first == ball || second == Some(ball)
+    }
+
+    /// Whether a ball takes part that is not on the cloth.
+    pub fn is_aloft<R: Real>(self, balls: &Balls<R>) -> bool {
+        let (first, second) = self.balls();
+        let is_off = |ball: usize| matches!(balls[ball].motion, Motion::Flying | Motion::OffTable);
+        is_off(first) || second.is_some_and(is_off)
     }
 
     /// The event of an impact.

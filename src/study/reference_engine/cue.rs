@@ -1,6 +1,6 @@
 //! The cue strike (thesis 2.2.1) in any precision; the angles' sines and cosines come from outside.
 
-use super::{Numbers, Real, Vector};
+use super::{Ball, Numbers, Real, Vector, flight::press};
 
 /// A stroke with its angles as sines and cosines.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ fn squirted<R: Real>(numbers: &Numbers<R>, a: R, (sine, cosine): (R, R)) -> (R, 
 }
 
 /// Velocity and spin just after the stroke, by thesis equations (9), (15) and (16) divided by the ball's mass, along the
-/// direction in which the ball squirts.
+/// direction in which the ball squirts. Where balls leave the cloth, it answers at the same moment.
 pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, Vector<R>) {
     let Stroke { a, b, theta: (sin_theta, cos_theta), phi, speed } = *stroke;
     let (sin_phi, cos_phi) = squirted(numbers, a, phi);
@@ -37,10 +37,15 @@ pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, 
     let offset = a * a + b * b * cos_theta * cos_theta + c * c * sin_theta * sin_theta
         - R::of(2.0) * b * c * cos_theta * sin_theta;
     let force = R::of(2.0) * speed / (R::of(1.0) + numbers.mass_ratio + R::of(2.5) * offset);
-    let velocity = Vector::new(force * cos_theta * cos_phi, force * cos_theta * sin_phi, R::zero());
+    let along = force * cos_theta;
+    let pressed = if numbers.flight.is_some() { -force * sin_theta } else { R::zero() };
+    let velocity = Vector::new(along * cos_phi, along * sin_phi, pressed);
     // In the cue's own frame (16): across, along and up.
     let across = c * sin_theta - b * cos_theta;
     let (along, up) = (a * sin_theta, -a * cos_theta);
     let turning = Vector::new(across * sin_phi - along * cos_phi, -across * cos_phi - along * sin_phi, up);
-    (velocity, turning * (R::of(2.5) * force / numbers.radius))
+    let spin = turning * (R::of(2.5) * force / numbers.radius);
+    let mut ball = Ball { velocity, spin, ..Ball::still(Vector::zero()) };
+    press(numbers, &mut ball);
+    (ball.velocity, ball.spin)
 }

@@ -1,14 +1,20 @@
 //! From event to event: all balls are moved to each event, and everything is predicted anew behind it.
 
+use glam::DVec2;
+
 use super::{
     Ball, Finder, Motion, Numbers, Real, Vector,
     contact::Contact,
     course::Course,
+    flight,
     meeting::{meets, touch},
     moment::happen,
     piece::Piece,
 };
-use crate::{simulation::EventKind, table::BALLS};
+use crate::{
+    simulation::{EventKind, Rail},
+    table::{BALLS, Layout, Table},
+};
 
 /// More steps from event to event than any shot has whose balls come to rest.
 const MOST_STEPS: usize = 200_000;
@@ -27,8 +33,19 @@ pub struct Shot<R> {
     pub duration: R,
     /// Whether a ball was pressed against a cushion or another ball while it moved.
     pub pressed: bool,
-    /// Kinetic energy over mass at the start, and the part of it for which friction and impacts do not account.
+    /// Whether a ball in the air met something so slowly that it may have slid off in bounces.
+    pub slides: bool,
+    /// Kinetic and potential energy over mass at the start, and the part of it for which friction and impacts do not account.
     pub energy: [R; 2],
+}
+
+impl<R: Real> Shot<R> {
+    /// Where the balls are at rest, rounded; those that left the table are on their spots.
+    pub fn layout(&self, table: &Table) -> Layout {
+        let places = self.end.map(|ball| DVec2::new(ball.position.x.to_f64(), ball.position.y.to_f64()));
+        let off_table = self.end.map(|ball| ball.motion == Motion::OffTable);
+        Layout::new(places).with_spotted(table.length, table.radius, off_table)
+    }
 }
 
 /// Why a shot cannot be judged by this engine: its table has a law that is missing here, or the equations are not solved. In
@@ -44,9 +61,6 @@ pub enum Unjudged {
     /// The table is not level.
     #[error("the table is not level, and rolling on a slope is not part of this engine")]
     Slope,
-    /// Balls can leave the cloth.
-    #[error("the table has a section [flight], and balls in the air are not part of this engine")]
-    Flight,
     /// The events do not end.
     #[error("more than {MOST_STEPS} steps from event to event")]
     Endless,
@@ -56,6 +70,7 @@ pub enum Unjudged {
 #[derive(Clone, Copy)]
 enum Next {
     MotionEnds(usize),
+    Leaves(usize),
     PieceEnds,
     Meets(Contact),
 }
@@ -74,10 +89,14 @@ pub fn play<R: Real>(
     numbers.judged()?;
     let mut balls = positions.map(Ball::still);
     (balls[0].velocity, balls[0].spin) = (velocity, spin);
-    balls[0].set_off(numbers);
+    flight::settle(numbers, &mut balls[0]);
     let energy_of = |balls: &[Ball<R>; BALLS]| balls.iter().fold(R::zero(), |sum, ball| sum + ball.energy(numbers));
     let energy = energy_of(&balls);
     let (mut events, mut now, mut pressed, mut work) = (Vec::new(), R::zero(), false, R::zero());
+    let mut slides = false;
+    if balls[0].motion == Motion::Flying {
+        events.push((now, EventKind::Jumps(0)));
+    }
     let (mut resting, mut stride, mut slow) = ([false; BALLS], 1.0, 0);
     for _ in 0..MOST_STEPS {
         let moment = happen(numbers, &mut balls, resting, slow > MANY)?;
@@ -95,13 +114,18 @@ pub fn play<R: Real>(
         let Some((time, next)) = predict(&course, finder) else {
             let duration = events.last().map_or(R::zero(), |event| event.0);
             let unaccounted = energy - energy_of(&balls) - work;
-            return Ok(Shot { events, end: balls, duration, pressed, energy: [energy, unaccounted] });
+            return Ok(Shot { events, end: balls, duration, pressed, slides, energy: [energy, unaccounted] });
         };
         now = now + time;
         let (moved, lost) = course.after(time);
         (balls, work) = (moved, work + lost);
         match next {
             Next::MotionEnds(index) if balls[index].rolls_on() => balls[index].band = None,
+            Next::MotionEnds(index) if balls[index].motion == Motion::Flying => {
+                let (told, lost) = flight::land(numbers, index, &mut balls[index]);
+                events.extend(told.into_iter().map(|kind| (now, kind)));
+                work = work + lost;
+            }
             Next::MotionEnds(index) => {
                 let ball = &mut balls[index];
                 let ended = ball.motion;
@@ -111,6 +135,15 @@ pub fn play<R: Real>(
                 events.push((now, kind));
             }
             Next::PieceEnds => {}
+            Next::Leaves(index) => {
+                work = work + flight::leave(numbers, &mut balls[index]);
+                events.push((now, EventKind::LeavesTable(index)));
+            }
+            Next::Meets(contact) if contact.is_aloft(&balls) => {
+                let met = flight::collide(numbers, contact, &mut balls);
+                events.extend(met.events.into_iter().map(|kind| (now, kind)));
+                (work, slides) = (work + met.work, slides || met.is_slow);
+            }
             Next::Meets(contact) => touch(numbers, contact, &mut balls),
         }
     }
@@ -128,6 +161,13 @@ fn predict<R: Real>(course: &Course<R>, finder: Finder<R>) -> Option<(R, Next)> 
             && time < first.0
         {
             first = (time, Next::Meets(contact));
+        }
+    }
+    for (ball, rail) in (0..BALLS).flat_map(|ball| Rail::ALL.map(|rail| (ball, rail))) {
+        if let Some(time) = flight::leaves(&course.numbers, &course.balls[ball], rail)
+            && time < first.0
+        {
+            first = (time, Next::Leaves(ball));
         }
     }
     Some(first)

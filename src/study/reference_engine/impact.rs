@@ -12,12 +12,10 @@ pub fn balls_collide<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second:
     let n = (first.position - second.position).direction();
     let relative = first.velocity - second.velocity;
     let approach = -relative.dot(n);
-    let slow = numbers.ball_restitution;
-    let restitution = numbers.ball_falling.map_or(slow, |falling| falling.at(slow, approach));
+    let restitution = numbers.ball_restitution_at(approach);
     let push = R::of(0.5) * (one + restitution) * approach;
     let slip = relative + n * approach + n.cross(first.spin + second.spin) * numbers.radius;
-    let by_slip = numbers.ball_slip_friction.map(|[least, rise, fade]| least + rise * (-fade * slip.length()).exp());
-    let share = coulomb(by_slip.or(numbers.ball_friction), push, slip.length(), R::ratio(1.0, 7.0));
+    let share = coulomb(numbers.ball_friction_at(slip.length()), push, slip.length(), R::ratio(1.0, 7.0));
     let change = n * push - slip.flat() * share;
     first.velocity = first.velocity + change;
     second.velocity = second.velocity - change;
@@ -31,8 +29,7 @@ pub fn balls_collide<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second:
 pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vector<R>, ball: &mut Ball<R>) -> R {
     let one = R::of(1.0);
     let approach = -ball.velocity.dot(n);
-    let slow = cushion.restitution;
-    let restitution = cushion.falling.map_or(slow, |falling| falling.at(slow, approach));
+    let restitution = cushion.restitution_at(approach);
     if let Meeting::Nose { sine, cosine, most } = cushion.meeting {
         return nose_collides(numbers, cushion.friction, restitution, n, [sine, cosine], most, ball);
     }
@@ -44,8 +41,8 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
     R::of(0.5) * (one - restitution * restitution) * approach * approach + rubbed(slip, share, R::of(0.25))
 }
 
-/// The impulse acts along the line from the nose to the ball's centre, and friction across it. What has a part upwards the
-/// cloth takes up.
+/// The impulse acts along the line from the nose to the ball's centre, and friction across it. What presses the ball down the
+/// cloth takes up; what lifts it lets it climb the nose, where it is fast enough and balls leave the cloth.
 fn nose_collides<R: Real>(
     numbers: &Numbers<R>,
     friction: R,
@@ -61,19 +58,25 @@ fn nose_collides<R: Real>(
     let surface = ball.velocity + ball.spin.cross(to_nose) * numbers.radius;
     let slip = surface - to_nose * surface.dot(to_nose);
     let size = slip.length();
-    let share = match most {
-        None => coulomb(Some(friction), push, size, R::ratio(2.0, 7.0)),
-        Some(most) if size > R::zero() => most * (friction * push / (most * size)).tanh(),
-        Some(_) => R::zero(),
-    };
-    let rub = slip * -share;
-    let impulse = (rub - to_nose * push).flat();
+    let rub = slip * -nose_friction(most, friction * push, size);
+    let impulse = rub - to_nose * push;
+    let climbs = numbers.flight.is_some_and(|flight| impulse.z > flight.lifts);
+    let impulse = if climbs { impulse } else { impulse.flat() };
     ball.velocity = ball.velocity + impulse;
     let turn = to_nose.cross(rub);
     ball.spin = ball.spin + turn * (R::of(2.5) / numbers.radius);
     // Impulses times the mean speeds that they act on.
     let mean = R::of(-0.5);
     mean * (impulse.dot(before.velocity + ball.velocity) + numbers.radius * turn.dot(before.spin + ball.spin))
+}
+
+/// Tangential impulse over slip on a nose, given `μP/m`: Coulomb's, or one that passes smoothly into sticking.
+pub fn nose_friction<R: Real>(most: Option<R>, push: R, slip: R) -> R {
+    match most {
+        None => coulomb(Some(R::of(1.0)), push, slip, R::ratio(2.0, 7.0)),
+        Some(most) if slip > R::zero() => most * (push / (most * slip)).tanh(),
+        Some(_) => R::zero(),
+    }
 }
 
 /// Tangential impulse over slip: Coulomb's, or what stops the slip if that is less.

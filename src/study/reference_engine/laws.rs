@@ -48,7 +48,7 @@ impl<R: Real> Laws<R> {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {
             Motion::Sliding => Some(ball.slip(numbers).length()),
             Motion::Rolling => Some(ball.velocity.length()),
-            Motion::Stationary => None,
+            Motion::Stationary | Motion::Flying | Motion::OffTable => None,
         });
         let slipping = self.contacts.iter().filter(|(_, slips)| *slips);
         on_cloth.chain(slipping.map(|(contact, _)| contact.slip(numbers, balls).length()))
@@ -73,7 +73,7 @@ impl<R: Real> Laws<R> {
     /// The largest slip or speed that counts as none.
     pub fn largest_held(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> R {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {
-            Motion::Sliding => None,
+            Motion::Sliding | Motion::Flying | Motion::OffTable => None,
             Motion::Rolling => Some(ball.slip(numbers).length()),
             Motion::Stationary => Some(ball.slip(numbers).length().max(ball.velocity.length())),
         });

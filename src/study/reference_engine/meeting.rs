@@ -3,23 +3,53 @@
 //! A gap that is closed already opens again or rests; only what closes it afresh is a meeting.
 
 use super::{
-    Ball, Finder, Numbers, Real, Vector,
+    Ball, Finder, Motion, Numbers, Real, Vector,
     contact::{Balls, Contact},
     course::Course,
+    flight::from_nose,
     roots::falls,
+    table::normal,
     tolerance::{closed, slack, touching},
 };
+use crate::simulation::Rail;
 
 /// When a contact closes within `horizon`, s.
 pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: Finder<R>) -> Option<R> {
     let Course { numbers, balls, piece } = course;
-    let gap = contact.gap(numbers, balls);
     let (first, second) = contact.balls();
-    let relative = contact.relative(balls);
+    let is_off = |ball: usize| balls[ball].motion == Motion::OffTable;
+    if is_off(first) || second.is_some_and(is_off) {
+        return None;
+    }
     let integrated = |ball: usize| piece.as_ref().is_some_and(|piece| piece.has(ball));
     let is_integrated = integrated(first) || second.is_some_and(integrated);
-    // Most bodies are too far apart to meet so soon: to solve for their roots costs most of a shot's time.
-    let pull = R::of(if is_integrated { 10.0 } else { 2.0 }) * numbers.slide;
+    let time = match contact {
+        Contact::Rail(ball, rail) if balls[ball].motion == Motion::Flying => {
+            nose_meets(numbers, &balls[ball], rail, horizon, finder)
+        }
+        Contact::Balls(first, second) if !is_integrated => {
+            let (a, b) = (&balls[first], &balls[second]);
+            let k = (a.acceleration(numbers) - b.acceleration(numbers)) * R::of(0.5);
+            let reach = R::of(2.0) * numbers.radius;
+            points_meet(reach, [a.position - b.position, a.velocity - b.velocity, k], horizon, finder)
+        }
+        _ => rail_or_integrated_meets(course, contact, is_integrated, horizon),
+    };
+    time.filter(|time| *time <= horizon)
+}
+
+fn rail_or_integrated_meets<R: Real>(
+    course: &Course<R>,
+    contact: Contact,
+    is_integrated: bool,
+    horizon: R,
+) -> Option<R> {
+    let Course { numbers, balls, piece } = course;
+    let gap = contact.gap(numbers, balls);
+    let relative = contact.relative(balls);
+    // Most bodies are too far apart to meet so soon: to look closely costs most of a shot's time.
+    let fall = if contact.is_aloft(balls) { numbers.gravity } else { R::zero() };
+    let pull = R::of(if is_integrated { 10.0 } else { 2.0 }) * numbers.slide + fall;
     if gap > horizon * (relative.length() + pull * horizon) {
         return None;
     }
@@ -28,20 +58,11 @@ pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: 
         return Some(R::zero());
     }
     if is_integrated {
-        return course
-            .piece
-            .as_ref()
-            .and_then(|piece| if piece.presses(contact) { None } else { seen_to_close(course, contact, horizon) });
+        let presses = piece.as_ref()?.presses(contact);
+        return if presses { None } else { seen_to_close(course, contact, horizon) };
     }
-    let a = &balls[first];
-    let time = match second {
-        None => {
-            let n = contact.normal(balls);
-            quadratic_closes(gap, opening, R::of(0.5) * a.acceleration(numbers).dot(n))
-        }
-        Some(second) => balls_meet(numbers, a, &balls[second], gap, opening, horizon, finder),
-    };
-    time.filter(|time| *time <= horizon)
+    let pull = balls[contact.balls().0].acceleration(numbers).dot(contact.normal(balls));
+    quadratic_closes(gap, opening, R::of(0.5) * pull)
 }
 
 /// First time at which `gap + speed t + pull t²` falls through zero.
@@ -59,29 +80,39 @@ fn quadratic_closes<R: Real>(gap: R, speed: R, pull: R) -> Option<R> {
     Some(if speed < zero { two * gap / (root - speed) } else { (speed + root) / (-two * pull) })
 }
 
-fn balls_meet<R: Real>(
-    numbers: &Numbers<R>,
-    a: &Ball<R>,
-    b: &Ball<R>,
-    gap: R,
-    opening: R,
-    horizon: R,
-    finder: Finder<R>,
-) -> Option<R> {
-    let (zero, two, half) = (R::zero(), R::of(2.0), R::of(0.5));
-    let diameter = two * numbers.radius;
-    let (d, v): (Vector<R>, Vector<R>) = (a.position - b.position, a.velocity - b.velocity);
-    let k = (a.acceleration(numbers) - b.acceleration(numbers)) * half;
-    let c = [d.dot(d) - diameter * diameter, two * d.dot(v), v.dot(v) + two * d.dot(k), two * v.dot(k), k.dot(k)];
+/// When a ball in the air meets the nose of `rail` from the table's side.
+fn nose_meets<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail, horizon: R, finder: Finder<R>) -> Option<R> {
+    let (n, way) = (normal::<R>(rail), from_nose(numbers, ball, rail));
+    let along = n.cross(Vector::up());
+    let velocity = ball.velocity - along * ball.velocity.dot(along);
+    let fall = ball.acceleration(numbers) * R::of(0.5);
+    let time = points_meet(numbers.radius, [way, velocity, fall], horizon, finder)?;
+    (way.dot(n) + velocity.dot(n) * time > R::zero()).then_some(time)
+}
+
+/// When two points come as near as `reach`, m, whose distance is `d + v t + k t²`.
+fn points_meet<R: Real>(reach: R, [d, v, k]: [Vector<R>; 3], horizon: R, finder: Finder<R>) -> Option<R> {
+    let (zero, two) = (R::zero(), R::of(2.0));
+    let apart = d.dot(d) - reach * reach;
+    let gap = apart / (d.length() + reach);
+    // Most are too far apart to meet so soon: to solve for their roots costs most of a shot's time.
+    if gap > horizon * (v.length() + k.length() * horizon) {
+        return None;
+    }
+    let opening = d.dot(v) / d.length();
+    if gap <= touching() && opening < -closed::<R>() {
+        return Some(zero);
+    }
+    let c = [apart, two * d.dot(v), v.dot(v) + two * d.dot(k), two * v.dot(k), k.dot(k)];
     if gap > touching() {
         return finder(&c, horizon);
     }
-    // The root at zero of balls that touch is the contact that is over: it is divided out. They do not press, so what
-    // neither opens nor closes them is rounding.
+    // The root at zero of what touches is the contact that is over: it is divided out. Nothing presses, so what neither opens
+    // nor closes it is rounding.
     if opening > closed() {
         return finder(&[c[1], c[2], c[3], c[4], zero], horizon);
     }
-    if c[2] > diameter * slack() { finder(&[c[2], c[3], c[4], zero, zero], horizon) } else { None }
+    if c[2] > reach * slack() { finder(&[c[2], c[3], c[4], zero, zero], horizon) } else { None }
 }
 
 /// The same for a gap without closed form, over a time so short that it has at most one extremum.

@@ -3,8 +3,9 @@
 //!
 //! In double-double it is the truth that everything else is measured by. Only names are shared: of events and cushions.
 //!
-//! Free balls go along parabolas from event to event (`motion`, `meeting`). Contacts that close at one moment collide
-//! together (`rounds`); tables give the laws of their parts (`table`, `rails`, `impact`). Bounces that shrink without end become a resting contact (`moment`), whose forces follow from the
+//! Free balls go along parabolas from event to event (`motion`, `meeting`), those in the air from landing to landing
+//! (`flight`). Contacts that close at one moment collide together (`rounds`); tables give the laws of their parts (`table`,
+//! `rails`, `impact`). Bounces that shrink without end become a resting contact (`moment`), whose forces follow from the
 //! laws by complementarity (`rest`, `laws`, `system`, `complementarity`) and are integrated from one change of the laws to
 //! the next (`piece`, `extrapolation`).
 
@@ -15,6 +16,7 @@ mod cue;
 mod double_double;
 mod engine;
 mod extrapolation;
+mod flight;
 mod impact;
 mod laws;
 mod linear;
@@ -33,6 +35,8 @@ mod table;
 mod tolerance;
 mod vector;
 
+#[cfg(test)]
+mod flight_tests;
 #[cfg(test)]
 mod tests;
 

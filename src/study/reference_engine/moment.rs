@@ -62,6 +62,9 @@ pub fn happen<R: Real>(
             continue;
         }
         let mut events: Vec<EventKind> = met.iter().map(|contact| contact.event()).collect();
+        let has_climbed =
+            |index: &usize| balls[*index].motion == Motion::Flying && before[*index].motion != Motion::Flying;
+        events.extend((0..BALLS).filter(has_climbed).map(EventKind::Jumps));
         for (index, ball) in balls.iter_mut().enumerate().filter(|(index, _)| resting[*index]) {
             if rest.as_ref().is_none_or(|rest| rest.laws.cloth[index].is_none()) && before[index].motion == ball.motion
             {

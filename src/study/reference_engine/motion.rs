@@ -11,6 +11,10 @@ pub enum Motion {
     Rolling,
     /// Slipping on the cloth.
     Sliding,
+    /// In the air, or hopping.
+    Flying,
+    /// It has left the table.
+    OffTable,
 }
 
 /// A stretch of constant deceleration of a rolling ball, which keeps its direction.
@@ -25,7 +29,7 @@ pub struct Band<R> {
 /// A ball at one moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Ball<R> {
-    /// Centre, m.
+    /// Centre, m; `z` is its height over where it is when the ball lies on the cloth.
     pub position: Vector<R>,
     /// Velocity, m/s.
     pub velocity: Vector<R>,
@@ -69,10 +73,10 @@ impl<R: Real> Ball<R> {
         (self.velocity + Vector::up().cross(self.spin) * numbers.radius).flat()
     }
 
-    /// Kinetic energy over mass: `v²/2 + R²w²/5`.
+    /// Kinetic and potential energy over mass: `v²/2 + R²w²/5 + gz`.
     pub fn energy(&self, numbers: &Numbers<R>) -> R {
         let around = numbers.radius * numbers.radius * self.spin.dot(self.spin);
-        R::of(0.5) * self.velocity.dot(self.velocity) + around / R::of(5.0)
+        R::of(0.5) * self.velocity.dot(self.velocity) + around / R::of(5.0) + numbers.gravity * self.position.z
     }
 
     /// Acceleration of a ball that nothing presses.
@@ -80,11 +84,13 @@ impl<R: Real> Ball<R> {
         match self.motion {
             Motion::Sliding => self.slip(numbers).direction() * -numbers.slide,
             Motion::Rolling => self.velocity.direction() * -self.rolls(numbers).0,
-            Motion::Stationary => Vector::zero(),
+            Motion::Flying => Vector::up() * -numbers.gravity,
+            Motion::Stationary | Motion::OffTable => Vector::zero(),
         }
     }
 
-    /// How long the motion of a ball that nothing presses lasts (thesis equations 25 and 26).
+    /// How long the motion of a ball that nothing presses lasts (thesis equations 25 and 26); that of one in the air until it
+    /// comes down.
     pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
         match self.motion {
             Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
@@ -92,7 +98,19 @@ impl<R: Real> Ball<R> {
                 let (deceleration, end) = self.rolls(numbers);
                 Some((self.velocity.length() - end) / deceleration)
             }
-            Motion::Stationary => None,
+            Motion::Flying => {
+                let (height, climb) = (self.position.z.max(R::zero()), self.velocity.z);
+                let landing = (climb * climb + R::of(2.0) * numbers.gravity * height).sqrt();
+                // Either form of the same root, whichever does not cancel.
+                Some(if climb > R::zero() {
+                    (climb + landing) / numbers.gravity
+                } else if landing > R::zero() {
+                    R::of(2.0) * height / (landing - climb)
+                } else {
+                    R::zero()
+                })
+            }
+            Motion::Stationary | Motion::OffTable => None,
         }
     }
 
@@ -113,12 +131,20 @@ impl<R: Real> Ball<R> {
         self.go_on(numbers, R::of(16.0 * R::ROUNDING) * speeds);
     }
 
-    /// Chooses the motion, and makes what has ended end exactly: slips and speeds up to `none`, m/s.
+    /// Chooses the motion, and makes what has ended end exactly: slips and speeds up to `none`, m/s. A ball that is above the
+    /// cloth or moves upwards flies.
     pub fn go_on(&mut self, numbers: &Numbers<R>, none: R) {
-        self.motion = self.on_cloth(numbers, none);
         self.band = None;
+        if self.motion == Motion::OffTable {
+            return;
+        }
+        if self.position.z > R::zero() || self.velocity.z > R::zero() {
+            self.motion = Motion::Flying;
+            return;
+        }
+        self.motion = self.on_cloth(numbers, none);
         match self.motion {
-            Motion::Sliding => {}
+            Motion::Sliding | Motion::Flying | Motion::OffTable => {}
             Motion::Rolling => _ = Motion::Sliding.successor(self, numbers),
             Motion::Stationary => _ = Motion::Rolling.successor(self, numbers),
         }
@@ -145,6 +171,8 @@ impl<R: Real> Ball<R> {
                 work = resistance * (ball.position - self.position).length();
             }
             Motion::Stationary => {}
+            // The spin stays as it is in the air.
+            Motion::Flying | Motion::OffTable => return (ball, work),
         }
         let size = self.spin.z.abs();
         let lost = (numbers.twist * time).min(size);

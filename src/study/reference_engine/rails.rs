@@ -60,6 +60,20 @@ pub struct Cushion<R> {
 }
 
 impl<R: Real> Cushion<R> {
+    /// Sine and cosine of the angle up to the nose as seen from the centre of a ball on the cloth, and the most of the slip that
+    /// a smooth friction takes.
+    pub fn nose(&self) -> (R, R, Option<R>) {
+        match self.meeting {
+            Meeting::Nose { sine, cosine, most } => (sine, cosine, most),
+            Meeting::Equator | Meeting::Integrated => (R::zero(), R::of(1.0), None),
+        }
+    }
+
+    /// Restitution at a normal speed, m/s.
+    pub fn restitution_at(&self, speed: R) -> R {
+        self.falling.map_or(self.restitution, |falling| falling.at(self.restitution, speed))
+    }
+
     /// A rail of `table`, whose `f64` are taken as exact.
     pub fn of(table: &Table, rail: Rail) -> Self {
         let (own, all, one) = (table.rail.own(rail), &table.rail, R::of(1.0));

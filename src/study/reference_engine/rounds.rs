@@ -17,9 +17,10 @@ use super::{
 /// Rounds after which what touches takes one inelastic impact.
 const MOST_ROUNDS: usize = 32;
 
-/// All contacts whose gaps are closed.
+/// All contacts on the cloth whose gaps are closed.
 pub fn touching_contacts<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
-    Contact::all().filter(|contact| contact.gap(numbers, balls) <= touching()).collect()
+    let closed = |contact: &Contact| !contact.is_aloft(balls) && contact.gap(numbers, balls) <= touching();
+    Contact::all().filter(closed).collect()
 }
 
 /// Lets everything collide that touches and closes; the contacts in `inelastic` have no restitution. Returns who met

@@ -6,6 +6,25 @@ use super::{
 };
 use crate::{physics::FIRST_BOUNCE, simulation::Rail, table::Table};
 
+/// No bounce in the air is slower than this, nor does a slower stroke lift a ball, in units of `√(g R)`.
+const SLOWEST_IN_AIR: f64 = 4e-3;
+
+/// A rail lifts a ball that would climb faster than this, in units of `√(g R)`.
+const LIFTS: f64 = 2e-2;
+
+/// What decides how balls leave the cloth and come down on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Flight<R> {
+    /// Restitution `e_c` of the cloth.
+    pub restitution: R,
+    /// Its friction `mu_c` with a ball that is pressed into it.
+    pub friction: R,
+    /// Slowest bounce in the air, and the speed above which the cloth throws a ball up, m/s.
+    pub slowest: R,
+    /// Speed above which a rail throws a ball up, m/s.
+    pub lifts: R,
+}
+
 /// What the equations need of a table, in SI units.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers<R> {
@@ -43,8 +62,10 @@ pub struct Numbers<R> {
     pub end_ratio: Option<R>,
     /// Whether the table is level.
     is_level: bool,
-    /// Whether its balls leave the cloth.
-    flies: bool,
+    /// Gravitational acceleration, m/s².
+    pub gravity: R,
+    /// How balls leave the cloth, `None` where they stay on it.
+    pub flight: Option<Flight<R>>,
 }
 
 impl<R: Real> Numbers<R> {
@@ -70,7 +91,13 @@ impl<R: Real> Numbers<R> {
             mass_ratio: mass / R::of(table.cue_mass),
             end_ratio: table.cue_end_mass.map(|end| mass / R::of(end)),
             is_level: table.tilt == glam::DVec2::ZERO,
-            flies: table.flight.is_some(),
+            gravity,
+            flight: table.flight.map(|flight| Flight {
+                restitution: R::of(flight.restitution),
+                friction: R::of(flight.friction.unwrap_or(table.sliding_friction)),
+                slowest: R::of(SLOWEST_IN_AIR) * (gravity * radius).sqrt(),
+                lifts: R::of(LIFTS) * (gravity * radius).sqrt(),
+            }),
         }
     }
 
@@ -81,13 +108,22 @@ impl<R: Real> Numbers<R> {
     pub fn judged(&self) -> Result<(), Unjudged> {
         if self.cushions.iter().any(|cushion| matches!(cushion.meeting, Meeting::Integrated)) {
             Err(Unjudged::IntegratedRail)
-        } else if self.flies {
-            Err(Unjudged::Flight)
         } else if self.is_level {
             Ok(())
         } else {
             Err(Unjudged::Slope)
         }
+    }
+
+    /// Restitution of two balls at a normal speed, m/s.
+    pub fn ball_restitution_at(&self, speed: R) -> R {
+        self.ball_falling.map_or(self.ball_restitution, |falling| falling.at(self.ball_restitution, speed))
+    }
+
+    /// Friction of an impact of two balls at a slip, m/s.
+    pub fn ball_friction_at(&self, slip: R) -> Option<R> {
+        let by_slip = self.ball_slip_friction.map(|[least, rise, fade]| least + rise * (-fade * slip).exp());
+        by_slip.or(self.ball_friction)
     }
 
     /// A rail's cushion.

@@ -24,6 +24,11 @@ pub fn chatter<R: Real>() -> R {
     R::of(R::ROUNDING.sqrt())
 }
 
+/// A hop that is slower than this has ended, m/s: what is left of all that follow is rounding.
+pub fn last_hop<R: Real>() -> R {
+    R::of(0.1 * R::ROUNDING)
+}
+
 /// Forces per mass and accelerations below this are zero, m/s². A law that breaks is seen so much late: the slip or gap
 /// that is missed grows with the square of it.
 pub fn slack<R: Real>() -> R {

@@ -9,18 +9,16 @@ use glam::{DVec2, DVec3};
 use super::{
     audit::{Doubt, free_loss},
     figures::Figures,
+    invariants::{PAIRS, PRECISION},
     polynomial::{MAX_DEGREE, least},
     shot::Shot,
     trace::{Piece, Trace},
 };
 use crate::{
-    physics::{Cushions, Motion, slip},
+    physics::{Cushions, Motion, SpatialState, slip},
     simulation::{Constants, EventKind, Rail},
     table::{BALLS, Table},
 };
-
-/// To which the least distance is worked out, m.
-const PRECISION: f64 = 1e-12;
 
 /// Rounding of an energy, as a share of it.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -66,9 +64,8 @@ impl Stretch {
     fn energy(&self, table: &Table, at_end: bool) -> f64 {
         let time = if at_end { self.end } else { self.begin };
         let spin = self.spin[usize::from(at_end)];
-        0.5 * self.velocity(time).length_squared()
-            + 0.2 * (table.radius * spin).length_squared()
-            + table.gravity * self.at(time).z
+        SpatialState { position: self.at(time), velocity: self.velocity(time), spin }
+            .specific_energy(table.radius, table.gravity)
     }
 }
 
@@ -121,7 +118,7 @@ pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut F
         }
         energy(table, stretches, figures);
     }
-    for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+    for (first, second) in PAIRS {
         overlaps(table, &balls[first], &balls[second], figures);
     }
     contacts(table, trace, &balls, figures);

@@ -21,10 +21,10 @@ use super::{
 };
 
 /// Pairs of balls.
-const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+pub(super) const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
 /// To which the least distance is worked out, m: a thousandth of what counts.
-const PRECISION: f64 = 1e-12;
+pub(super) const PRECISION: f64 = 1e-12;
 
 /// Plays `shot` and measures everything that must hold.
 pub fn examine(table: &Table, shot: &Shot, trace: &mut Trace) -> Figures {
@@ -47,7 +47,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         return figures;
     }
     order(trace, &mut figures);
-    if trace.pieces.iter().flatten().any(|piece| piece.segment.motion == Motion::Flying) {
+    if trace.has_flights() {
         aloft::measure(table, shot, trace, &mut figures);
         return figures;
     }

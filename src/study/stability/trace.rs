@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, time::Instant};
 
 use crate::{
-    physics::{Impulse, strike},
+    physics::{Impulse, Motion, strike},
     simulation::{Constants, End, Event, Observer, Segment, simulate},
     study::clock::timed,
     table::{BALLS, Table},
@@ -92,6 +92,11 @@ impl Trace {
         self.impulse = *impulse;
         self.started = Instant::now();
         (self.end, self.seconds) = timed(|| play(self));
+    }
+
+    /// Whether a ball has been in the air.
+    pub fn has_flights(&self) -> bool {
+        self.pieces.iter().flatten().any(|piece| piece.segment.motion == Motion::Flying)
     }
 
     /// Keeps no more once there are `count` of something.

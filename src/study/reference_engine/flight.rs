@@ -1,0 +1,225 @@
+//! Balls off the cloth: what it gives back to a ball that is pressed into it or comes down on it, and what a ball in the air does
+//! to what it meets. Every landing is an event, down to hops of rounding's size.
+
+use super::{
+    Ball, Motion, Numbers, Real, Vector,
+    contact::{Balls, Contact},
+    impact::{coulomb, nose_friction},
+    table::normal,
+    tolerance::last_hop,
+};
+use crate::simulation::{EventKind, Rail};
+
+/// What has come of a meeting in the air.
+pub struct Met<R> {
+    /// What is told of it.
+    pub events: Vec<EventKind>,
+    /// The energy over mass that it takes.
+    pub work: R,
+    /// Whether it was so slow that bounces like it need not be told one by one.
+    pub is_slow: bool,
+}
+
+/// An impulse over mass at a ball's surface, and the turning that it makes.
+struct Change<R> {
+    linear: Vector<R>,
+    angular: Vector<R>,
+}
+
+impl<R: Real> Change<R> {
+    /// Changes a ball, and returns the energy over mass that this takes: the impulse times the mean speed that it acts on.
+    fn apply(&self, numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
+        let before = *ball;
+        ball.velocity = ball.velocity + self.linear;
+        ball.spin = ball.spin + self.angular;
+        let inertia = R::of(1.0) / numbers.turnability;
+        let along = self.linear.dot(before.velocity + ball.velocity);
+        R::of(-0.5) * (along + inertia * self.angular.dot(before.spin + ball.spin))
+    }
+}
+
+/// The cloth's answer to a ball on it that moves downwards, and the energy over mass that it takes.
+pub fn press<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
+    let Some(flight) = numbers.flight.filter(|_| ball.velocity.z < R::zero()) else { return R::zero() };
+    let push = (R::of(1.0) + flight.restitution) * -ball.velocity.z;
+    let slip = ball.slip(numbers);
+    let rub = slip * -coulomb(Some(flight.friction), push, slip.length(), R::ratio(2.0, 7.0));
+    let angular = (Vector::up() * -numbers.radius).cross(rub) * numbers.turnability;
+    Change { linear: rub + Vector::up() * push, angular }.apply(numbers, ball)
+}
+
+/// What a ball does after a stroke or a blow: on the cloth it is pressed, and stays there if it is thrown up no faster than a
+/// ball bounces in the air. Returns the energy over mass that this takes.
+pub fn settle<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
+    let mut work = R::zero();
+    if ball.position.z <= R::zero() {
+        work = press(numbers, ball);
+        if numbers.flight.is_none_or(|flight| ball.velocity.z <= flight.slowest) {
+            work = work + stay(ball);
+        }
+    }
+    ball.set_off(numbers);
+    work
+}
+
+/// Keeps a ball on the cloth.
+fn stay<R: Real>(ball: &mut Ball<R>) -> R {
+    let work = R::of(0.5) * ball.velocity.z * ball.velocity.z;
+    (ball.position.z, ball.velocity.z) = (R::zero(), R::zero());
+    work
+}
+
+/// A ball comes down on the cloth: it hops again, or stays there. Returns what is told, and the energy over mass that it takes.
+pub fn land<R: Real>(numbers: &Numbers<R>, index: usize, ball: &mut Ball<R>) -> (Vec<EventKind>, R) {
+    // What rounding has left of the height.
+    let lowered = numbers.gravity * ball.position.z;
+    ball.position.z = R::zero();
+    let work = lowered + press(numbers, ball);
+    if ball.velocity.z > last_hop() {
+        return (Vec::new(), work);
+    }
+    let work = work + stay(ball);
+    ball.set_off(numbers);
+    let mut events = vec![EventKind::Lands(index)];
+    match ball.motion {
+        Motion::Rolling => events.push(EventKind::SlidingRolling(index)),
+        Motion::Stationary => events.push(EventKind::RollingStationary(index)),
+        _ => {}
+    }
+    (events, work)
+}
+
+/// A ball leaves the table; returns the energy over mass that it takes along.
+pub fn leave<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
+    let work = ball.energy(numbers);
+    *ball = Ball { motion: Motion::OffTable, ..Ball::still(ball.position.flat()) };
+    work
+}
+
+/// The way from the nose of `rail` to a ball's centre, m, across the rail.
+pub fn from_nose<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Vector<R> {
+    let (sine, cosine, _) = numbers.cushion(rail).nose();
+    let n = normal(rail);
+    let inwards = numbers.reach(rail) + numbers.radius * cosine + ball.position.dot(n);
+    n * inwards + Vector::up() * (ball.position.z - numbers.radius * sine)
+}
+
+/// When a ball in the air comes down on `rail` behind its nose, s.
+pub fn leaves<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Option<R> {
+    if ball.motion != Motion::Flying {
+        return None;
+    }
+    let (n, way) = (normal(rail), from_nose(numbers, ball, rail));
+    let climb = ball.velocity.z;
+    let above = climb * climb + R::of(2.0) * numbers.gravity * (way.z - numbers.radius);
+    if above < R::zero() {
+        return None;
+    }
+    let time = (climb + above.sqrt()) / numbers.gravity;
+    let is_behind = way.dot(n) + ball.velocity.dot(n) * time <= R::zero();
+    (time >= R::zero() && is_behind).then_some(time)
+}
+
+/// Two bodies meet of which a ball in the air is one.
+pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Balls<R>) -> Met<R> {
+    let before = *balls;
+    let (approach, mut work) = match contact {
+        Contact::Rail(ball, rail) => {
+            let way = from_nose(numbers, &balls[ball], rail);
+            let n = way.direction();
+            shift(&mut balls[ball], n * (numbers.radius - way.length()));
+            nose_meets(numbers, rail, n, &mut balls[ball])
+        }
+        Contact::Balls(first, second) => {
+            let (mut one, mut other) = (balls[first], balls[second]);
+            let gap = contact.normal(balls) * contact.gap(numbers, balls);
+            // Only what is in the air is moved: the cloth stays where it is.
+            if one.motion == Motion::Flying {
+                shift(&mut one, -gap);
+            } else {
+                shift(&mut other, gap);
+            }
+            let met = balls_meet(numbers, &mut one, &mut other);
+            (balls[first], balls[second]) = (one, other);
+            met
+        }
+    };
+    let mut events = vec![contact.event()];
+    let (first, second) = contact.balls();
+    for index in [Some(first), second].into_iter().flatten() {
+        work = work + settle(numbers, &mut balls[index]);
+        match (before[index].motion == Motion::Flying, balls[index].motion == Motion::Flying) {
+            (false, true) => events.push(EventKind::Jumps(index)),
+            (true, false) => events.push(EventKind::Lands(index)),
+            _ => {}
+        }
+    }
+    let slow = numbers.flight.map_or(R::zero(), |flight| flight.lifts);
+    Met { events, work, is_slow: approach <= slow }
+}
+
+/// Takes what rounding has left of a gap out of the place of a ball in the air.
+fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
+    ball.position = ball.position + by;
+    ball.position.z = ball.position.z.max(R::zero());
+}
+
+/// Relative velocity after an impact with restitution, which was `across - approach n`, but for its friction, which takes `rub`
+/// from the part across. No impact in the air opens more slowly than `slowest`: one that approaches no faster loses nothing,
+/// and what is missing then comes out of the part across.
+fn opened<R: Real>(slowest: R, n: Vector<R>, opening: R, across: Vector<R>) -> Vector<R> {
+    let missing = slowest * slowest - opening * opening;
+    if missing <= R::zero() {
+        return across + n * opening;
+    }
+    let had = across.dot(across);
+    if had <= missing {
+        return n * (had + opening * opening).sqrt();
+    }
+    across * ((had - missing) / had).sqrt() + n * slowest
+}
+
+/// The speed with which an impact in the air opens, but for what [`opened`] adds.
+fn opening<R: Real>(numbers: &Numbers<R>, restitution: R, approach: R) -> (R, R) {
+    let slowest = numbers.flight.map_or(R::zero(), |flight| flight.slowest);
+    ((restitution * approach).max(approach.min(slowest)), slowest)
+}
+
+/// Two balls meet in space; returns the speed of the approach, and the energy over mass that it takes.
+fn balls_meet<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut Ball<R>) -> (R, R) {
+    let (half, two) = (R::of(0.5), R::of(2.0));
+    let mut n = (first.position - second.position).direction();
+    if n.flat() == Vector::zero() {
+        // Nothing says to which side a ball leaves the top of another: the law is the simulator's.
+        n.x = R::of(f64::EPSILON);
+    }
+    let relative = first.velocity - second.velocity;
+    let approach = -relative.dot(n);
+    let across = relative + n * approach;
+    let (opening, slowest) = opening(numbers, numbers.ball_restitution_at(approach), approach);
+    let push = (approach + opening) * half;
+    let slip = across + n.cross(first.spin + second.spin) * numbers.radius;
+    let size = slip.length();
+    let rub = slip * -coulomb(numbers.ball_friction_at(size), push, size, R::ratio(1.0, 7.0));
+    let after = opened(slowest, n, opening, across + rub * two);
+    let linear = (after - relative) * half;
+    let angular = (n * -numbers.radius).cross(rub) * numbers.turnability;
+    let one = Change { linear, angular }.apply(numbers, first);
+    let other = Change { linear: -linear, angular }.apply(numbers, second);
+    (approach, one + other)
+}
+
+/// A ball meets a nose, from which `n` points to its centre; returns the speed of the approach, and the energy over mass that it
+/// takes.
+fn nose_meets<R: Real>(numbers: &Numbers<R>, rail: Rail, n: Vector<R>, ball: &mut Ball<R>) -> (R, R) {
+    let cushion = numbers.cushion(rail);
+    let approach = -ball.velocity.dot(n);
+    let across = ball.velocity + n * approach;
+    let (opening, slowest) = opening(numbers, cushion.restitution_at(approach), approach);
+    let slip = across + n.cross(ball.spin) * numbers.radius;
+    let push = cushion.friction * (approach + opening);
+    let rub = slip * -nose_friction(cushion.nose().2, push, slip.length());
+    let linear = opened(slowest, n, opening, across + rub) - ball.velocity;
+    let angular = (n * -numbers.radius).cross(rub) * numbers.turnability;
+    (approach, Change { linear, angular }.apply(numbers, ball))
+}

@@ -1,0 +1,97 @@
+//! What fixed steps miss, and that smaller ones miss less.
+
+use super::*;
+
+fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
+    let table = Table::preset("textbook").unwrap();
+    let cue = CueInputs::parse(shot).unwrap();
+    Steps::new(dt, locate).unwrap().record(&table, &Layout::opening(&table), &cue).unwrap()
+}
+
+fn error(dt: f64, locate: bool) -> f64 {
+    let shot = "0,0.2,5,12.5,3";
+    let table = Table::preset("textbook").unwrap();
+    let exact = Recording::new(&table, &Layout::opening(&table), &CueInputs::parse(shot).unwrap()).unwrap();
+    let stepped = play(dt, locate, shot).0;
+    let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);
+    pairs.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_tenth_of_the_step_is_about_a_tenth_of_the_error() {
+    let (coarse, fine) = (error(1e-3, false), error(1e-4, false));
+    assert!(coarse > 1e-4 && fine < 0.3 * coarse, "{coarse:e}, {fine:e}");
+}
+
+#[test]
+fn events_located_within_the_step_are_as_exact_as_the_engine() {
+    let error = error(1e-2, true);
+    assert!(error < 1e-11, "{error:e}");
+}
+
+#[test]
+fn a_fast_ball_passes_through_another_between_two_steps() {
+    // 2 m/s at 0.1 s a step: 0.2 m from one place to the next, and a ball of 0.06 m between them.
+    let kinds = |dt| {
+        let (recording, _) = play(dt, false, "0,0,0,0,3");
+        recording.events().iter().any(|event| event.kind == EventKind::BallBall(0, 2))
+    };
+    assert!(kinds(1e-3) && !kinds(0.2));
+}
+
+#[test]
+fn late_events_leave_overlaps_and_they_are_reported() {
+    let deepest = play(1e-2, false, "0,0,0,0,6").1.deepest_overlap;
+    assert!(deepest > 1e-3, "{deepest}");
+    assert!(play(1e-2, true, "0,0,0,0,6").1.deepest_overlap < 1e-9);
+}
+
+#[test]
+fn every_step_ends_whatever_its_length() {
+    for (dt, shot) in [(1.0, "0,0,0,0,6"), (0.3, "0,-0.5,0,40,8"), (0.1, "0.4,0.3,20,100,9")] {
+        let (_, stepped) = play(dt, false, shot);
+        assert!(stepped.steps as f64 * dt < 1e3);
+    }
+}
+
+/// How far steps are from the engine, m, in a shot of which a ball jumps, meets another in the air and hops.
+fn error_of_a_jump(dt: f64, locate: bool) -> f64 {
+    let table = Table { flight: Some(crate::table::Flight::default()), ..Table::default() };
+    let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.28, 0.01), DVec2::new(0.9, 0.5)]);
+    let cue = CueInputs::parse("0.1,0,40,0,3.5").unwrap();
+    let exact = Recording::new(&table, &layout, &cue).unwrap();
+    let (stepped, told) = Steps::new(dt, locate).unwrap().record(&table, &layout, &cue).unwrap();
+    assert!(told.at_rest);
+    if locate {
+        let kinds = |shot: &Recording| shot.events().iter().map(|event| event.kind).collect::<Vec<_>>();
+        assert_eq!(kinds(&exact), kinds(&stepped));
+        let aloft = kinds(&exact).iter().filter(|kind| matches!(kind, EventKind::Jumps(_))).count();
+        assert!(aloft >= 1 && kinds(&exact).contains(&EventKind::BallBall(0, 1)));
+    }
+    let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);
+    pairs.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn flights_are_stepped_too_and_as_exact_as_the_engines_where_events_are_located() {
+    let (coarse, fine) = (error_of_a_jump(1e-3, false), error_of_a_jump(1e-5, false));
+    assert!(coarse > 1e-4 && fine < 0.3 * coarse, "{coarse:e}, {fine:e}");
+    let located = error_of_a_jump(1e-2, true);
+    assert!(located < 1e-10, "{located:e}");
+}
+
+#[test]
+fn a_ball_shot_over_the_rail_leaves_the_table_in_steps_too() {
+    let table = Table { flight: Some(crate::table::Flight::default()), ..Table::default() };
+    let layout = Layout::new([DVec2::new(0.9, 0.0), DVec2::new(0.0, 0.3), DVec2::new(0.0, -0.3)]);
+    let cue = CueInputs::parse("0,0,30,0,9").unwrap();
+    let (_, stepped) = Steps::new(1e-3, false).unwrap().record(&table, &layout, &cue).unwrap();
+    assert_eq!((stepped.end.off_table, stepped.at_rest), ([true, false, false], true));
+}
+
+#[test]
+fn an_unusable_step_is_named() {
+    for dt in [0.0, -1.0, f64::NAN, 1e-12, 3.0] {
+        assert!(Steps::new(dt, false).unwrap_err().to_string().contains(&dt.to_string()));
+    }
+}
