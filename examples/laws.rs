@@ -1,7 +1,7 @@
 //! How far each law of the rails is to be believed after the film, with its own best constants: what the doubt about `match` says.
 //!
 //! `cargo run --release --example laws` fits every law to both halves of the film, weighs them by the rails that they predict of the
-//! other half, and writes the sections of `src/table/match_doubt.toml`.
+//! other half, and says what `src/table/match_doubt.toml` is made of. It takes some minutes.
 
 use carom::{
     study::filmed::{bundled, weigh},

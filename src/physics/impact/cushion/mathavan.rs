@@ -17,6 +17,9 @@ use super::BallState;
 /// of ten, and 4 cm/s at worst, where a slip ends within a step: a tenth of what the law is off real rails by.
 const STEPS: u32 = 4;
 
+/// What is less is not worth another root.
+const FAR: f64 = 0.02;
+
 /// No nose and no cloth take more than nine tenths of what drives a ball out: a guard for those that could hold it.
 const LEAST_GAIN: f64 = 0.1;
 
@@ -68,13 +71,17 @@ impl Law {
         let left = self.slip(from) / impulse + sine * (DVec2::new(0.0, cosine) + dragged);
         let up = -left.y / (2.5 + sine * sine - cosine * dragged.y);
         let holding = DVec2::new(-(left.x - cosine * dragged.x * up) / 3.5, up);
-        let share = nose / holding.length();
+        let share = nose * nose / holding.length_squared();
         if share >= 1.0 {
             return rate(holding);
         }
+        let slip = self.slip(at).normalize_or_zero();
         // Shortly before the nose holds the ball, the slip turns to where it will be held.
-        let near = share.powi(4);
-        let against = near * (share / nose) * holding - (1.0 - near) * self.slip(at).normalize_or_zero();
+        let near = share * share;
+        if near < FAR {
+            return rate(-nose * slip);
+        }
+        let against = near * holding.normalize_or_zero() - (1.0 - near) * slip;
         rate(nose * against.normalize_or_zero())
     }
 
