@@ -328,7 +328,9 @@ impl TableDoubt {
         let mut factor =
             cholesky(&matrix, LEAST_LEFT).map_err(|row| DoubtError::Correlations(names[row].to_owned()))?;
         for (line, name) in factor.iter_mut().zip(names) {
-            line.iter_mut().for_each(|entry| *entry *= self.deviations[*name]);
+            for entry in line {
+                *entry *= self.deviations[*name];
+            }
         }
         Ok(factor)
     }

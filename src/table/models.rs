@@ -138,6 +138,6 @@ impl SlipFriction {
 
 /// Whether a number may be left out of a file.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-pub fn is_zero(value: &f64) -> bool {
+pub(crate) fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
