@@ -1,8 +1,8 @@
 //! How often a player makes the coach's shots on a table that is not quite the coach's.
 //!
-//! `cargo run --release --example stand_in -- 40 --rule three-cushion` asks the coach for a shot from the layouts of filmed shots on
-//! `match`, then plays it with an expert's errors, or another player's, on stand-ins whose rails follow other models fitted to the same film. What
-//! the coach says of a shot should be what becomes of it there.
+//! `cargo run --release --example stand_in -- 46 three-cushion expert full 0` asks the coach for a shot from every other layout of the
+//! filmed shots on `match`, from the first on, then plays it with an expert's errors on stand-ins whose rails follow other models
+//! fitted to the same film. What the coach says of a shot should be what becomes of it there. `1` at the end takes the others.
 
 use std::{env, error::Error, time::Duration};
 
@@ -13,27 +13,33 @@ use carom::{
     table::Table,
 };
 
+/// Simulations for each shot: about a quarter of a second on two cores.
+const SIMULATIONS: u64 = 60_000;
+
 /// Attempts at every shot.
 const ATTEMPTS: usize = 400;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = env::args().skip(1);
-    let count: usize = words.next().ok_or("say how many layouts: stand_in 40 [RULE] [SKILL] [DOUBT]")?.parse()?;
+    let count: usize =
+        words.next().ok_or("say how many layouts: stand_in 40 [RULE] [SKILL] [DOUBT] [FIRST]")?.parse()?;
     let rule: Rule = words.next().map_or(Ok(Rule::ThreeCushion), |word| word.parse())?;
     let skill: Skill = words.next().map_or(Ok(Skill::EXPERT), |word| word.parse())?;
     let doubt: Doubt = words.next().map_or(Ok(Doubt::FULL), |word| word.parse())?;
+    let first: usize = words.next().map_or(Ok(0), |word| word.parse())?;
     let advised = Table::default();
     let coach = Coach::new(advised.clone())?;
     let stand_ins = models().into_iter().filter(|(_, table)| *table != advised).collect::<Vec<_>>();
     let mut claimed = 0.0;
     let mut made = vec![0.0; stand_ins.len()];
     let mut asked = 0;
-    for shot in bundled().iter().step_by(2).take(count) {
+    for shot in bundled().iter().skip(first).step_by(2).take(count) {
         let layout = shot.layout(&advised);
         if layout.validate(&advised).is_err() {
             continue;
         }
-        let request = Request { rule, skill, doubt, budget: Duration::from_millis(500), ..Request::default() };
+        let budget = Duration::MAX;
+        let request = Request { rule, skill, doubt, budget, simulations: SIMULATIONS, ..Request::default() };
         let advice = coach.recommend(&layout, &request)?;
         asked += 1;
         claimed += advice.make_probability.map_or(0.0, |made| made.rate);

@@ -3,7 +3,10 @@
 
 use glam::DVec2;
 
-use crate::table::{DoubtError, Table, TableDoubt};
+use crate::{
+    statistics::dot,
+    table::{DoubtError, Table, TableDoubt},
+};
 
 /// A slope that nobody can see, m/s² along both sides: 0.02 mm a metre. Rolls on a level table are computed in another way,
 /// with other roundings of up to half a percent: marks shall not jump where a slope comes to nothing.
@@ -61,15 +64,23 @@ impl Belief {
 
     /// The constants' values with these unknowns, as they are before a table's limits.
     pub fn values(&self, unknowns: &[f64]) -> Vec<f64> {
-        let off = |row: &Vec<f64>| row.iter().zip(unknowns).map(|(entry, unknown)| entry * unknown).sum::<f64>();
-        self.means.iter().zip(&self.factor).map(|(mean, row)| mean + off(row)).collect()
+        self.means.iter().zip(&self.factor).map(|(mean, row)| mean + dot(row, unknowns)).collect()
+    }
+
+    /// The likeliest unknowns with which a constant is so many deviations from its mean; `None` where it is not in doubt.
+    pub fn unknowns_at(&self, name: &str, deviations: f64) -> Option<Vec<f64>> {
+        let row = &self.factor[self.names.iter().position(|one| one == name)?];
+        let whole = dot(row, row).sqrt();
+        Some((0..self.count()).map(|index| row.get(index).map_or(0.0, |entry| deviations * entry / whole)).collect())
     }
 
     /// Name, value and deviation of each constant.
     pub fn told(&self) -> impl Iterator<Item = (&str, f64, f64)> {
-        self.names.iter().zip(&self.means).zip(&self.factor).map(|((name, mean), row)| {
-            (name.as_str(), *mean, row.iter().map(|entry| entry * entry).sum::<f64>().sqrt())
-        })
+        self.names
+            .iter()
+            .zip(&self.means)
+            .zip(&self.factor)
+            .map(|((name, mean), row)| (name.as_str(), *mean, dot(row, row).sqrt()))
     }
 
     /// The covariance of the constants where that of the unknowns is `covariance`.
@@ -79,8 +90,7 @@ impl Belief {
             columns.map(|column| row.iter().zip(covariance).map(|(entry, line)| entry * line[column]).sum()).collect()
         };
         let half: Vec<Vec<f64>> = self.factor.iter().map(line).collect();
-        let inner = |one: &Vec<f64>, other: &Vec<f64>| one.iter().zip(other).map(|(x, y)| x * y).sum();
-        half.iter().map(|one| self.factor.iter().map(|other| inner(one, other)).collect()).collect()
+        half.iter().map(|one| self.factor.iter().map(|other| dot(one, other)).collect()).collect()
     }
 
     /// The doubt that a covariance of the constants is. Small correlations are left out, and what that leaves stays the
@@ -88,7 +98,7 @@ impl Belief {
     pub fn doubt(&self, covariance: &[Vec<f64>]) -> TableDoubt {
         let deviation = |index: usize| covariance[index][index].max(0.0).sqrt();
         let deviations = self.names.iter().enumerate().map(|(index, name)| (name.clone(), deviation(index))).collect();
-        let mut doubt = TableDoubt { deviations, correlations: Vec::new() };
+        let mut doubt = TableDoubt { deviations, ..TableDoubt::default() };
         for (row, line) in covariance.iter().enumerate() {
             for (column, entry) in line.iter().enumerate().take(row) {
                 let value = entry / (deviation(row) * deviation(column));

@@ -4,12 +4,13 @@
 use super::{
     belief::Belief,
     forward::{Hand, STROKE},
+    mixture::Mixture,
     posterior::Posterior,
     protocol::Test,
     robust::{NEVER, soften},
 };
 use crate::{
-    statistics::{Minimum, Problem, minimize, solve},
+    statistics::{Minimum, Problem, cholesky, dot, minimize, solve},
     table::Table,
 };
 
@@ -48,6 +49,16 @@ const FIRST: [f64; 2] = [3.0, 10.0];
 /// The speeds at which strokes are first looked for, in deviations from the one that is asked for.
 const SPEEDS: [f64; 9] = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
 
+/// The constant that has several valleys: a ball that a rail throws back a little more, or a little earlier, can come the same
+/// way. The fit begins at each of these places of it too, in deviations of what was held before.
+const VALLEYS: (&str, [f64; 2]) = ("rail.kappa", [-1.4, 1.4]);
+
+/// Minima whose unknowns differ by no more than this are one.
+const SAME: f64 = 0.2;
+
+/// A valley counts that is at least so likely against the likeliest.
+const LEAST: f64 = 0.01;
+
 /// What was found.
 #[derive(Clone, Debug)]
 pub struct Estimate {
@@ -64,18 +75,38 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The normal distribution around a minimum.
-    fn at(belief: &Belief, hand: &Hand, trials: &[Trial], found: &Minimum) -> Self {
-        let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
+    /// The distribution around the lowest of some minima, and around others as far as they are likely: each has the weight of its
+    /// normal distribution (Laplace), and what all have together is told by its means and its covariance.
+    fn of(belief: &Belief, hand: &Hand, trials: &[Trial], minima: &[Minimum]) -> Option<Self> {
         let count = belief.count();
-        let mut residuals = Vec::new();
-        problem.residuals(&found.parameters, &mut residuals);
-        let normal = normal(&problem.derivatives(&found.parameters, &residuals));
-        let (likely, strokes) = found.parameters.split_at(count);
+        let mut problem = Joint { belief, hand, trials, unsure: 1.0 };
+        let valley = |found: &Minimum| {
+            let mut residuals = Vec::new();
+            problem.residuals(&found.parameters, &mut residuals);
+            let normal = normal(&problem.derivatives(&found.parameters, &residuals));
+            let half_determinant: f64 =
+                cholesky(&normal, 0.0).ok()?.iter().filter_map(|line| line.last()).map(|entry| entry.ln()).sum();
+            Some((-0.5 * found.squares - half_determinant, normal))
+        };
+        let valleys: Vec<Option<(f64, Vec<Vec<f64>>)>> = minima.iter().map(valley).collect();
+        let evidence = |valley: &Option<(f64, Vec<Vec<f64>>)>| valley.as_ref().map_or(f64::NEG_INFINITY, |one| one.0);
+        let (best, highest) = (0..minima.len())
+            .map(|index| (index, evidence(&valleys[index])))
+            .max_by(|one, other| one.1.total_cmp(&other.1))?;
+        let mut mixture = Mixture::new(count);
+        for (found, valley) in minima.iter().zip(&valleys) {
+            let weight = (evidence(valley) - highest).exp();
+            if let Some((_, normal)) = valley.as_ref().filter(|_| weight >= LEAST) {
+                let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
+                let (mean, covariance) = first.settled(belief, hand, trials).of_the_first(count);
+                mixture.add(weight, &mean, &covariance);
+            }
+        }
+        let (unknowns, covariance) = mixture.moments();
+        let (likely, strokes) = minima[best].parameters.split_at(count);
         let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
-        let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
-        let (unknowns, covariance) = first.settled(belief, hand, trials).of_the_first(count);
-        Self { unknowns, covariance, likely: likely.to_vec(), strokes, normal }
+        let normal = valleys[best].clone()?.1;
+        Some(Self { unknowns, covariance, likely: likely.to_vec(), strokes, normal })
     }
 
     /// What is expected of a mark, with its deviation: the mark itself has a say in it only as far as it is believed.
@@ -111,19 +142,47 @@ impl Estimate {
 
 /// Fits constants and strokes to the trials.
 pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
-    Estimate::at(belief, hand, trials, &descend(belief, hand, trials))
+    let minima = descend(belief, hand, trials);
+    Estimate::of(belief, hand, trials, &minima).unwrap_or_else(|| {
+        // Where no minimum has a width, nothing is told.
+        let count = belief.count();
+        let unit = |row: usize| (0..count).map(|column| f64::from(u8::from(row == column))).collect();
+        let nought = vec![0.0; count];
+        Estimate {
+            unknowns: nought.clone(),
+            covariance: (0..count).map(unit).collect(),
+            likely: nought,
+            strokes: vec![[0.0; STROKE]; trials.len()],
+            normal: Vec::new(),
+        }
+    })
 }
 
-/// The lower of the minima that are found from what was held of the table before.
-fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Minimum {
-    let [one, other] = FIRST.map(|first| descend_from(belief, hand, trials, first));
-    if other.squares < one.squares { other } else { one }
+/// The different minima that are found from what was held of the table before, the lowest first.
+fn descend(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Vec<Minimum> {
+    let nought = vec![0.0; belief.count()];
+    let (name, places) = VALLEYS;
+    let others = places.into_iter().filter_map(|place| belief.unknowns_at(name, place));
+    let starts = FIRST.map(|first| (nought.clone(), first)).into_iter().chain(others.map(|start| (start, FIRST[0])));
+    let mut found: Vec<Minimum> =
+        starts.map(|(start, first)| descend_from(belief, hand, trials, start, first)).collect();
+    found.sort_by(|one, other| one.squares.total_cmp(&other.squares));
+    let mut minima: Vec<Minimum> = Vec::new();
+    for minimum in found {
+        let constants = |minimum: &Minimum| minimum.parameters[..belief.count()].to_vec();
+        let apart = |one: &Minimum| {
+            constants(one).iter().zip(constants(&minimum)).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+        };
+        if minima.iter().all(|one| apart(one) > SAME) {
+            minima.push(minimum);
+        }
+    }
+    minima
 }
 
-/// The minimum that is found with marks that are taken to be so many times as unsure at first.
-fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], first: f64) -> Minimum {
+/// The minimum that is found from these unknowns of the table with marks that are taken to be so many times as unsure at first.
+fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], mut start: Vec<f64>, first: f64) -> Minimum {
     let mut problem = Joint { belief, hand, trials, unsure: first };
-    let mut start = vec![0.0; belief.count()];
     let table = belief.table(&start);
     start.extend(trials.iter().flat_map(|trial| {
         let squares = |speed: f64| -> f64 {
@@ -139,8 +198,7 @@ fn descend_from(belief: &Belief, hand: &Hand, trials: &[Trial], first: f64) -> M
 }
 
 fn normal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let inner = |one: &Vec<f64>, other: &Vec<f64>| one.iter().zip(other).map(|(x, y)| x * y).sum();
-    columns.iter().map(|one| columns.iter().map(|other| inner(one, other)).collect()).collect()
+    columns.iter().map(|one| columns.iter().map(|other| dot(one, other)).collect()).collect()
 }
 
 /// Constants and strokes at once: first the constants' unknowns, then those of each trial's stroke.

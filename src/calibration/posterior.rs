@@ -12,7 +12,10 @@ use super::{
     forward::{Hand, STROKE},
     robust::weight,
 };
-use crate::{learning::normal_pair, statistics::solve};
+use crate::{
+    learning::normal_pair,
+    statistics::{cholesky, dot, inverse, solve, undo},
+};
 
 /// Width of the differences in standard deviations: that of a quadrature that is exact for polynomials of the fifth degree.
 const WIDTH: f64 = 1.732_050_807_568_877_2;
@@ -40,7 +43,7 @@ pub struct Posterior {
 impl Posterior {
     /// Means and covariance of so many unknowns.
     pub fn of_the_first(mut self, count: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let mut covariance = inverse(&self.normal);
+        let mut covariance = inverse(&self.normal).unwrap_or_else(|| vec![vec![f64::NAN; count]; count]);
         covariance.truncate(count);
         for line in &mut covariance {
             line.truncate(count);
@@ -67,7 +70,7 @@ impl Posterior {
     /// One round; `None` where its numbers come to nothing.
     fn next(&self, belief: &Belief, hand: &Hand, trials: &[Trial]) -> Option<Self> {
         let (constants, size) = (belief.count(), self.mean.len());
-        let covariance = inverse(&self.normal);
+        let covariance = inverse(&self.normal)?;
         // What is held before the trials: independent numbers with deviation 1.
         let mut normal: Vec<Vec<f64>> =
             (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect();
@@ -77,7 +80,7 @@ impl Posterior {
             let own: Vec<usize> = (0..constants).chain(first..first + STROKE).collect();
             let mean: Vec<f64> = own.iter().map(|index| self.mean[*index]).collect();
             let part = |row: &usize| own.iter().map(|column| covariance[*row][*column]).collect();
-            let factor = lower(&own.iter().map(part).collect::<Vec<_>>())?;
+            let factor = cholesky(&own.iter().map(part).collect::<Vec<_>>(), 0.0).ok()?;
             let line = Line::of(belief, hand, trial, &mean, &factor);
             let count = line.told.len();
             let noise: Vec<Vec<f64>> = (0..count)
@@ -87,10 +90,10 @@ impl Posterior {
                     (0..count).map(|column| line.bend[row][column] + if row == column { own } else { 0.0 }).collect()
                 })
                 .collect();
-            let precision = inverse(&noise);
+            let precision = inverse(&noise)?;
             // How far each mark is off what the line through nought says.
             let off: Vec<f64> = (0..count)
-                .map(|row| trial.readings[line.told[row]].value - line.middle[row] + inner(&line.slope[row], &mean))
+                .map(|row| trial.readings[line.told[row]].value - line.middle[row] + dot(&line.slope[row], &mean))
                 .collect();
             for (row, reading) in precision.iter().enumerate() {
                 for (column, entry) in reading.iter().enumerate() {
@@ -131,7 +134,7 @@ impl Line {
             expected(&belief.table(unknowns), hand, trial, &stroke)
         };
         let place = |numbers: &[f64]| -> Vec<f64> {
-            mean.iter().zip(factor).map(|(mean, line)| mean + inner(line, numbers)).collect()
+            mean.iter().zip(factor).map(|(mean, line)| mean + dot(line, numbers)).collect()
         };
         let along = |column: usize, width: f64| -> Vec<f64> {
             (0..size).map(|index| if index == column { width } else { 0.0 }).collect()
@@ -158,7 +161,7 @@ impl Line {
         let beside = |place: &[f64], numbers: &[f64]| -> Vec<f64> {
             let there = seen(place);
             let off = |(row, reading): (usize, &usize)| {
-                there[*reading].map_or(0.0, |value| value - at[row] - inner(&rise[row], numbers))
+                there[*reading].map_or(0.0, |value| value - at[row] - dot(&rise[row], numbers))
             };
             told.iter().enumerate().map(off).collect()
         };
@@ -180,82 +183,4 @@ fn drawn(size: usize) -> impl Iterator<Item = Vec<f64>> {
         let numbers: Vec<f64> = (0..size).map(|_| normal_pair(&mut rng)[0]).collect();
         [numbers.iter().map(|number| -number).collect(), numbers]
     })
-}
-
-/// The row whose product with the lower triangle is `rise`.
-fn undo(factor: &[Vec<f64>], rise: &[f64]) -> Vec<f64> {
-    let mut row = vec![0.0; rise.len()];
-    for column in (0..rise.len()).rev() {
-        let later: f64 = (column + 1..rise.len()).map(|k| row[k] * factor[k][column]).sum();
-        row[column] = (rise[column] - later) / factor[column][column];
-    }
-    row
-}
-
-/// The lower triangle L of a covariance `L Lᵀ` (Cholesky); `None` where it is none.
-fn lower(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-    let size = matrix.len();
-    let mut factor = vec![vec![0.0; size]; size];
-    for row in 0..size {
-        for column in 0..=row {
-            let rest = matrix[row][column] - inner(&factor[row][..column], &factor[column][..column]);
-            factor[row][column] = if row == column { rest.sqrt() } else { rest / factor[column][column] };
-        }
-        if factor[row][row].is_nan() || factor[row][row] <= 0.0 {
-            return None;
-        }
-    }
-    Some(factor)
-}
-
-fn inner(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(x, y)| x * y).sum()
-}
-
-/// The inverse of a covariance; not numbers where it is none.
-fn inverse(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let size = matrix.len();
-    let Some(factor) = lower(matrix) else { return vec![vec![f64::NAN; size]; size] };
-    // The rows of the factor's inverse, one after the other.
-    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(size);
-    for (row, line) in factor.iter().enumerate() {
-        let mut next = vec![0.0; size];
-        next[row] = 1.0;
-        for (earlier, entry) in rows.iter().zip(line) {
-            next.iter_mut().zip(&earlier[..row]).for_each(|(value, other)| *value -= entry * other);
-        }
-        for value in &mut next {
-            *value /= line[row];
-        }
-        rows.push(next);
-    }
-    let entry = |one: usize, other: usize| rows[one.max(other)..].iter().map(|row| row[one] * row[other]).sum();
-    (0..size).map(|one| (0..size).map(|other| entry(one, other)).collect()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_a_factor_has_made_is_undone_and_an_inverse_is_one() {
-        let matrix = vec![vec![4.0, 1.2, -0.6], vec![1.2, 2.0, 0.3], vec![-0.6, 0.3, 1.0]];
-        let factor = lower(&matrix).unwrap();
-        let product = |row: usize, column: usize, one: &[Vec<f64>], other: &[Vec<f64>]| -> f64 {
-            (0..3).map(|k| one[row][k] * other[k][column]).sum()
-        };
-        let turned: Vec<Vec<f64>> = (0..3).map(|row| (0..3).map(|column| factor[column][row]).collect()).collect();
-        let inverse = inverse(&matrix);
-        let rise = [0.3, -2.0, 0.7];
-        let row = vec![undo(&factor, &rise)];
-        for column in 0..3 {
-            assert!((product(0, column, &row, &factor) - rise[column]).abs() < 1e-12);
-            for line in 0..3 {
-                assert!((product(line, column, &factor, &turned) - matrix[line][column]).abs() < 1e-12);
-                let unit = f64::from(u8::from(line == column));
-                assert!((product(line, column, &inverse, &matrix) - unit).abs() < 1e-12);
-            }
-        }
-        assert!(lower(&[vec![1.0, 2.0], vec![2.0, 1.0]]).is_none());
-    }
 }

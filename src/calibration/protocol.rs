@@ -166,7 +166,7 @@ const fn mark(name: &'static str, words: &'static str, quantity: Quantity, sure:
 /// The protocol, in the order in which it is played, chosen from candidates by what it is worth to a club player's three-cushion
 /// shots: what rails do to a ball without side or with reverse side, which slips and sticks at them, and where a ball stops
 /// that has met several, tell more than anything else. A frozen pair tells of the throw between balls, which hardly matters
-/// there: nobody is asked for it.
+/// there: it is asked for no times.
 pub const PROTOCOL: &[Test] = &[
     Test {
         name: "slow-roll",
@@ -265,6 +265,7 @@ pub const PROTOCOL: &[Test] = &[
         marks: &[
             mark("first", "where it meets the left long rail", RailAlong(0, 1), 0.1),
             mark("third", "where it meets the right long rail", RailAlong(0, 3), 0.1),
+            mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4), 0.1),
             mark("stop", "where it stops along the table", StopAlong(0), 0.1),
             mark("across", "where it stops across the table", StopAcross(0), 0.1),
         ],
@@ -281,6 +282,7 @@ pub const PROTOCOL: &[Test] = &[
         cue: [0.3, 0.2, 3.0, 35.3, 2.5],
         marks: &[
             mark("first", "where it meets the left long rail", RailAlong(0, 1), 0.1),
+            mark("second", "where it meets the far short rail", RailAcross(0, 2), 0.1),
             mark("third", "where it meets the right long rail", RailAlong(0, 3), 0.1),
             mark("stop", "where it stops along the table", StopAlong(0), 0.1),
             mark("across", "where it stops across the table", StopAcross(0), 0.1),

@@ -4,6 +4,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
+    belief::Belief,
     forward::{Hand, STROKE},
     protocol::Quantity,
     simulated::played,
@@ -67,6 +68,23 @@ fn a_known_table_is_found_again_from_exact_marks() {
     assert_eq!(found.table.name, "club");
     assert_eq!(Table::from_toml(&toml::to_string(&found.table).unwrap()).unwrap(), found.table);
     assert!(!found.table.doubt.as_ref().unwrap().correlations.is_empty());
+}
+
+#[test]
+fn a_fit_that_begins_at_another_place_of_a_constant_takes_with_it_what_that_is_correlated_with() {
+    let (table, mut doubt) = base();
+    doubt.correlations = vec![("mu_rail".to_owned(), "rail.kappa".to_owned(), -0.6)];
+    let belief = Belief::new(&table, &doubt).unwrap();
+    let values = belief.values(&belief.unknowns_at("rail.kappa", 1.5).unwrap());
+    for ((name, mean, deviation), value) in belief.told().zip(values) {
+        let expected = match name {
+            "rail.kappa" => 1.5,
+            "mu_rail" => -0.9,
+            _ => 0.0,
+        };
+        assert!((value - mean - expected * deviation).abs() < 1e-9 * deviation, "{name}: {value}");
+    }
+    assert!(belief.unknowns_at("rail.left.e", 1.0).is_none());
 }
 
 #[test]

@@ -17,8 +17,14 @@ impl Change {
     }
 
     /// What the constant is.
-    pub fn words(&self) -> &'static str {
-        match self.name.as_str() {
+    pub fn words(&self) -> String {
+        let own = |rail: &Rail| Some((*rail, self.name.strip_prefix("rail.")?.strip_prefix(rail.name())?));
+        match Rail::ALL.iter().find_map(own) {
+            Some((rail, ".e")) => return format!("what {} gives back", whose(rail)),
+            Some((rail, ".mu")) => return format!("grip of {}", whose(rail)),
+            _ => {}
+        }
+        let words = match self.name.as_str() {
             "e_rail" => "what rails give back",
             "mu_rail" => "grip of the rails",
             "rail.height" => "height of the rubber, m",
@@ -33,16 +39,19 @@ impl Change {
             "e_ball" => "what balls give back",
             "mu_b" => "throw between balls",
             "m_end" => "squirt: mass of the cue's end",
-            "rail.left.e" => "what your own short rail gives back",
-            "rail.right.e" => "what the far short rail gives back",
-            "rail.bottom.e" => "what the right long rail gives back",
-            "rail.top.e" => "what the left long rail gives back",
-            "rail.left.mu" => "grip of your own short rail",
-            "rail.right.mu" => "grip of the far short rail",
-            "rail.bottom.mu" => "grip of the right long rail",
-            "rail.top.mu" => "grip of the left long rail",
             _ => "",
-        }
+        };
+        words.to_owned()
+    }
+}
+
+/// Which rail it is for a player who stands on the left.
+const fn whose(rail: Rail) -> &'static str {
+    match rail {
+        Rail::Left => "your own short rail",
+        Rail::Right => "the far short rail",
+        Rail::Bottom => "the right long rail",
+        Rail::Top => "the left long rail",
     }
 }
 
@@ -80,12 +89,6 @@ impl Calibration {
     /// The rails that differ from the others, each with how.
     pub fn rails_apart(&self) -> Vec<String> {
         let constant = |name: &str| self.constants.iter().find(|one| one.name == name);
-        let whose = |rail: Rail| match rail {
-            Rail::Left => "your own short rail",
-            Rail::Right => "the far short rail",
-            Rail::Bottom => "the right long rail",
-            Rail::Top => "the left long rail",
-        };
         let differs = |rail: Rail| {
             let part = |own: &str, common: &str, [less, more]: [&str; 2]| {
                 let (own, all) = (constant(&format!("rail.{}.{own}", rail.name()))?, constant(common)?);

@@ -98,12 +98,7 @@ impl Worlds {
     /// The same on tables that lean no other way than this one, for choosing between shots: a table that leans costs
     /// twice the time, and as nobody knows which way it leans, which shot is the best hardly depends on it.
     pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let known = || {
-            let mut known = TableDoubt::of(table);
-            known.deviations.retain(|name, _| !name.starts_with("tilt"));
-            known.correlations.retain(|(one, other, _)| ![one, other].iter().any(|name| name.starts_with("tilt")));
-            known
-        };
+        let known = || TableDoubt::of(table).without(|name| name.starts_with("tilt"));
         Self::known_as(&known, table, layout, doubt)
     }
 

@@ -319,10 +319,12 @@ mod tests {
     fn shot() -> (Table, Layout, CueInputs) {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.3, 0.1)]);
-        let certain = Sensitivity::new(Rule::StraightRail, &table, &layout, Doubt::NONE);
+        // Made on this very table, and on one of those that it may be.
+        let [certain, doubted] =
+            [Doubt::NONE, Doubt::FULL].map(|doubt| Sensitivity::new(Rule::StraightRail, &table, &layout, doubt));
         let cue = (0..4000)
             .map(|step| CueInputs { a: 0.0, b: 0.2, theta: 0.02, phi: -0.1 + 5e-5 * f64::from(step), speed: 2.5 })
-            .find(|cue| certain.least(cue).is_some())
+            .find(|cue| certain.least(cue).is_some() && doubted.least(cue).is_some())
             .unwrap();
         (table, layout, cue)
     }

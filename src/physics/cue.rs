@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{Cloth, SpatialState};
-use crate::table::Table;
+use crate::table::{Table, is_zero};
 
 /// Fastest cue that is accepted, m/s. The fastest human break shots stay below 20 m/s.
 const MAX_SPEED: f64 = 100.0;
@@ -184,13 +184,8 @@ pub struct Impulse {
     /// Initial angular velocity `w0`, rad/s.
     pub spin: DVec3,
     /// Upward velocity after the cloth's answer, m/s: zero on a table that keeps its balls on the cloth.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub lift: f64,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it")]
-fn is_none(lift: &f64) -> bool {
-    *lift == 0.0
 }
 
 impl Impulse {

@@ -1,5 +1,7 @@
 //! Levenberg and Marquardt's method, with derivatives by differences or by whoever knows better.
 
+use super::dot;
+
 /// What is minimized: half the sum of squares of residuals.
 pub trait Problem {
     /// Fills in the residuals at `parameters`.
@@ -116,10 +118,6 @@ impl<F: FnMut(&[f64; N], &mut Vec<f64>), const N: usize> Problem for Differences
 
 fn sum(residuals: &[f64]) -> f64 {
     residuals.iter().map(|x| x * x).sum()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Solves a system of equations by elimination with the largest pivots; none where it is singular.

@@ -1,10 +1,11 @@
-//! How well a table is known: standard deviations and correlations of its constants, and tables drawn from them.
+//! How well a table is known: standard deviations and correlations of its constants, and other laws that its rails may follow.
 
 use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws};
+use super::{JUDGED, OneRail, Rail, RailModel, Table};
+use crate::statistics::cholesky;
 
 const MATCH: &str = include_str!("match_doubt.toml");
 const UNKNOWN: &str = include_str!("unknown_doubt.toml");
@@ -20,13 +21,39 @@ pub struct TableDoubt {
     /// Correlations of two of them; those that are not named are 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<(String, String, f64)>,
+    /// Laws of the rails that the real ones may follow in place of the table's own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub laws: Vec<OtherLaw>,
 }
+
+/// A law that the rails may follow in place of the table's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OtherLaw {
+    /// The law.
+    pub model: RailModel,
+    /// How likely it is. The table's own law has what all others leave of 1.
+    pub weight: f64,
+    /// The constants with which this law comes nearest to what is known of the table; of those that are not named the table's own
+    /// are taken.
+    #[serde(default)]
+    pub values: BTreeMap<String, f64>,
+    /// Standard deviations in place of the table's own law's; of constants that are not named those.
+    #[serde(default)]
+    pub deviations: BTreeMap<String, f64>,
+    /// Correlations; those of the table's own law do not count.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub correlations: Vec<(String, String, f64)>,
+}
+
+/// How much of a constant's variance the others must leave open for correlations to be those of something.
+const LEAST_LEFT: f64 = 1e-9;
 
 /// A constant that can be in doubt.
 #[derive(Debug)]
-struct Constant {
-    name: &'static str,
-    get: fn(&Table) -> Option<f64>,
+pub(super) struct Constant {
+    pub(super) name: &'static str,
+    pub(super) get: fn(&Table) -> Option<f64>,
     set: fn(&mut Table, f64),
     /// Values that draws are kept within.
     limits: (f64, f64),
@@ -34,7 +61,7 @@ struct Constant {
 
 /// All of them. A constant that a table's model does not have is left out there. Draws take them in this order: new ones come
 /// last.
-const CONSTANTS: [Constant; 22] = [
+pub(super) const CONSTANTS: [Constant; 22] = [
     Constant {
         name: "e_rail",
         get: |table| Some(table.rail_restitution),
@@ -173,6 +200,11 @@ pub enum DoubtError {
     /// A standard deviation that is none.
     #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
     Deviation(String, f64),
+    /// A weight that no law can have.
+    #[error(
+        "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
+    )]
+    Weight(f64),
     /// Correlations that no distribution has.
     #[error("the correlations of the doubt contradict each other at \"{0}\"; accepted is a positive definite matrix")]
     Correlations(String),
@@ -213,7 +245,33 @@ impl TableDoubt {
 
     /// Whether nothing is in doubt.
     pub fn is_certain(&self) -> bool {
-        self.deviations.values().all(|deviation| *deviation == 0.0)
+        self.laws.is_empty() && self.deviations.values().all(|deviation| *deviation == 0.0)
+    }
+
+    /// The same without any doubt about constants of these names.
+    #[must_use]
+    pub fn without(&self, is_known: impl Fn(&str) -> bool) -> Self {
+        let mut doubt = self.clone();
+        let strip = |deviations: &mut BTreeMap<String, f64>, correlations: &mut Vec<(String, String, f64)>| {
+            deviations.retain(|name, _| !is_known(name));
+            correlations.retain(|(one, other, _)| !is_known(one) && !is_known(other));
+        };
+        strip(&mut doubt.deviations, &mut doubt.correlations);
+        doubt.laws.iter_mut().for_each(|law| strip(&mut law.deviations, &mut law.correlations));
+        doubt
+    }
+
+    /// What is in doubt where the rails of `table` follow another law: the table with that law, and its constants' doubt.
+    pub(super) fn under(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
+        let mut other = table.clone();
+        other.rail.model = law.model;
+        other.rail.kappa = table.rail.kappa.filter(|_| law.model == RailModel::Smooth);
+        for (name, value) in &law.values {
+            other = Self::with_value(&other, name, *value);
+        }
+        let mut deviations = self.deviations.clone();
+        deviations.extend(law.deviations.clone());
+        (other, Self { deviations, correlations: law.correlations.clone(), laws: Vec::new() })
     }
 
     /// Checks every name and number.
@@ -221,13 +279,15 @@ impl TableDoubt {
     /// # Errors
     /// Where one cannot be.
     pub fn validate(&self) -> Result<(), DoubtError> {
-        for (name, deviation) in &self.deviations {
-            if !CONSTANTS.iter().any(|constant| constant.name == name) {
-                return Err(DoubtError::Unknown(name.clone()));
-            }
-            if !(0.0..f64::INFINITY).contains(deviation) {
-                return Err(DoubtError::Deviation(name.clone(), *deviation));
-            }
+        let unknown = |name: &&String| !CONSTANTS.iter().any(|constant| constant.name == **name);
+        let values = self.laws.iter().flat_map(|law| law.values.keys());
+        if let Some(name) = self.deviations.keys().chain(values).find(unknown) {
+            return Err(DoubtError::Unknown(name.clone()));
+        }
+        if let Some((name, deviation)) =
+            self.deviations.iter().find(|(_, value)| !(0.0..f64::INFINITY).contains(*value))
+        {
+            return Err(DoubtError::Deviation(name.clone(), *deviation));
         }
         for (one, other, _) in &self.correlations {
             if let Some(name) = [one, other].into_iter().find(|name| !self.deviations.contains_key(*name)) {
@@ -235,34 +295,38 @@ impl TableDoubt {
             }
         }
         let names: Vec<&str> = self.deviations.keys().map(String::as_str).collect();
-        self.factor(&names).map(|_| ())
+        self.factor(&names)?;
+        let others: f64 = self.laws.iter().map(|law| law.weight).sum();
+        if !(0.0..1.0).contains(&others) || self.laws.iter().any(|law| law.weight < 0.0) {
+            return Err(DoubtError::Weight(others));
+        }
+        self.laws.iter().try_for_each(|law| {
+            if let Some((name, value)) = law.values.iter().find(|(_, value)| !value.is_finite()) {
+                return Err(DoubtError::Deviation(name.clone(), *value));
+            }
+            let mut deviations = self.deviations.clone();
+            deviations.extend(law.deviations.clone());
+            Self { deviations, correlations: law.correlations.clone(), laws: Vec::new() }.validate()
+        })
     }
 
-    /// The lower triangle L of the covariance `L Lᵀ` of these constants by rows (Cholesky).
+    /// The lower triangle L of the covariance `L Lᵀ` of these constants by rows.
     ///
     /// # Errors
     /// Where the correlations contradict each other.
     pub fn factor(&self, names: &[&str]) -> Result<Vec<Vec<f64>>, DoubtError> {
-        let correlation = |row: &str, column: &str| {
+        let correlation = |row: usize, column: usize| {
+            let (row, column) = (names[row], names[column]);
             let is_named = |(one, other, _): &&(String, String, f64)| {
                 (one == row && other == column) || (one == column && other == row)
             };
             self.correlations.iter().find(is_named).map_or(0.0, |(.., value)| *value)
         };
-        let mut factor: Vec<Vec<f64>> = Vec::with_capacity(names.len());
-        for (row, name) in names.iter().enumerate() {
-            let mut line: Vec<f64> = Vec::with_capacity(row + 1);
-            for column in 0..row {
-                let inner: f64 = (0..column).map(|k| line[k] * factor[column][k]).sum();
-                line.push((correlation(name, names[column]) - inner) / factor[column][column]);
-            }
-            let rest = 1.0 - line.iter().map(|entry| entry * entry).sum::<f64>();
-            if rest.is_nan() || rest <= 1e-9 {
-                return Err(DoubtError::Correlations((*name).to_owned()));
-            }
-            line.push(rest.sqrt());
-            factor.push(line);
-        }
+        let entry = |row: usize, column: usize| if row == column { 1.0 } else { correlation(row, column) };
+        let line = |row: usize| (0..names.len()).map(|column| entry(row, column)).collect();
+        let matrix: Vec<Vec<f64>> = (0..names.len()).map(line).collect();
+        let mut factor =
+            cholesky(&matrix, LEAST_LEFT).map_err(|row| DoubtError::Correlations(names[row].to_owned()))?;
         for (line, name) in factor.iter_mut().zip(names) {
             for entry in line {
                 *entry *= self.deviations[*name];
@@ -273,50 +337,11 @@ impl TableDoubt {
 }
 
 impl Constant {
-    fn change(&self, table: &mut Table, value: f64) {
+    /// Gives a table this value, within the limits; one whose models do not have the constant stays as it is.
+    pub(super) fn change(&self, table: &mut Table, value: f64) {
         if (self.get)(table).is_some() {
             (self.set)(table, value.clamp(self.limits.0, self.limits.1));
         }
-    }
-}
-
-/// Draws tables from a table and its doubt.
-#[derive(Debug)]
-pub struct TableSampler {
-    table: Table,
-    constants: Vec<(&'static Constant, f64)>,
-    factor: Vec<Vec<f64>>,
-}
-
-impl TableSampler {
-    /// Tables around `table`, with `factor` times the standard deviations of `doubt`; `None` where there is nothing to draw.
-    pub fn new(table: &Table, doubt: &TableDoubt, factor: f64) -> Option<Self> {
-        let in_doubt = |constant: &&Constant| doubt.deviations.get(constant.name).is_some_and(|value| *value > 0.0);
-        let constants: Vec<_> = CONSTANTS
-            .iter()
-            .filter(in_doubt)
-            .filter_map(|constant| (constant.get)(table).map(|value| (constant, value)))
-            .collect();
-        let names: Vec<&str> = constants.iter().map(|(constant, _)| constant.name).collect();
-        // Part of a positive definite matrix is one, too.
-        let mut lines = doubt.factor(&names).ok()?;
-        for entry in lines.iter_mut().flatten() {
-            *entry *= factor;
-        }
-        let table = Table { doubt: None, ..table.clone() };
-        (factor > 0.0 && !constants.is_empty()).then_some(Self { table, constants, factor: lines })
-    }
-
-    /// One table, from standard normal numbers.
-    pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Table {
-        let mut table = self.table.clone();
-        let numbers: Vec<f64> = self.constants.iter().map(|_| normal()).collect();
-        for ((constant, mean), line) in self.constants.iter().zip(&self.factor) {
-            let off: f64 = line.iter().zip(&numbers).map(|(entry, number)| entry * number).sum();
-            constant.change(&mut table, mean + off);
-        }
-        table.tilt = table.tilt.clamp_length_max(0.99 * flaws::steepest(&table));
-        table
     }
 }
 
@@ -324,8 +349,6 @@ impl TableSampler {
 mod tests {
     use super::*;
     use crate::table::PRESETS;
-    use rand::{RngExt, SeedableRng};
-    use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
     fn every_table_has_a_doubt_that_can_be_drawn_from() {
@@ -340,38 +363,8 @@ mod tests {
         }
         let own = Table { name: "ours".into(), rail_restitution: 0.8, ..Table::default() };
         assert_eq!(TableDoubt::of(&own), toml::from_str(UNKNOWN).unwrap());
-        let doubt = TableDoubt { deviations: [("mu_s".to_owned(), 0.01)].into(), correlations: Vec::new() };
+        let doubt = TableDoubt { deviations: [("mu_s".to_owned(), 0.01)].into(), ..TableDoubt::default() };
         assert_eq!(TableDoubt::of(&Table { doubt: Some(doubt.clone()), ..own }), doubt);
-    }
-
-    #[test]
-    fn drawn_tables_are_valid_and_have_the_deviations_and_correlations_of_the_doubt() {
-        let table = Table::default();
-        let doubt = TableDoubt::of(&table);
-        let sampler = TableSampler::new(&table, &doubt, 1.0).unwrap();
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        // The sum of twelve uniform numbers is nearly normal.
-        let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
-        let drawn: Vec<Table> = (0..4000).map(|_| sampler.draw(&mut normal)).collect();
-        let column = |name: &str| -> Vec<f64> {
-            let mean = TableDoubt::value(&table, name).unwrap();
-            drawn
-                .iter()
-                .map(|table| (TableDoubt::value(table, name).unwrap() - mean) / doubt.deviations[name])
-                .collect()
-        };
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / a.len() as f64;
-        for name in ["e_rail", "mu_rail", "rail.height", "rail.kappa", "mu_s", "mu_r", "m_end", "tilt.y"] {
-            let column = column(name);
-            assert!((product(&column, &column) - 1.0).abs() < 0.12, "{name}: {}", product(&column, &column));
-        }
-        let correlation = product(&column("mu_rail"), &column("rail.kappa"));
-        assert!((correlation + 0.72).abs() < 0.06, "{correlation}");
-        for table in drawn.iter().step_by(40) {
-            assert_eq!(Table::from_toml(&toml::to_string(table).unwrap()).unwrap(), *table);
-        }
-        assert!(TableSampler::new(&table, &doubt, 0.0).is_none());
-        assert!(TableSampler::new(&table, &TableDoubt::default(), 1.0).is_none());
     }
 
     #[test]
@@ -384,5 +377,9 @@ mod tests {
         let pair = "deviations = { mu_s = 0.1, mu_r = 0.1 }\ncorrelations = [[\"mu_s\", \"mu_r\", ";
         assert!(doubt(&format!("{pair}1.5]]")).contains("mu_s"));
         assert!(doubt("deviations = { mu_s = 0.1 }\ncorrelations = [[\"mu_s\", \"c1\", 0.1]]").contains("c1"));
+        let law = |rest: &str| doubt(&format!("[deviations]\nmu_s = 0.1\n[[laws]]\nmodel = \"nose\"\n{rest}"));
+        assert!(law("weight = 1.5").contains("1.5") && law("weight = -0.1").contains("-0.1"));
+        assert!(law("weight = 0.5\nvalues = { mu_x = 0.1 }").contains("mu_x"));
+        assert!(law("weight = 0.5\ndeviations = { mu_r = -1 }").contains("mu_r = -1"));
     }
 }

@@ -11,14 +11,17 @@ mod parameters;
 mod positions;
 mod rail;
 mod room;
+mod sampler;
 
 pub use cue_ball::{CueBall, UnknownCueBall};
-pub use doubt::{DoubtError, TableDoubt, TableSampler};
+pub use doubt::{DoubtError, OtherLaw, TableDoubt};
 pub use flight::Flight;
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, TOUCHING_TOLERANCE};
+pub(crate) use models::is_zero;
 pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};
 pub use parameters::{JUDGED, PRESETS, Table, TableError};
 pub use positions::PositionsError;
 pub use rail::Rail;
 pub use room::Room;
+pub use sampler::TableSampler;

@@ -16,8 +16,8 @@ pub enum RailModel {
     Nose,
     /// At the nose's height, with friction that passes smoothly from slipping to sticking.
     Smooth,
-    /// At the nose's height, integrated over the impulse with the cloth's friction at the same time (Mathavan 2010): for
-    /// studies, some thousand times as slow as the others.
+    /// At the nose's height, integrated over the impulse with the cloth's friction at the same time (Mathavan 2010): some
+    /// twenty times as slow as the others.
     Mathavan,
 }
 
@@ -136,7 +136,8 @@ impl SlipFriction {
     }
 }
 
+/// Whether a number may be left out of a file.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-pub(super) fn is_zero(value: &f64) -> bool {
+pub(crate) fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }

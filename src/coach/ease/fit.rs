@@ -1,7 +1,10 @@
 //! Where the weights come from: least squares over layouts of which it is known how often they are missed.
 
 use super::{Ease, NUMBERS, numbers};
-use crate::table::{Layout, Table};
+use crate::{
+    statistics::solve,
+    table::{Layout, Table},
+};
 
 /// Added to the diagonal of the normal equations, against the mean square of the numbers: it changes the weights in the
 /// sixth digit and keeps them finite where layouts differ in fewer ways than there are weights.
@@ -25,8 +28,8 @@ impl Ease {
     /// The weights that come nearest to the shares of misses, by least squares, and the power that gives the stronger player as many
     /// misses as there were.
     pub fn fit(table: &Table, samples: &[Sample]) -> Self {
-        let mut equations = [[0.0; NUMBERS]; NUMBERS];
-        let mut right = [0.0; NUMBERS];
+        let mut equations = vec![vec![0.0; NUMBERS]; NUMBERS];
+        let mut right = vec![0.0; NUMBERS];
         for sample in samples {
             let numbers = numbers(table, &sample.layout);
             for (row, number) in numbers.iter().enumerate() {
@@ -39,7 +42,8 @@ impl Ease {
         for (index, row) in equations.iter_mut().enumerate() {
             row[index] += RIDGE * (1.0 + samples.len() as f64);
         }
-        let mut ease = Self { weights: solve(equations, right), power: 1.0 };
+        let weights = solve(equations, right).and_then(|found| found.try_into().ok());
+        let mut ease = Self { weights: weights.unwrap_or([0.0; NUMBERS]), power: 1.0 };
         let estimates: Vec<f64> = samples.iter().map(|sample| ease.missed(table, &sample.layout)).collect();
         let best: f64 = samples.iter().map(|sample| sample.missed_by_strong).sum();
         let (mut low, mut high) = POWERS;
@@ -54,26 +58,6 @@ impl Ease {
         }
         ease
     }
-}
-
-/// The solution of symmetric positive definite equations, by Cholesky's factors.
-fn solve(mut matrix: [[f64; NUMBERS]; NUMBERS], mut vector: [f64; NUMBERS]) -> [f64; NUMBERS] {
-    for column in 0..NUMBERS {
-        for row in column..NUMBERS {
-            let inner: f64 = (0..column).map(|k| matrix[row][k] * matrix[column][k]).sum();
-            let rest = matrix[row][column] - inner;
-            matrix[row][column] = if row == column { rest.sqrt() } else { rest / matrix[column][column] };
-        }
-    }
-    for row in 0..NUMBERS {
-        let inner: f64 = (0..row).map(|k| matrix[row][k] * vector[k]).sum();
-        vector[row] = (vector[row] - inner) / matrix[row][row];
-    }
-    for row in (0..NUMBERS).rev() {
-        let inner: f64 = (row + 1..NUMBERS).map(|k| matrix[k][row] * vector[k]).sum();
-        vector[row] = (vector[row] - inner) / matrix[row][row];
-    }
-    vector
 }
 
 #[cfg(test)]

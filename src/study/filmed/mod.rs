@@ -2,13 +2,14 @@
 //!
 //! The film (`tests/data/filmed`, with its source) shows the balls' places at 50 pictures a second. `rail_hits` finds
 //! where balls met rails; `chains` predicts from rail to rail, `whole` whole shots, `systems` what players count on;
-//! `constants` fits a table.
+//! `constants` fits a table, `laws` says how far each law of the rails is to be believed.
 
 mod chains;
 mod constants;
 mod contacts;
 mod film;
 mod judged;
+mod laws;
 mod lone;
 mod rail_hits;
 mod replay;
@@ -19,6 +20,7 @@ mod whole;
 pub use constants::{Constant, Fitted, fit_constants};
 pub use film::{FilmError, FilmedShot, Sample, bundled, read};
 pub use judged::{Judged, judge};
+pub use laws::{Weighed, weigh};
 pub use lone::Motion;
 pub use replay::{Replay, ReplayError};
 pub use report::{csv, fit_text, models, paths, rows, text};

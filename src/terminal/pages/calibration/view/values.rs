@@ -55,7 +55,7 @@ fn draw_constant(one: &Change, area: Rect, ui: &mut Ui) {
     write_right(ui.buffer, area.x, area.x + VALUE_END, area.y, &value, style);
     write_right(ui.buffer, area.x, area.x + KNOWN_END, area.y, known, style);
     let room = usize::from(area.width.saturating_sub(WORDS));
-    let words = if ui.caps.unicode { one.words().to_owned() } else { one.words().replace('²', "2") };
+    let words = if ui.caps.unicode { one.words() } else { one.words().replace('²', "2") };
     if room >= words.len() {
         ui.buffer.set_string(area.x + WORDS, area.y, words, ui.theme.faint());
     }

@@ -1,0 +1,85 @@
+//! Symmetric positive definite matrices, by rows: covariances and their inverses.
+
+/// The lower triangle L of `L Lᵀ`, each row up to the diagonal (Cholesky).
+///
+/// # Errors
+/// The first row of which the rows before leave no more than `least` of the diagonal's entry: the matrix is no covariance.
+pub fn cholesky(matrix: &[Vec<f64>], least: f64) -> Result<Vec<Vec<f64>>, usize> {
+    let mut factor: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());
+    for (row, entries) in matrix.iter().enumerate() {
+        let mut line: Vec<f64> = Vec::with_capacity(row + 1);
+        for (column, above) in factor.iter().enumerate() {
+            line.push((entries[column] - dot(&line, &above[..column])) / above[column]);
+        }
+        let rest = entries[row] - dot(&line, &line);
+        if rest.is_nan() || rest <= least {
+            return Err(row);
+        }
+        line.push(rest.sqrt());
+        factor.push(line);
+    }
+    Ok(factor)
+}
+
+/// The inverse of a covariance; `None` where it is none.
+pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+    let size = matrix.len();
+    let factor = cholesky(matrix, 0.0).ok()?;
+    // The rows of the factor's inverse, one after the other.
+    let mut rows: Vec<Vec<f64>> = Vec::with_capacity(size);
+    for (row, line) in factor.iter().enumerate() {
+        let mut next = vec![0.0; size];
+        next[row] = 1.0;
+        for (earlier, entry) in rows.iter().zip(line) {
+            next.iter_mut().zip(&earlier[..row]).for_each(|(value, other)| *value -= entry * other);
+        }
+        for value in &mut next {
+            *value /= line[row];
+        }
+        rows.push(next);
+    }
+    let entry = |one: usize, other: usize| rows[one.max(other)..].iter().map(|row| row[one] * row[other]).sum();
+    Some((0..size).map(|one| (0..size).map(|other| entry(one, other)).collect()).collect())
+}
+
+/// The row whose product with the lower triangle is `product`.
+pub fn undo(factor: &[Vec<f64>], product: &[f64]) -> Vec<f64> {
+    let mut row = vec![0.0; product.len()];
+    for column in (0..product.len()).rev() {
+        let later: f64 = (column + 1..product.len()).map(|k| row[k] * factor[k][column]).sum();
+        row[column] = (product[column] - later) / factor[column][column];
+    }
+    row
+}
+
+/// The sum of products, as far as both go.
+pub fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(x, y)| x * y).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_factor_has_made_is_undone_and_an_inverse_is_one() {
+        let matrix = vec![vec![4.0, 1.2, -0.6], vec![1.2, 2.0, 0.3], vec![-0.6, 0.3, 1.0]];
+        let factor = cholesky(&matrix, 0.0).unwrap();
+        let entry = |row: usize, column: usize| factor[row].get(column).copied().unwrap_or(0.0);
+        let inverse = inverse(&matrix).unwrap();
+        let product = [0.3, -2.0, 0.7];
+        let row = undo(&factor, &product);
+        for column in 0..3 {
+            let again: f64 = (0..3).map(|k| row[k] * entry(k, column)).sum();
+            assert!((again - product[column]).abs() < 1e-12);
+            for line in 0..3 {
+                let back: f64 = (0..3).map(|k| entry(line, k) * entry(column, k)).sum();
+                assert!((back - matrix[line][column]).abs() < 1e-12);
+                let unit: f64 = (0..3).map(|k| inverse[line][k] * matrix[k][column]).sum();
+                assert!((unit - f64::from(u8::from(line == column))).abs() < 1e-12);
+            }
+        }
+        assert_eq!(cholesky(&[vec![1.0, 2.0], vec![2.0, 1.0]], 0.0), Err(1));
+        assert_eq!(super::inverse(&[vec![f64::NAN]]), None);
+    }
+}
