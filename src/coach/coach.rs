@@ -121,6 +121,7 @@ impl Coach {
             layout,
             rule: request.rule,
             skill: request.skill,
+            jumps: request.jumps,
             worlds: &level,
             clock: &clock,
             until: clock.moment(1.0),
@@ -293,7 +294,8 @@ pub fn make_probability(
     let never = AtomicBool::new(false);
     let clock = Clock::start(Duration::MAX, u64::MAX, &never);
     let (worlds, until) = (Worlds::new(table, layout, doubt), clock.moment(1.0));
-    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
+    let task =
+        Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
     let draws = Draws::independent(attempts, &worlds, seed);
     let attempts = task.attempts(cue, draws.iter());
     SuccessRate::new(attempts.made, attempts.tried)

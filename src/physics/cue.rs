@@ -133,19 +133,31 @@ impl CueInputs {
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }
 
-    /// Checks `a² + b² <= limit`; a [`Table`]'s `miscue_limit` is where a real tip begins to slip.
+    /// Checks `a² + b² <= limit`; a [`Table`]'s `miscue_limit` is where a real tip begins to slip. A steep cue may meet the ball
+    /// further up: what counts there is how far its line passes by the centre.
     ///
     /// # Errors
     /// [`CueError::Tip`] where it is larger or not a number.
     pub fn validate_tip(&self, limit: f64) -> Result<(), CueError> {
         let offset = self.tip_offset_squared();
         // Written so that NaN is refused.
-        if offset <= limit { Ok(()) } else { Err(CueError::Tip { a: self.a, b: self.b, offset, limit }) }
+        let holds = offset <= limit || offset <= 1.0 && self.offset_across_squared() <= limit;
+        if holds { Ok(()) } else { Err(CueError::Tip { a: self.a, b: self.b, offset, limit }) }
     }
 
     /// Whether the tip slips off the ball on this table: no ball is moved then, and no point is made.
     pub fn is_miscue(&self, table: &Table) -> bool {
-        self.tip_offset_squared() > table.miscue_limit
+        let (offset, limit) = (self.tip_offset_squared(), table.miscue_limit);
+        offset > limit && (offset > 1.0 || self.offset_across_squared() > limit)
+    }
+
+    /// How far the cue's line passes by the ball's centre, squared, in units of R²: `a² + (b cos theta - c sin theta)²`, as in
+    /// thesis equation 9. For a level cue it is `a² + b²`.
+    pub fn offset_across_squared(&self) -> f64 {
+        let (sin, cos) = self.theta.sin_cos();
+        let c = (1.0 - self.tip_offset_squared()).max(0.0).sqrt();
+        let lever = self.b * cos - c * sin;
+        self.a * self.a + lever * lever
     }
 
     /// `a² + b²`, in units of R².

@@ -64,6 +64,8 @@ pub struct Turn {
     pub cue_ball: CueBall,
     /// What is going on.
     pub stage: Stage,
+    /// Whether the coach may advise jumps and massés here.
+    pub jumps: bool,
     /// The stroke that is taught.
     pub lesson: Lesson,
     /// Whether it is shown.
@@ -95,6 +97,7 @@ impl Turn {
             stroke: OwnStroke::new(aiming::first_stroke(&layout)),
             what_if: None,
             cue_ball: session.cue_ball_now(),
+            jumps: true,
             session,
             exercise,
             table,
@@ -283,6 +286,7 @@ impl Turn {
             rule: self.exercise.rule,
             shooter: self.session.shooter(),
             plan: self.session.is_game(),
+            jumps: self.jumps,
             own: self.exercise.model_shot().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]

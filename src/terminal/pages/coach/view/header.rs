@@ -45,7 +45,12 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
 /// What is asked, each after the key that changes it.
 fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
-    let plan = if query.plan { "plan on" } else { "plan off" };
+    let plan = match (query.plan, query.jumps) {
+        (true, true) => "plan on",
+        (false, true) => "plan off",
+        (true, false) => "plan on, no jumps",
+        (false, false) => "plan off, no jumps",
+    };
     let parts = [
         (CoachAction::NextRule, rule_word(query.rule)),
         (CoachAction::NextSkill, skill_word(query.skill)),
