@@ -112,9 +112,8 @@ pub struct Session {
 
 impl Session {
     /// Who is told how often a shot is made: the player, on tables and from places that are in doubt, as pars are measured.
-    pub fn shooter(&self) -> Shooter {
-        let shooter = Shooter { skill: self.skill, doubt: Doubt::FULL };
-        Shooter { doubt: shooter.doubts(), ..shooter }
+    pub const fn shooter(&self) -> Shooter {
+        Shooter { skill: self.skill, doubt: Doubt::FULL }
     }
 
     /// A session that begins now. There must be an exercise.

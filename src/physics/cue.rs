@@ -371,4 +371,20 @@ mod tests {
         assert!((cue.phi - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
         assert!(serde_json::to_string(&cue).unwrap().contains("\"phi_deg\":90.0"));
     }
+
+    #[test]
+    fn a_steep_cue_may_meet_the_ball_near_its_top_and_a_level_one_may_not() {
+        let table = Table::preset("textbook").unwrap();
+        let cue = |theta: &str| CueInputs::parse(&format!("0.2,0.9,{theta},0,2")).unwrap();
+        let (level, steep) = (cue("5"), cue("75"));
+        assert!(level.is_miscue(&table) && level.validate_tip(table.miscue_limit).is_err());
+        assert!(!steep.is_miscue(&table) && steep.validate_tip(table.miscue_limit).is_ok());
+        // Its line passes the centre by less than half a radius.
+        assert!(steep.offset_across_squared() < 0.25, "{}", steep.offset_across_squared());
+        let flat = CueInputs { theta: 0.0, ..level };
+        assert!((flat.offset_across_squared() - flat.tip_offset_squared()).abs() < 1e-15);
+        // Beside the ball there is nothing to meet.
+        let beside = CueInputs { a: 0.6, b: 0.9, ..steep };
+        assert!(beside.is_miscue(&table) && beside.validate_tip(1.0).is_err());
+    }
 }

@@ -389,7 +389,7 @@ impl CoachPage {
     /// What came of the shot that is watched, once the balls lie still.
     pub fn verdict(&self) -> Option<Verdict> {
         let shot = self.watched().filter(|shot| self.playback.time >= shot.recording.duration())?;
-        Some(Verdict::of(self.query.rule, self.table(), self.layout(), &shot.recording))
+        Some(shot.verdict(self.query.rule, self.table()))
     }
 
     /// The chosen step in millimetres, mm.
