@@ -46,7 +46,11 @@ pub fn is_leap(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     if cue.theta <= FLAT && strike(table, cue).lift < LOW_LIFT {
         return false;
     }
-    // What cannot be played is no leap.
+    shows_leap(table, layout, cue)
+}
+
+/// Whether the cue ball flies over a ball, or its way bends as a massé's does; what cannot be played does neither.
+pub fn shows_leap(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     Technique::of(table, layout, cue).is_ok_and(|technique| technique.is_leap())
 }
 

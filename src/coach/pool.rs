@@ -161,11 +161,16 @@ pub fn suppose_the_worst(candidates: &mut [Candidate]) {
     }
 }
 
+/// Share of the best one's score that a jump or a massé needs to be kept for its kind's sake: usual shots of all kinds are followed,
+/// for they may still get better; these cost as much, and hardly ever lead.
+const NEAR: f64 = 0.8;
+
 /// Sorts the best first, and keeps the first `best` and the first `of_each` of every kind. Equals stay in their order.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
     let mut seen: Vec<(Kind, usize)> = Vec::new();
     let mut place = 0;
+    let bar = candidates.first().map_or(0.0, |best| NEAR * best.score());
     candidates.retain(|candidate| {
         let rank = if let Some((_, count)) = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind) {
             *count += 1;
@@ -175,7 +180,7 @@ pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
             1
         };
         place += 1;
-        place <= best || rank <= of_each
+        place <= best || rank <= of_each && (!candidate.kind.raised || candidate.score() >= bar)
     });
 }
 

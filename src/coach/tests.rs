@@ -320,3 +320,34 @@ fn an_impossible_layout_is_refused() {
     let layout = Layout::new([DVec2::ZERO; 3]);
     assert!(matches!(coach().recommend(&layout, &Request::default()), Err(LayoutError::Overlap { .. })));
 }
+
+/// Where red and yellow stand in a line close before the cue ball, and the cushions are far.
+const LINE: &str = "-0.432457,-0.088436 -0.336216,-0.080449 -0.145764,-0.073855";
+
+#[test]
+fn jumps_and_massés_are_found_and_named_and_never_advised_where_they_are_forbidden() {
+    let coach = Coach::without_policy(Table::default());
+    let layout = Layout::parse(LINE, coach.table()).unwrap();
+    let mut raised = 0;
+    for (jumps, rule) in [true, false].into_iter().flat_map(|jumps| Rule::ALL.map(|rule| (jumps, rule))) {
+        let advice = coach.recommend(&layout, &Request { jumps, ..request(rule, 30_000) }).unwrap();
+        let alternatives = advice.alternatives.iter().map(|shot| (shot.cue, shot.kind));
+        let shots = [(advice.cue, advice.kind.unwrap())].into_iter().chain(alternatives);
+        for (cue, kind) in shots {
+            let technique = Technique::of(coach.table(), &layout, &cue).unwrap();
+            assert!(jumps || !technique.is_leap() && !kind.raised, "{rule}: {cue:?}");
+            if kind.raised {
+                assert!(
+                    cue.theta > 0.5 && ["jump", "massé"].contains(&Pattern::of(&technique).unwrap().name),
+                    "{cue:?}"
+                );
+                raised += 1;
+            }
+        }
+    }
+    assert!(raised > 0);
+    // A table that keeps its balls on the cloth has no jumps.
+    let frozen = Coach::without_policy(Table { flight: None, ..Table::default() });
+    let advice = frozen.recommend(&layout, &request(Rule::OneCushion, 30_000)).unwrap();
+    assert!(advice.alternatives.iter().all(|shot| !shot.kind.raised) && !advice.kind.unwrap().raised);
+}

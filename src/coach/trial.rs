@@ -4,11 +4,11 @@ use std::{ops::ControlFlow, time::Instant};
 
 use super::{
     Skill,
-    candidates::steepest,
+    candidates::{MAX_ELEVATION, steepest},
     clock::Clock,
     draws::{Draw, World, Worlds, aimed},
     errors::Errors,
-    leaps::is_leap,
+    leaps::{is_leap, shows_leap},
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
@@ -74,9 +74,14 @@ impl Task<'_> {
         self.jumps && self.table.flight.is_some()
     }
 
-    /// Whether the stroke may be advised here: where jumps and massés are forbidden, it must be none.
+    /// Whether the stroke may be advised here: where jumps and massés are forbidden, it must be none; and a cue that is raised
+    /// as high as for one must make one.
     pub fn allows(&self, cue: &CueInputs) -> bool {
-        self.jumps || !is_leap(self.table, self.layout, cue)
+        if cue.theta > MAX_ELEVATION {
+            self.leaps() && shows_leap(self.table, self.layout, cue)
+        } else {
+            self.jumps || !is_leap(self.table, self.layout, cue)
+        }
     }
 
     /// What makes a shot from here a point.
