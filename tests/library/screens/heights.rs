@@ -106,10 +106,11 @@ fn an_exercise_without_a_jump_says_so_and_a_ball_off_the_table_is_told() {
 }
 
 #[test]
-fn where_jumps_are_forbidden_the_coachs_first_row_says_so() {
+fn where_jumps_are_forbidden_the_coachs_first_row_and_its_answer_say_so() {
     let player = Player::with_settings(TRUE_COLOUR, "jumps = false\n");
-    player.shows(&["plan on, no jumps"]);
-    let asked = player.press("Enter").asked.unwrap();
-    assert!(!asked.query.jumps);
-    Player::new().is_silent_on("no jumps");
+    assert!(player.text(120, 40).contains(" no jumps"));
+    let player = player.press("Enter");
+    assert!(!player.asked.as_ref().unwrap().query.jumps);
+    player.answer().shows(&["jumps are off"]);
+    Player::new().press("Enter").answer().is_silent_on("jumps");
 }

@@ -248,7 +248,8 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
         Some(Cause::Placing) => "; the balls' places are the main risk",
         Some(Cause::Hand) | None => "",
     };
-    Message::good(format!("{} makes it {chance}{cause}", skill_word(query.skill)))
+    let forbidden = if query.jumps { "" } else { "; jumps are off" };
+    Message::good(format!("{} makes it {chance}{cause}{forbidden}", skill_word(query.skill)))
 }
 
 /// How often the player makes a shot, where there is a doubt.
