@@ -351,7 +351,7 @@ mod tests {
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));
         assert_eq!(why.second.is_some(), !advice.alternatives.is_empty());
         let brief = why.brief(CueBall::White);
-        assert!(brief.starts_with("made ") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
+        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} off in all") && brief.len() < 170, "{brief}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains(if why.second.is_some() { "the next" } else { "." }), "{said}");
     }

@@ -196,7 +196,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     for Answer { id, news } in told {
         player = player.tell(id, news);
     }
-    assert!(player.text(120, 40).contains("Why: made "), "{}", player.text(120, 40));
+    assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
     assert!(player.app.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
     // Nobody waits any more: nothing but the end is told, at once.

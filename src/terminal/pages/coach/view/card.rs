@@ -14,7 +14,10 @@ use crate::{
         Proposal,
         pages::coach::{
             CoachPage,
-            view::{shot::WIDE, told::place_along},
+            view::{
+                shot::WIDE,
+                told::{place_along, to_hundredths},
+            },
         },
         ui::{Ui, draw_title, spell},
         words::{chance_words, fixed, percent, rail_word},
@@ -61,15 +64,20 @@ pub fn chance_span(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Span<'static>
 
 type Row = (&'static str, String);
 
+/// Diamonds as a cushion on the way is told.
+fn to_tenths(diamonds: f64) -> String {
+    short(diamonds, 1)
+}
+
 /// Fourteen columns at most, the more needful rows first.
 fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let words = &proposal.shot.words;
     // The unit has no room.
-    let bare = |diamonds: f64, decimals: usize| place_along(coach, diamonds, decimals).replace(" mm", "");
+    let bare = |diamonds: f64, told: fn(f64) -> String| place_along(coach, diamonds, told).replace(" mm", "");
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
         // The side of the ball has no row then; the sentence has it.
-        format!("{} {} first", rail_word(cushion.rail), bare(cushion.diamond, 1))
+        format!("{} {} first", rail_word(cushion.rail), bare(cushion.diamond, to_tenths))
     }));
     match words.first {
         None => rows.push("no ball".to_owned()),
@@ -89,7 +97,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
         degrees => format!("raised {degrees}\u{b0}"),
     });
-    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), bare(mark.diamond, 2));
+    let mark = |mark: Mark| format!("{} {}", rail_word(mark.rail), bare(mark.diamond, to_hundredths));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
     rows.into_iter().map(|row| ("", row)).collect()
 }
@@ -105,7 +113,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     );
     let hit = match words.before.first() {
         Some(cushion) => {
-            format!("{} {} first, {hit}", rail_word(cushion.rail), place_along(coach, cushion.diamond, 1))
+            format!("{} {} first, {hit}", rail_word(cushion.rail), place_along(coach, cushion.diamond, to_tenths))
         }
         None => hit,
     };
@@ -119,7 +127,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
         degrees => format!("raised {degrees}\u{b0}"),
     };
-    let mark = |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, 2));
+    let mark =
+        |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths));
     vec![
         ("hit", hit),
         ("side", tip_side_words(proposal, coach) + english),

@@ -65,12 +65,17 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
     [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }
 
-/// A place along a cushion in the player's unit, of diamonds with so many decimals.
-pub fn place_along(coach: &CoachPage, diamonds: f64, decimals: usize) -> String {
+/// A place along a cushion in the player's unit; `told` writes diamonds.
+pub fn place_along(coach: &CoachPage, diamonds: f64, told: impl FnOnce(f64) -> String) -> String {
     match coach.units.place {
-        PlaceUnit::Diamonds => fixed(diamonds, decimals),
+        PlaceUnit::Diamonds => told(diamonds),
         PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
     }
+}
+
+/// Diamonds as marks to aim at are told.
+pub fn to_hundredths(diamonds: f64) -> String {
+    fixed(diamonds, 2)
 }
 
 /// The line of aim in few words, and in fewer: where the cue comes from and where it points, as diamonds or millimetres along
@@ -78,7 +83,7 @@ pub fn place_along(coach: &CoachPage, diamonds: f64, decimals: usize) -> String 
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
     let [behind, ahead] =
-        [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place_along(coach, mark.diamond, 2)));
+        [words.behind, words.ahead].map(|mark| (rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths)));
     let unit = if coach.units.place == PlaceUnit::Mm { "" } else { "diamond " };
     [
         format!("aim from {unit}{} {} to {} {}", behind.1, behind.0, ahead.1, ahead.0),
