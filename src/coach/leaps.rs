@@ -1,6 +1,6 @@
 //! Strokes with the cue raised high: jumps over a ball that is in the way, and massés. Most clubs forbid both.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 use rand::RngExt;
@@ -154,7 +154,8 @@ pub fn within_limit(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
     }
     let a = a.clamp(-most, most);
     let ring = (1.0 - a * a).sqrt();
-    let lever = ring * ((b / ring).clamp(-1.0, 1.0).asin() - theta).sin();
+    let turned = (b / ring).clamp(-1.0, 1.0).asin() - theta;
+    let lever = ring * turned.max(-FRAC_PI_2).sin();
     let share = (most / a.hypot(lever)).min(1.0);
     if share < 1.0 { on_ball(theta, a * share, lever * share) } else { (a, ring * (b / ring).clamp(-1.0, 1.0)) }
 }

@@ -152,12 +152,14 @@ impl CueInputs {
     }
 
     /// How far the cue's line passes by the ball's centre, squared, in units of R²: `a² + (b cos theta - c sin theta)²`, as in
-    /// thesis equation 9. For a level cue it is `a² + b²`.
+    /// thesis equation 9. For a level cue it is `a² + b²`. A place on the far side, which no cue reaches but through the ball,
+    /// is as far off as can be: 1.
     pub fn offset_across_squared(&self) -> f64 {
         let (sin, cos) = self.theta.sin_cos();
         let c = (1.0 - self.tip_offset_squared()).max(0.0).sqrt();
         let lever = self.b * cos - c * sin;
-        self.a * self.a + lever * lever
+        let faces_cue = c * cos + self.b * sin > 0.0;
+        if faces_cue { self.a * self.a + lever * lever } else { 1.0 }
     }
 
     /// `a² + b²`, in units of R².
@@ -383,7 +385,9 @@ mod tests {
         assert!(steep.offset_across_squared() < 0.25, "{}", steep.offset_across_squared());
         let flat = CueInputs { theta: 0.0, ..level };
         assert!((flat.offset_across_squared() - flat.tip_offset_squared()).abs() < 1e-15);
-        // Beside the ball there is nothing to meet.
+        // A steep cue does not reach the ball's lower half, and beside the ball there is nothing to meet.
+        let below = CueInputs { b: -0.9, ..steep };
+        assert!(below.is_miscue(&table) && below.validate_tip(table.miscue_limit).is_err());
         let beside = CueInputs { a: 0.6, b: 0.9, ..steep };
         assert!(beside.is_miscue(&table) && beside.validate_tip(1.0).is_err());
     }

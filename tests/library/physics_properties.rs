@@ -321,7 +321,9 @@ fn playback_is_continuous_and_ends_where_the_shot_ends() {
                 assert_eq!(recording.state(ball, recording.duration()).velocity, DVec2::ZERO);
             }
             let stops = |kind: &EventKind| matches!(kind, EventKind::RollingStationary(_));
-            assert!(recording.events().iter().any(|event| stops(&event.kind)));
+            // A ball that leaves the table does not stop on it.
+            let has_stopped = recording.events().iter().any(|event| stops(&event.kind));
+            assert!(has_stopped || recording.off_table()[0], "{:?}", recording.events());
         }
     }
 }

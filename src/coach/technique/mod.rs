@@ -123,9 +123,17 @@ impl Technique {
                 self.turn = before.velocity.angle_to(way).abs();
                 incoming = None;
             }
-            if !has_touched && matches!(event.kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _)) {
+            let touches = match event.kind {
+                EventKind::BallBall(0, _) | EventKind::BallRail(0, _) => true,
+                EventKind::ContactBegins(ball) => ball == 0,
+                _ => false,
+            };
+            if !has_touched && touches {
                 has_touched = true;
-                self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
+                // What turns a ball that touches another or a cushion from the start is no bend of its way.
+                if event.time > 1e-9 {
+                    self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
+                }
             }
             match event.kind {
                 EventKind::BallBall(1, 2) => self.drives_second = true,

@@ -76,7 +76,7 @@ fn the_table_comes_back_with_a_step_back() {
 
 #[test]
 fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
-    let player = new().press("Down Down Down Down Down Down Down Down Enter").type_in("5");
+    let player = new().press("Down Down Down Down Down Down Down Down Down Enter").type_in("5");
     player.shows(&["think_ms = 5", "Accepted: 10 to 60000.", "Enter take it"]);
     assert_eq!(player.app.place(), KeyContext::Settings(SettingsContext::Typing));
     let player = player.press("Enter");
