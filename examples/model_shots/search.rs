@@ -133,8 +133,13 @@ fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec
         .tags
         .iter()
         .any(|tag| ["rail-first", "ticky", "umbrella", "bank", "cushion-first"].contains(&tag.as_str()));
-    let (half, step) =
-        if banks { (PI, 0.5_f64) } else { ((2.0 * table.radius / way.length()).min(1.0).asin() + 0.02, 0.2_f64) };
+    let (half, step) = if exercise.category == Category::JumpAndMasse {
+        (1.2, 0.5_f64)
+    } else if banks {
+        (PI, 0.5)
+    } else {
+        ((2.0 * table.radius / way.length()).min(1.0).asin() + 0.02, 0.2)
+    };
     let middle = way.y.atan2(way.x).to_degrees();
     let mut found = Vec::new();
     for number in 0..strokes {
@@ -142,7 +147,7 @@ fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec
         let present = exercise.shot.filter(|_| number % 2 == 0);
         let stroke = match present {
             Some(shot) => akin(&shot, rng),
-            None => random_stroke(exercise.category, rng),
+            None => random_stroke(exercise, rng),
         };
         let mut run: Vec<f64> = Vec::new();
         let directions = (2.0 * half.to_degrees() / step) as usize;
@@ -168,26 +173,50 @@ fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec
     judged
 }
 
-/// The shot with the cue raised where it must be, to the next tenth of a degree; none where it has no room at 20 degrees.
+/// The shot with the cue raised where it must be, to the next tenth of a degree; none where it has no room at 20 degrees, or at 85
+/// where the cue is raised for the shot's sake.
 fn stands_free(exercise: &Exercise, table: &Table, shot: &CueInputs) -> Option<CueInputs> {
     let raised = with_room(table, &exercise.layout, shot).ok()?;
     let theta = (raised.theta.to_degrees() * DEGREE - 1e-9).ceil() / DEGREE;
-    (theta <= 20.0).then(|| CueInputs { theta: theta.to_radians(), ..raised })
+    let most = if exercise.category == Category::JumpAndMasse { 85.0 } else { 20.0 };
+    (theta <= most).then(|| CueInputs { theta: theta.to_radians(), ..raised })
 }
 
 /// A tip place and a speed of the kind that the category is about.
-fn random_stroke(category: Category, rng: &mut impl RngExt) -> CueInputs {
+fn random_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
+    if exercise.category == Category::JumpAndMasse {
+        return raised_stroke(exercise, rng);
+    }
     let mut step = |least: i32, most: i32, unit: f64| f64::from(rng.random_range(least..=most)) / unit;
-    let (a, b) = match category {
+    let (a, b) = match exercise.category {
         Category::FirstCaroms => (0.0, step(-4, 6, TIP)),
         Category::Draw => (0.0, step(-9, -5, TIP)),
         Category::Follow => (0.0, step(5, 8, TIP)),
         Category::Side => (step(6, 8, TIP) * (step(0, 1, 0.5) - 1.0), step(-4, 6, TIP)),
-        Category::OneCushion | Category::Gather | Category::ThreeCushion | Category::Systems | Category::Own => {
-            (step(-8, 8, TIP), step(-9, 7, TIP))
-        }
+        Category::OneCushion
+        | Category::Gather
+        | Category::ThreeCushion
+        | Category::Systems
+        | Category::JumpAndMasse
+        | Category::Own => (step(-8, 8, TIP), step(-9, 7, TIP)),
     };
     CueInputs { a, b, theta: 3.0_f64.to_radians(), phi: 0.0, speed: step(9, 56, SPEED) }
+}
+
+/// A stroke with the cue raised for a jump, a massé, or a rail, whose line passes the centre of the ball by less than half of its
+/// radius.
+fn raised_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
+    let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
+    let mut step = |least: i32, most: i32, unit: f64| f64::from(rng.random_range(least..=most)) / unit;
+    let (theta, a, lever, speed) = match () {
+        () if is_tagged("jump") => (step(20, 60, 1.0), step(-4, 4, TIP), step(-8, 8, TIP), step(20, 60, SPEED)),
+        () if is_tagged("full") => (step(63, 80, 1.0), step(-9, 9, TIP), step(-9, 2, TIP), step(10, 50, SPEED)),
+        () if is_tagged("masse") => (step(30, 62, 1.0), step(-9, 9, TIP), step(-9, 2, TIP), step(10, 50, SPEED)),
+        () => (0.0, step(-6, 6, TIP), step(4, 9, TIP), step(9, 56, SPEED)),
+    };
+    let theta = theta.to_radians();
+    let b = (TIP * (theta + lever.asin()).min(1.4).sin()).round() / TIP;
+    CueInputs { a, b: b.min((1.0 - a * a).sqrt() - 1.0 / TIP), theta, phi: 0.0, speed }
 }
 
 /// A tip place and a speed near those of this shot.
@@ -199,7 +228,7 @@ fn akin(shot: &CueInputs, rng: &mut impl RngExt) -> CueInputs {
         a,
         b: near(shot.b, TIP, 3),
         speed: near(shot.speed, SPEED, 10).max(0.5),
-        theta: 3.0_f64.to_radians(),
+        theta: if shot.theta > 0.5 { shot.theta } else { 3.0_f64.to_radians() },
         phi: 0.0,
     }
 }
@@ -210,15 +239,18 @@ fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
     let rounded = |value: f64, unit: f64| (value * unit).round() / unit;
     loop {
         let mut better = None;
-        for (a, b, phi, speed) in [
-            (1.0, 0.0, 0.0, 0.0),
-            (0.0, 1.0, 0.0, 0.0),
-            (0.0, 0.0, 1.0, 0.0),
-            (0.0, 0.0, 3.0, 0.0),
-            (0.0, 0.0, 0.0, 1.0),
-            (0.0, 0.0, 0.0, 3.0),
-            (1.0, 0.0, 3.0, 0.0),
-            (1.0, 0.0, -3.0, 0.0),
+        let raising = if exercise.category == Category::JumpAndMasse { 1.0 } else { 0.0 };
+        for (a, b, phi, speed, theta) in [
+            (0.0, 0.0, 0.0, 0.0, raising),
+            (0.0, 0.0, 1.0, 0.0, raising),
+            (1.0, 0.0, 0.0, 0.0, 0.0),
+            (0.0, 1.0, 0.0, 0.0, 0.0),
+            (0.0, 0.0, 1.0, 0.0, 0.0),
+            (0.0, 0.0, 3.0, 0.0, 0.0),
+            (0.0, 0.0, 0.0, 1.0, 0.0),
+            (0.0, 0.0, 0.0, 3.0, 0.0),
+            (1.0, 0.0, 3.0, 0.0, 0.0),
+            (1.0, 0.0, -3.0, 0.0, 0.0),
         ] {
             for sign in [-1.0, 1.0] {
                 let sideways = if matches!(exercise.category, Category::FirstCaroms | Category::Draw | Category::Follow)
@@ -228,6 +260,11 @@ fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
                     a
                 };
                 let next = CueInputs {
+                    theta: if theta > 0.0 {
+                        (shot.theta.to_degrees() + sign * theta).round().max(0.0).to_radians()
+                    } else {
+                        shot.theta
+                    },
                     a: rounded(shot.a + sign * sideways / TIP, TIP),
                     b: rounded(shot.b + sign * b / TIP, TIP),
                     phi: rounded(shot.phi.to_degrees() + sign * phi / DEGREE, DEGREE).to_radians(),

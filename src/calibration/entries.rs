@@ -41,7 +41,7 @@ pub struct Entry {
     pub rails: Option<usize>,
     /// Whether it was played from the far end of the table, with everything counted from where the player stands: then the
     /// balls meet the other rails.
-    #[serde(default, rename = "far-end", skip_serializing_if = "is_no")]
+    #[serde(default, rename = "far-end", skip_serializing_if = "std::ops::Not::not")]
     pub far_end: bool,
     /// How sure marks are, where it is not what is usual.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -49,11 +49,6 @@ pub struct Entry {
     /// The marks by their names.
     #[serde(flatten)]
     pub marks: BTreeMap<String, Written>,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-const fn is_no(value: &bool) -> bool {
-    !*value
 }
 
 /// A number as it is written: in the mark's unit, or with a unit of its own, like `"412 mm"`.

@@ -9,6 +9,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Skill,
     errors::{Errors, normal},
+    leaps::{STEEPEST, within_limit},
 };
 use crate::{
     physics::{CueInputs, squirt},
@@ -86,12 +87,13 @@ pub fn stratified(table: &Table, layout: &Layout, n: u64, softest: f64, rng: &mu
 pub fn neighbour(table: &Table, cue: &CueInputs, scale: f64, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let mut step = |size: f64| scale * size * normal(rng);
     let (a, b) = (cue.a + step(0.15), cue.b + step(0.15));
-    let share = (TIP_SHARE * table.miscue_limit.sqrt() / a.hypot(b)).min(1.0);
-    let turned = squirt(table, cue.a) - squirt(table, a * share);
+    let theta = (cue.theta + step(0.03)).clamp(0.0, steepest(cue));
+    let (a, b) = within_limit(table, theta, a, b);
+    let turned = squirt(table, cue.a) - squirt(table, a);
     CueInputs {
-        a: a * share,
-        b: b * share,
-        theta: (cue.theta + step(0.03)).clamp(0.0, MAX_ELEVATION),
+        a,
+        b,
+        theta,
         phi: cue.phi + step(0.008) + turned,
         speed: (cue.speed + step(0.6)).clamp(MIN_SPEED, MAX_SPEED),
     }
@@ -100,14 +102,20 @@ pub fn neighbour(table: &Table, cue: &CueInputs, scale: f64, rng: &mut Xoshiro25
 /// The stroke that a player of this skill makes of `cue` with these errors, kept within what can be recommended.
 pub fn towards(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
     let stroke = skill.stroke(table.radius, cue, errors);
-    let share = (TIP_SHARE * table.miscue_limit.sqrt() / stroke.a.hypot(stroke.b)).min(1.0);
+    let theta = stroke.theta.clamp(0.0, steepest(cue));
+    let (a, b) = within_limit(table, theta, stroke.a, stroke.b);
     CueInputs {
-        a: stroke.a * share,
-        b: stroke.b * share,
-        theta: stroke.theta.clamp(0.0, MAX_ELEVATION),
-        phi: stroke.phi + squirt(table, stroke.a) - squirt(table, stroke.a * share),
+        a,
+        b,
+        theta,
+        phi: stroke.phi + squirt(table, stroke.a) - squirt(table, a),
         speed: stroke.speed.clamp(MIN_SPEED, MAX_SPEED),
     }
+}
+
+/// How far the cue may be raised for what comes of a stroke: a jump or a massé stays one, and nothing else becomes one.
+pub fn steepest(cue: &CueInputs) -> f64 {
+    if cue.theta > MAX_ELEVATION { STEEPEST } else { MAX_ELEVATION }
 }
 
 /// A direction in which a ball that runs straight meets `target`, each thickness alike.

@@ -121,6 +121,7 @@ impl Coach {
             layout,
             rule: request.rule,
             skill: request.skill,
+            jumps: request.jumps,
             worlds: &level,
             clock: &clock,
             until: clock.moment(1.0),
@@ -279,7 +280,7 @@ fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
 }
 
 /// The share of `attempts` at `cue` that make a point, with its interval: a plain Monte-Carlo estimate. The same seed
-/// draws the same attempts for every shot.
+/// draws the same attempts for every shot. A perfect player has no doubts.
 pub fn make_probability(
     shooter: impl Into<Shooter>,
     rule: Rule,
@@ -289,11 +290,13 @@ pub fn make_probability(
     attempts: usize,
     seed: u64,
 ) -> SuccessRate {
-    let Shooter { skill, doubt } = shooter.into();
+    let shooter = shooter.into();
+    let (skill, doubt) = (shooter.skill, shooter.doubts());
     let never = AtomicBool::new(false);
     let clock = Clock::start(Duration::MAX, u64::MAX, &never);
     let (worlds, until) = (Worlds::new(table, layout, doubt), clock.moment(1.0));
-    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
+    let task =
+        Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
     let draws = Draws::independent(attempts, &worlds, seed);
     let attempts = task.attempts(cue, draws.iter());
     SuccessRate::new(attempts.made, attempts.tried)

@@ -6,6 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{TIP_SHARE, anything, variation},
+    leaps::raised,
     trial::{CONTACT_STEPS, Course, ENDLESS, Task},
 };
 use crate::{
@@ -27,6 +28,10 @@ const HASTE: u32 = 5;
 
 /// One in so many of them is followed further: where balls touch from the start, all others may be given up.
 const FOLLOWED: u64 = 50;
+
+/// Usual strokes after which jumps and massés are tried too, one in so many: where so many made no point, hardly any does.
+const USUAL: u64 = 4000;
+const USUAL_TO_A_LEAP: u64 = 4;
 
 /// How good a shot is that makes no point: object balls met, then cushions on the way as far as the rule wants them.
 type Merit = (u32, u32);
@@ -67,8 +72,13 @@ impl<'a> Attempt<'a> {
                 self.play(variation(table, cue, &mut rng), Source::Variation);
             }
         }
+        let mut tried = 0_u64;
         while !self.is_over() {
-            self.play(anything(table, layout, &mut rng), Source::Search);
+            tried += 1;
+            let is_raised = self.task.leaps() && tried > USUAL && tried.is_multiple_of(USUAL_TO_A_LEAP);
+            let leap = if is_raised { raised(table, layout, &mut rng) } else { None };
+            let cue = leap.unwrap_or_else(|| anything(table, layout, &mut rng));
+            self.play(cue, Source::Search);
         }
         // With no time at all and no policy, nothing was tried.
         let attempt = self.best.map(|(_, shot)| shot);
@@ -106,10 +116,12 @@ impl<'a> Attempt<'a> {
         let course = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
         if self.task.point().is_made(&course.tally) {
-            self.solutions.push((suggestion, course));
+            if self.task.allows(&cue) {
+                self.solutions.push((suggestion, course));
+            }
         } else {
             let merit = merit(&course.tally, self.task.rule);
-            if self.best.is_none_or(|(best, _)| merit > best) {
+            if self.best.is_none_or(|(best, _)| merit > best) && self.task.allows(&cue) {
                 self.best = Some((merit, suggestion));
             }
         }

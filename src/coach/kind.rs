@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::trial::Course;
+use super::{candidates::MAX_ELEVATION, trial::Course};
 use crate::{
     physics::CueInputs,
     table::{BALL_NAMES, BALLS},
@@ -50,6 +50,9 @@ pub struct Kind {
     pub way: Way,
     /// How hard the stroke is.
     pub pace: Pace,
+    /// Whether the cue is raised by more than 30 degrees, for a jump or a massé.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub raised: bool,
 }
 
 impl Kind {
@@ -65,6 +68,7 @@ impl Kind {
             cushion_first: course.tally.cushions_before_first > 0,
             way,
             pace: if cue.speed < HARD { Pace::Soft } else { Pace::Hard },
+            raised: cue.theta > MAX_ELEVATION,
         }
     }
 }
@@ -91,7 +95,8 @@ impl fmt::Display for Pace {
 /// For who plays with white.
 impl fmt::Display for Kind {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { first_ball, cushion_first, way, pace } = self;
+        let Self { first_ball, cushion_first, way, pace, raised } = self;
+        let pace = if *raised { format!("{pace}, raised") } else { pace.to_string() };
         let start = if *cushion_first { "cushion first to" } else { "first" };
         match first_ball {
             0 => formatter.pad(&format!("meets no ball, {pace}")),

@@ -12,6 +12,7 @@ mod ease;
 pub mod errors;
 mod first;
 mod kind;
+mod leaps;
 mod margins;
 mod next;
 mod parallel;

@@ -20,8 +20,8 @@ const WORTH_OF_WIDE: f64 = 0.3;
 /// Speed up to which strokes are usual, m/s. The ball leaves such a stroke at 5.6 m/s, and one of 91 filmed shots is faster.
 const HARDEST_USUAL: f64 = 4.0;
 
-/// Effort of every m/s beyond. A harder stroke is not worth a point or two in a hundred: balls that hop, which are not
-/// simulated, make it less certain than it looks. With it 2.5 % of the three-cushion shots for a club player are struck
+/// Effort of every m/s beyond. A harder stroke is not worth a point or two in a hundred: what is not simulated, as the
+/// rebound's own height off a nose that presses the ball down, makes it less certain than it looks. With it 2.5 % of the three-cushion shots for a club player are struck
 /// harder than 5 m/s, without 5.8 %, and as many of all are made within 0.2 in a hundred (120 layouts).
 const HARDER: f64 = 2.0;
 
@@ -96,7 +96,8 @@ impl Candidate {
         let cue = task.playable(&cue)?;
         let course = task.play(&cue)?;
         task.clock.count(1);
-        task.point().is_made(&course.tally).then(|| Self::of(Suggestion { cue, source }, &course, weight))
+        let is_good = task.point().is_made(&course.tally) && task.allows(&cue);
+        is_good.then(|| Self::of(Suggestion { cue, source }, &course, weight))
     }
 
     /// A shot that makes the point in this course.
@@ -160,11 +161,16 @@ pub fn suppose_the_worst(candidates: &mut [Candidate]) {
     }
 }
 
+/// Share of the best one's score that a jump or a massé needs to be kept for its kind's sake: usual shots of all kinds are followed,
+/// for they may still get better; these cost as much, and hardly ever lead.
+const NEAR: f64 = 0.8;
+
 /// Sorts the best first, and keeps the first `best` and the first `of_each` of every kind. Equals stay in their order.
 pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
     let mut seen: Vec<(Kind, usize)> = Vec::new();
     let mut place = 0;
+    let bar = candidates.first().map_or(0.0, |best| NEAR * best.score());
     candidates.retain(|candidate| {
         let rank = if let Some((_, count)) = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind) {
             *count += 1;
@@ -174,7 +180,7 @@ pub fn keep(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
             1
         };
         place += 1;
-        place <= best || rank <= of_each
+        place <= best || rank <= of_each && (!candidate.kind.raised || candidate.score() >= bar)
     });
 }
 
@@ -188,7 +194,7 @@ mod tests {
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 };
         let candidate = |made, next| Candidate {
             shot: Suggestion { cue, source: Source::Search },
-            kind: Kind { first_ball: 1, cushion_first: false, way: Way::Direct, pace: Pace::Soft },
+            kind: Kind { first_ball: 1, cushion_first: false, way: Way::Direct, pace: Pace::Soft, raised: false },
             tried: 32,
             made,
             wide: 8,

@@ -44,6 +44,8 @@ pub struct Request {
     pub doubt: Doubt,
     /// Whether what comes next counts: shots are then ranked by their make probability times that of the shot after them.
     pub plan: bool,
+    /// Whether jumps over a ball and massés may be advised; most clubs forbid them.
+    pub jumps: bool,
     /// Time to look for a shot.
     pub budget: Duration,
     /// Simulations after which the search ends, or a little later: it ends between rounds.
@@ -70,6 +72,7 @@ impl Default for Request {
             skill: Skill::PERFECT,
             doubt: Doubt::NONE,
             plan: false,
+            jumps: true,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,
             threads: super::parallel::cores(),

@@ -55,7 +55,7 @@ pub fn scatter(
     let Shooter { skill, doubt } = shooter.into();
     let worlds = Worlds::new(table, layout, doubt);
     let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
-    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience };
+    let task = Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience };
     let draws = Draws::independent(attempts, &worlds, seed);
     let draws: Vec<_> = draws.iter().collect();
     let ends =

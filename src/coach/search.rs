@@ -6,6 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{MIN_SPEED, neighbour, stratified, variation},
+    leaps::raised,
     next::NextValue,
     parallel,
     pool::{Candidate, Race, keep, suppose_the_worst},
@@ -42,6 +43,12 @@ const LARGEST_BATCH: usize = 4096;
 /// tried in any case, m/s.
 const SOFTER: f64 = 0.7;
 const SOFT: f64 = 1.0;
+
+/// One stroke in so many of the first rounds of sampling is a jump or a massé, and of the later ones where none of these is
+/// among the better half of what stays in; none is where the best shot so far is made this often.
+const LEAPS_TRIED: [usize; 2] = [8, 64];
+const ROUNDS_OF_LEAPS: usize = 3;
+const GOOD_WITHOUT: f64 = 0.9;
 
 /// Shots that leave the sampling, and then the race, besides the best of each kind.
 const SHORTLIST: usize = 128;
@@ -111,20 +118,34 @@ impl<'a> Search<'a> {
                 (0..16).map(|_| Suggestion { cue: variation(table, cue, &mut self.rng), source: Source::Variation });
             shots.extend(varied);
         }
-        let (mut drawn, mut batch, mut softest) = (0, FIRST_BATCH, MIN_SPEED);
+        let (mut drawn, mut batch, mut softest, mut rounds) = (0, FIRST_BATCH, MIN_SPEED, 0);
         while self.task.clock.used() < self.sampling_ends || drawn == 0 {
             shots.extend((0..batch as u64).map(|n| Suggestion {
                 cue: stratified(table, self.task.layout, drawn + n, softest, &mut self.rng),
                 source: Source::Search,
             }));
+            let leaps = self.leaps(batch, rounds);
+            shots.extend(leaps.into_iter().map(|cue| Suggestion { cue, source: Source::Search }));
             drawn += batch as u64;
             batch = (2 * batch).min(LARGEST_BATCH);
+            rounds += 1;
             self.sample_batch(&shots);
             let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
             softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
             shots.clear();
             self.tell(tell);
         }
+    }
+
+    /// Jumps and massés for a round of sampling with so many other strokes.
+    fn leaps(&mut self, batch: usize, rounds: usize) -> Vec<CueInputs> {
+        let is_good = self.pool.first().is_some_and(|best| best.tried >= SECOND_LOOK && best.rate() >= GOOD_WITHOUT);
+        if !self.task.leaps() || is_good {
+            return Vec::new();
+        }
+        let is_among = self.pool.iter().take(SHORTLIST / 2).any(|candidate| candidate.kind.raised);
+        let one_in = LEAPS_TRIED[usize::from(rounds >= ROUNDS_OF_LEAPS && !is_among)];
+        (0..batch / one_in).filter_map(|_| raised(self.task.table, self.task.layout, &mut self.rng)).collect()
     }
 
     /// What the hardest stroke and the steepest cue cost.
@@ -271,6 +292,7 @@ mod tests {
             layout: &layout,
             rule: Rule::StraightRail,
             skill: Skill::EXPERT,
+            jumps: true,
             worlds: &Worlds::new(&table, &layout, Doubt::NONE),
             clock: &clock,
             until: clock.moment(1.0),

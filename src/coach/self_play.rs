@@ -86,6 +86,7 @@ fn turn(
     let clock = Clock::start(always, u64::MAX, &never);
     let Request { rule, skill, .. } = *request;
     let (until, worlds) = (clock.moment(1.0), Worlds::new(table, layout, Doubt::NONE));
-    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
+    let task =
+        Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience: ENDLESS };
     end_of(&task, cue, Draw { errors, world: Some(world) })
 }

@@ -1,7 +1,10 @@
 //! What the coach promises, checked from outside.
 
 use std::{
-    sync::{Arc, atomic::Ordering},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     thread,
     time::Duration,
 };
@@ -10,7 +13,13 @@ use glam::DVec2;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::*;
+use super::{
+    clock::Clock,
+    draws::Worlds,
+    pool::Candidate,
+    trial::{CONTACT_STEPS, Task},
+    *,
+};
 use crate::{
     game::{Rule, scores},
     learning::evaluation::held_out_layouts,
@@ -319,4 +328,52 @@ fn what_the_cues_room_costs() {
 fn an_impossible_layout_is_refused() {
     let layout = Layout::new([DVec2::ZERO; 3]);
     assert!(matches!(coach().recommend(&layout, &Request::default()), Err(LayoutError::Overlap { .. })));
+}
+
+#[test]
+fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
+    // The exercise "jump-from-near": over red, to yellow.
+    let (table, cancel) = (Table::default(), AtomicBool::new(false));
+    let layout = Layout::parse("-0.3,0 0.19,-0.08 -0.17,-0.09", &table).unwrap();
+    let model = CueInputs::parse("0.05,0.5,22,-13.5,2.4").unwrap();
+    let steep = CueInputs::parse("0,0.9,60,90,2").unwrap();
+    let frozen = Table { flight: None, ..table.clone() };
+    let clock = Clock::start(Duration::from_mins(1), u64::MAX, &cancel);
+    let worlds = Worlds::new(&table, &layout, Doubt::NONE);
+    let task = |table, jumps| Task {
+        table,
+        layout: &layout,
+        rule: Rule::StraightRail,
+        skill: Skill::EXPERT,
+        jumps,
+        worlds: &worlds,
+        clock: &clock,
+        until: clock.moment(1.0),
+        patience: CONTACT_STEPS,
+    };
+    let is_candidate = |jumps| Candidate::new(&task(&table, jumps), model, Source::Search, 0.0).is_some();
+    assert!(is_candidate(true) && !is_candidate(false));
+    // A steep cue that neither jumps nor bends the way is none, nor is any where balls stay on the cloth.
+    assert!(!task(&table, true).allows(&steep) && !task(&frozen, true).allows(&steep) && !task(&frozen, true).leaps());
+    // The search's own jumps make the point here, and fly over red.
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+    let allowed = task(&table, true);
+    let found = (0..40_000).filter_map(|_| leaps::raised(&table, &layout, &mut rng));
+    let found = found.filter_map(|cue| Candidate::new(&allowed, cue, Source::Search, 0.0));
+    let over = found.filter(|found| Technique::of(&table, &layout, &found.shot.cue).unwrap().over.is_some()).count();
+    assert!(over > 0);
+}
+
+#[test]
+fn no_shot_that_is_advised_jumps_or_bends_where_that_is_forbidden() {
+    let coach = Coach::without_policy(Table::default());
+    let line = "-0.432457,-0.088436 -0.336216,-0.080449 -0.145764,-0.073855";
+    let layout = Layout::parse(line, coach.table()).unwrap();
+    for rule in Rule::ALL {
+        let advice = coach.recommend(&layout, &Request { jumps: false, ..request(rule, 20_000) }).unwrap();
+        for cue in std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)) {
+            let technique = Technique::of(coach.table(), &layout, &cue).unwrap();
+            assert!(!technique.is_leap() && cue.theta <= candidates::MAX_ELEVATION, "{rule}: {cue:?}");
+        }
+    }
 }

@@ -4,10 +4,11 @@ use std::{ops::ControlFlow, time::Instant};
 
 use super::{
     Skill,
-    candidates::MAX_ELEVATION,
+    candidates::{MAX_ELEVATION, steepest},
     clock::Clock,
     draws::{Draw, World, Worlds, aimed},
     errors::Errors,
+    leaps::{is_leap, shows_leap},
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
@@ -36,6 +37,8 @@ pub struct Task<'a> {
     pub rule: Rule,
     /// Whose strokes they are.
     pub skill: Skill,
+    /// Whether jumps and massés may be played.
+    pub jumps: bool,
     /// What may really be there.
     pub worlds: &'a Worlds,
     /// Counts the shots, and knows whether anybody waits.
@@ -55,13 +58,30 @@ pub const ENDLESS: u32 = u32::MAX;
 
 impl Task<'_> {
     /// The stroke as a player can play it here: the cue is raised where a rail or a ball is in its way. `None` where that takes
-    /// more than [`MAX_ELEVATION`], or no elevation does.
+    /// more than usual strokes have, 30°, or no elevation does; a cue that is raised more for a jump or a massé may be raised
+    /// further.
     #[inline]
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
         if has_room(self.table, self.layout, cue) {
             return Some(*cue);
         }
-        with_room(self.table, self.layout, cue).ok().filter(|raised| raised.theta <= MAX_ELEVATION)
+        with_room(self.table, self.layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
+    }
+
+    /// Whether strokes are looked for with the cue raised for a jump or a massé: on a table that keeps its balls on the cloth
+    /// neither is what it would be.
+    pub const fn leaps(&self) -> bool {
+        self.jumps && self.table.flight.is_some()
+    }
+
+    /// Whether the stroke may be advised here: where jumps and massés are forbidden, it must be none; and a cue that is raised
+    /// as high as for one must make one.
+    pub fn allows(&self, cue: &CueInputs) -> bool {
+        if cue.theta > MAX_ELEVATION {
+            self.leaps() && shows_leap(self.table, self.layout, cue)
+        } else {
+            self.jumps || !is_leap(self.table, self.layout, cue)
+        }
     }
 
     /// What makes a shot from here a point.

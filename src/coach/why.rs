@@ -131,7 +131,17 @@ fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueI
     let clock = Clock::start(Duration::MAX, u64::MAX, &never);
     let worlds = Worlds::new(table, layout, shooter.doubt);
     let (skill, until) = (shooter.skill, clock.moment(1.0));
-    let task = Task { table, layout, rule, skill, worlds: &worlds, clock: &clock, until, patience: CONTACT_STEPS };
+    let task = Task {
+        table,
+        layout,
+        rule,
+        skill,
+        jumps: true,
+        worlds: &worlds,
+        clock: &clock,
+        until,
+        patience: CONTACT_STEPS,
+    };
     let meant = Contacts::of(table, layout, cue, f64::INFINITY);
     if !task.point().is_made(&meant.tally) {
         return None;

@@ -39,14 +39,16 @@ pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
 
 /// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread over the categories and
 /// grades as evenly as the library allows; the player's own positions, which have no measured par, have no
-/// part. The same seed draws the same.
+/// part, nor have jumps and massés, which most clubs forbid. The same seed draws the same.
 ///
 /// # Errors
 /// [`ExamError`].
 pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>, ExamError> {
     let grades = grades(level).ok_or(ExamError::Level(level))?;
     let fits = |exercise: &&Exercise| {
-        exercise.category != Category::Own && exercise.par.is_some() && grades.contains(&exercise.grade)
+        !matches!(exercise.category, Category::Own | Category::JumpAndMasse)
+            && exercise.par.is_some()
+            && grades.contains(&exercise.grade)
     };
     let mut left: Vec<&Exercise> = library.iter().filter(fits).collect();
     if left.len() < LENGTH {

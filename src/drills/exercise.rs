@@ -32,13 +32,15 @@ pub enum Category {
     ThreeCushion,
     /// Diamond systems.
     Systems,
+    /// The cue is raised, and the cue ball leaves the cloth or runs in a curve. Most clubs forbid it.
+    JumpAndMasse,
     /// Somebody's own position.
     Own,
 }
 
 impl Category {
     /// All of them, in the order of the library.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::FirstCaroms,
         Self::Draw,
         Self::Follow,
@@ -47,6 +49,7 @@ impl Category {
         Self::Gather,
         Self::ThreeCushion,
         Self::Systems,
+        Self::JumpAndMasse,
         Self::Own,
     ];
 
@@ -61,6 +64,7 @@ impl Category {
             Self::Gather => "gather",
             Self::ThreeCushion => "three-cushion",
             Self::Systems => "systems",
+            Self::JumpAndMasse => "jump-and-masse",
             Self::Own => "own",
         }
     }
@@ -76,6 +80,7 @@ impl Category {
             Self::Gather => "Gather and rappel",
             Self::ThreeCushion => "Three-cushion patterns",
             Self::Systems => "Diamond systems",
+            Self::JumpAndMasse => "Jumps and massés",
             Self::Own => "My positions",
         }
     }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::FRAC_PI_3;
 
+use glam::DVec2;
+
 use super::{Category, Exercise, ExerciseError};
 use crate::{
     coach::{
@@ -9,8 +11,9 @@ use crate::{
         systems::{Guide, guide},
     },
     game::{Point, scores},
-    physics::{CueInputs, has_room},
+    physics::{CueInputs, has_room, with_room},
     simulation::Recording,
+    table::Table,
 };
 
 /// Balls are gathered where no two are further apart, m: a little less than two diamonds of a `match` table.
@@ -79,10 +82,61 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             ("the rule is three-cushion", exercise.rule.cushions() == 3),
             ("the first tag names the system that describes it", exercise.tags.first() == system(exercise)?.as_ref()),
         ],
+        Category::JumpAndMasse => raised(exercise, &table, &technique, &cue)?,
         Category::Own => Vec::new(),
     });
     checks.extend(tagged(exercise, &technique, &cue));
     Ok(checks.into_iter().filter_map(|(sentence, holds)| (!holds).then_some(sentence)).collect())
+}
+
+/// The least distance of a ball that is jumped from far, m, the largest of one that stands near, and the elevations from which on
+/// a massé is a half and a full one, rad.
+const FAR: f64 = 0.6;
+const NEAR: f64 = 0.2;
+const HALF_MASSE: f64 = 0.5 * FRAC_PI_3;
+const FULL_MASSE: f64 = 1.05 * FRAC_PI_3;
+
+/// What a shot with a raised cue shows, by its first tag: it flies over red, or its way bends, and the cue has hopped where it
+/// began at a rail.
+fn raised(
+    exercise: &Exercise,
+    table: &Table,
+    technique: &Technique,
+    cue: &CueInputs,
+) -> Result<Vec<(&'static str, bool)>, ExerciseError> {
+    let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
+    let [cue_ball, _, red] = exercise.layout.balls;
+    let (way, ahead) = (red - cue_ball, DVec2::from_angle(cue.phi));
+    let recording = Recording::new(table, &exercise.layout, cue)?;
+    let first = recording.events().iter().find(|event| event.kind.is_contact());
+    // What hops at the rail is told, and is over before the ball is met.
+    let hops = recording.jumps().into_iter().find(|jump| jump.ball == 0);
+    let has_landed = hops.zip(first).is_some_and(|(hop, first)| hop.is_told() && hop.end <= first.time);
+    let is_least = with_room(table, &exercise.layout, &CueInputs { theta: 0.0, ..*cue })
+        .is_ok_and(|least| cue.theta <= least.theta + 0.5_f64.to_radians());
+    let (flies, bends) = (technique.over == Some(2), technique.over.is_none() && technique.is_leap());
+    let steep = cue.theta;
+    Ok(vec![
+        (
+            "the first tag is jump, masse or hop",
+            exercise.tags.first().is_some_and(|tag| ["jump", "masse", "hop"].contains(&tag.as_str())),
+        ),
+        ("with the tag jump the cue ball flies over red", flies == is_tagged("jump")),
+        (
+            "with the tag edge it passes over less than half of it",
+            !is_tagged("edge") || ahead.perp_dot(way).abs() > table.radius,
+        ),
+        ("with the tag far red is more than 0.6 m away", !is_tagged("far") || way.length() > FAR),
+        ("with the tag near red is less than 0.2 m away", !is_tagged("near") || way.length() < NEAR),
+        ("with the tag masse the way bends by more than 15 degrees", bends == is_tagged("masse")),
+        (
+            "with the tag half the cue is raised by 30 to 63 degrees",
+            !is_tagged("half") || (HALF_MASSE..FULL_MASSE).contains(&steep),
+        ),
+        ("with the tag full the cue is raised by more than 63 degrees", !is_tagged("full") || steep >= FULL_MASSE),
+        ("with the tag hop the cue is as level as the rail allows", !is_tagged("hop") || is_least && steep > 0.0),
+        ("with the tag hop the cue ball has come down before it meets yellow", !is_tagged("hop") || has_landed),
+    ])
 }
 
 /// The tag of the diamond system that describes the shot.

@@ -3,7 +3,7 @@
 use super::{Category, Exercise, LibraryFile, LibraryFileError};
 
 /// The bundled files, one a category.
-const BUNDLED: [&str; 8] = [
+const BUNDLED: [&str; 9] = [
     include_str!("../../saves/first-caroms.json"),
     include_str!("../../saves/draw.json"),
     include_str!("../../saves/follow.json"),
@@ -12,6 +12,7 @@ const BUNDLED: [&str; 8] = [
     include_str!("../../saves/gather.json"),
     include_str!("../../saves/three-cushion.json"),
     include_str!("../../saves/systems.json"),
+    include_str!("../../saves/jump-and-masse.json"),
 ];
 
 /// Why an exercise is not in the library, or cannot be.

@@ -59,14 +59,15 @@ impl Played {
         Self { stroke, miscue, verdict, made: verdict.is_made(), end }
     }
 
-    /// The same where it is told how a ball was missed, which takes a second look.
-    fn with_miss(self, rule: Rule, table: &Table, layout: &Layout) -> Self {
-        if self.made || self.miscue {
-            return self;
+    /// The same where it is told how a ball was missed, for which the shot is recorded.
+    fn told(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
+        match Recording::new(table, layout, &stroke) {
+            Ok(recording) if !stroke.is_miscue(table) => {
+                let verdict = Verdict::of(rule, table, layout, &recording);
+                Self { stroke, miscue: false, verdict, made: verdict.is_made(), end: recording.final_layout() }
+            }
+            _ => Self::of(rule, table, layout, stroke),
         }
-        let recording = Recording::new(table, layout, &self.stroke);
-        let verdict = recording.map_or(self.verdict, |recording| Verdict::of(rule, table, layout, &recording));
-        Self { verdict, ..self }
     }
 }
 
@@ -129,7 +130,7 @@ impl Session {
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
         let stroke = self.skill.stroke(table.radius, &meant, &errors);
-        let played = Played::of(exercise.rule, &table, &layout, stroke).with_miss(exercise.rule, &table, &layout);
+        let played = Played::told(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),
             meant: Some(meant),

@@ -55,10 +55,10 @@ pub struct Attempt {
     /// Whether it made the point.
     pub made: bool,
     /// Whether the player had looked at a shot that makes it, or had the coach play. An attempt with a hint counts too, and is marked.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub helped: bool,
     /// Whether the coach played it: then it is none of the player's record.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub by_coach: bool,
     /// Where the balls lay, m, if not where the exercise has them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -80,11 +80,6 @@ pub struct Attempt {
     pub advised_chance: Option<f64>,
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
-const fn is_false(value: &bool) -> bool {
-    !*value
-}
-
 /// A session of practice. It holds its exercises as they were: whatever becomes of them, it can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
@@ -99,10 +94,10 @@ pub struct Session {
     /// Whose strokes they are.
     pub skill: Skill,
     /// Whether the balls are shifted a little at every repetition but the first.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub shifted: bool,
     /// Whether the order of makes and misses is not known: then they do not count for runs and innings.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unordered: bool,
     /// The ball that is the cue ball at first.
     #[serde(default, skip_serializing_if = "CueBall::is_white")]
@@ -117,9 +112,8 @@ pub struct Session {
 
 impl Session {
     /// Who is told how often a shot is made: the player, on tables and from places that are in doubt, as pars are measured.
-    pub fn shooter(&self) -> Shooter {
-        let shooter = Shooter { skill: self.skill, doubt: Doubt::FULL };
-        Shooter { doubt: shooter.doubts(), ..shooter }
+    pub const fn shooter(&self) -> Shooter {
+        Shooter { skill: self.skill, doubt: Doubt::FULL }
     }
 
     /// A session that begins now. There must be an exercise.

@@ -133,19 +133,33 @@ impl CueInputs {
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }
 
-    /// Checks `a² + b² <= limit`; a [`Table`]'s `miscue_limit` is where a real tip begins to slip.
+    /// Checks `a² + b² <= limit`; a [`Table`]'s `miscue_limit` is where a real tip begins to slip. A steep cue may meet the ball
+    /// further up: what counts there is how far its line passes by the centre.
     ///
     /// # Errors
     /// [`CueError::Tip`] where it is larger or not a number.
     pub fn validate_tip(&self, limit: f64) -> Result<(), CueError> {
         let offset = self.tip_offset_squared();
         // Written so that NaN is refused.
-        if offset <= limit { Ok(()) } else { Err(CueError::Tip { a: self.a, b: self.b, offset, limit }) }
+        let holds = offset <= limit || offset <= 1.0 && self.offset_across_squared() <= limit;
+        if holds { Ok(()) } else { Err(CueError::Tip { a: self.a, b: self.b, offset, limit }) }
     }
 
     /// Whether the tip slips off the ball on this table: no ball is moved then, and no point is made.
     pub fn is_miscue(&self, table: &Table) -> bool {
-        self.tip_offset_squared() > table.miscue_limit
+        let (offset, limit) = (self.tip_offset_squared(), table.miscue_limit);
+        offset > limit && (offset > 1.0 || self.offset_across_squared() > limit)
+    }
+
+    /// How far the cue's line passes by the ball's centre, squared, in units of R²: `a² + (b cos theta - c sin theta)²`, as in
+    /// thesis equation 9. For a level cue it is `a² + b²`. A place on the far side, which no cue reaches but through the ball,
+    /// is as far off as can be: 1.
+    pub fn offset_across_squared(&self) -> f64 {
+        let (sin, cos) = self.theta.sin_cos();
+        let c = (1.0 - self.tip_offset_squared()).max(0.0).sqrt();
+        let lever = self.b * cos - c * sin;
+        let faces_cue = c * cos + self.b * sin > 0.0;
+        if faces_cue { self.a * self.a + lever * lever } else { 1.0 }
     }
 
     /// `a² + b²`, in units of R².
@@ -353,5 +367,23 @@ mod tests {
         let cue: CueInputs = serde_json::from_str(json).unwrap();
         assert!((cue.phi - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
         assert!(serde_json::to_string(&cue).unwrap().contains("\"phi_deg\":90.0"));
+    }
+
+    #[test]
+    fn a_steep_cue_may_meet_the_ball_near_its_top_and_a_level_one_may_not() {
+        let table = Table::preset("textbook").unwrap();
+        let cue = |theta: &str| CueInputs::parse(&format!("0.2,0.9,{theta},0,2")).unwrap();
+        let (level, steep) = (cue("5"), cue("75"));
+        assert!(level.is_miscue(&table) && level.validate_tip(table.miscue_limit).is_err());
+        assert!(!steep.is_miscue(&table) && steep.validate_tip(table.miscue_limit).is_ok());
+        // Its line passes the centre by less than half a radius.
+        assert!(steep.offset_across_squared() < 0.25, "{}", steep.offset_across_squared());
+        let flat = CueInputs { theta: 0.0, ..level };
+        assert!((flat.offset_across_squared() - flat.tip_offset_squared()).abs() < 1e-15);
+        // A steep cue does not reach the ball's lower half, and beside the ball there is nothing to meet.
+        let below = CueInputs { b: -0.9, ..steep };
+        assert!(below.is_miscue(&table) && below.validate_tip(table.miscue_limit).is_err());
+        let beside = CueInputs { a: 0.6, b: 0.9, ..steep };
+        assert!(beside.is_miscue(&table) && beside.validate_tip(1.0).is_err());
     }
 }

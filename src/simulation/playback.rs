@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Constants, End, Event, Observer, Segment, simulate};
 use crate::{
-    physics::{BallState, CueError, CueInputs, Impulse, ImpulseError, Motion, strike},
+    physics::{BallState, CueError, CueInputs, Impulse, ImpulseError, Motion, SpatialState, strike},
     table::{BALLS, Layout, LayoutError, Table},
 };
 
@@ -165,6 +165,12 @@ impl Recording {
     pub fn height(&self, ball: usize, t: f64) -> f64 {
         let (segment, after) = self.segment(ball, t);
         segment.hops().map_or(0.0, |hops| hops.state_after(after).position.z)
+    }
+
+    /// A ball's position, velocity and spin in space at time `t`, s.
+    pub fn spatial_state(&self, ball: usize, t: f64) -> SpatialState {
+        let (segment, after) = self.segment(ball, t);
+        segment.spatial_after(&self.constants, after)
     }
 
     /// The recorded segments of a ball, in order of time; each holds until the next one starts.

@@ -132,7 +132,8 @@ impl Layout {
             let mask = |spot: usize| {
                 (0..BALLS).find(|&other| !waiting[other] && layout.balls[other].distance(spots[spot]) < 2.0 * radius)
             };
-            // Two balls cannot be in the way of all three spots.
+            // Where the spots are four radii apart or more, as on every real table, two balls cannot be in the way of all three;
+            // on a smaller one the ball comes on its own, whatever lies there.
             let places = [ball, mask(ball).unwrap_or(ball), 0, 1, 2];
             let place = places.into_iter().find(|&spot| mask(spot).is_none()).unwrap_or(ball);
             layout.balls[ball] = spots[place];

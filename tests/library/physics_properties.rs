@@ -1,7 +1,7 @@
 //! What must hold for every shot: energy, momentum, no overlap, mirror symmetry, the same bits on every run.
 
 use carom::{
-    physics::{BallState, CueInputs, collide_balls, collide_rail},
+    physics::{BallState, CueInputs, Motion, collide_balls, collide_rail},
     simulation::{EventKind, Recording},
     table::{Layout, PRESETS, Table},
 };
@@ -72,16 +72,20 @@ fn renamed(kind: EventKind) -> EventKind {
     }
 }
 
-fn energy(recording: &Recording, radius: f64, t: f64) -> f64 {
-    (0..3).map(|ball| recording.state(ball, t).specific_energy(radius)).sum()
+fn energy(recording: &Recording, table: &Table, t: f64) -> f64 {
+    (0..3).map(|ball| recording.spatial_state(ball, t).specific_energy(table.radius, table.gravity)).sum()
 }
 
-/// Checks at a time that no balls overlap and all are on the table, to within a billionth of a metre.
+/// Checks at a time that no balls overlap and all are on the table, to within a billionth of a metre. A ball that lies on no
+/// cloth any more may be anywhere; one in the air may be over a nose.
 fn check_places(table: &Table, recording: &Recording, t: f64) -> Result<(), TestCaseError> {
-    let places = recording.positions(t);
+    let is_on_table = |ball: &usize| recording.motion(*ball, t) != Motion::OffTable;
+    let on_table = (0..3).filter(is_on_table).map(|ball| recording.spatial_state(ball, t).position);
+    let places: Vec<DVec3> = on_table.collect();
     for (index, place) in places.iter().enumerate() {
-        prop_assert!(place.is_finite());
-        prop_assert!((place.abs() - table.reach()).max_element() < 1e-9, "ball {index} is outside at {t} s");
+        prop_assert!(place.is_finite() && place.z >= 0.0);
+        let outside = (place.truncate().abs() - table.reach()).max_element();
+        prop_assert!(outside < 1e-9 || place.z > 0.0, "ball {index} is outside at {t} s");
         for other in &places[..index] {
             prop_assert!(place.distance(*other) > 2.0 * table.radius - 1e-9, "balls overlap at {t} s");
         }
@@ -101,14 +105,16 @@ proptest! {
     #[test]
     fn energy_never_grows((table, layout, cue) in shots()) {
         let recording = Recording::new(&table, &layout, &cue).unwrap();
-        let mut last = energy(&recording, table.radius, 0.0);
+        let mut last = energy(&recording, &table, 0.0);
         let slack = ROUNDING * (1.0 + last);
         for event in recording.events() {
-            let now = energy(&recording, table.radius, event.time);
+            let now = energy(&recording, &table, event.time);
             prop_assert!(now <= last + slack, "{event:?}: {last} becomes {now}");
             last = now;
         }
-        prop_assert_eq!(recording.final_layout().balls, recording.positions(f64::INFINITY));
+        if recording.off_table() == [false; 3] {
+            prop_assert_eq!(recording.final_layout().balls, recording.positions(f64::INFINITY));
+        }
     }
 
     #[test]
@@ -315,7 +321,9 @@ fn playback_is_continuous_and_ends_where_the_shot_ends() {
                 assert_eq!(recording.state(ball, recording.duration()).velocity, DVec2::ZERO);
             }
             let stops = |kind: &EventKind| matches!(kind, EventKind::RollingStationary(_));
-            assert!(recording.events().iter().any(|event| stops(&event.kind)));
+            // A ball that leaves the table does not stop on it.
+            let has_stopped = recording.events().iter().any(|event| stops(&event.kind));
+            assert!(has_stopped || recording.off_table()[0], "{:?}", recording.events());
         }
     }
 }

@@ -3,6 +3,7 @@
 mod leap;
 mod patterns;
 
+use patterns::BENT;
 pub use patterns::{PATTERNS, Pattern};
 
 use serde::Serialize;
@@ -101,6 +102,11 @@ impl Technique {
         self.first.map_or(0.0, |hit| hit.fullness)
     }
 
+    /// Whether the cue ball flies over a ball, or its way bends as a massé's does, before it meets anything.
+    pub fn is_leap(&self) -> bool {
+        self.over.is_some() || self.bend > BENT
+    }
+
     /// All cushions before the second object ball, in order.
     pub fn cushions(&self) -> impl Iterator<Item = &Cushion> {
         self.before.iter().chain(&self.between)
@@ -117,9 +123,17 @@ impl Technique {
                 self.turn = before.velocity.angle_to(way).abs();
                 incoming = None;
             }
-            if !has_touched && matches!(event.kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _)) {
+            let touches = match event.kind {
+                EventKind::BallBall(0, _) | EventKind::BallRail(0, _) => true,
+                EventKind::ContactBegins(ball) => ball == 0,
+                _ => false,
+            };
+            if !has_touched && touches {
                 has_touched = true;
-                self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
+                // What turns a ball that touches another or a cushion from the start is no bend of its way.
+                if event.time > 1e-9 {
+                    self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
+                }
             }
             match event.kind {
                 EventKind::BallBall(1, 2) => self.drives_second = true,
@@ -162,9 +176,7 @@ mod tests {
     use crate::table::Flight;
 
     fn flown(layout: &str, cue: &str) -> Technique {
-        let table = Table { flight: Some(Flight::default()), ..Table::default() };
-        let layout = Layout::parse(layout, &table).unwrap();
-        Technique::of(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+        technique_on(&Table { flight: Some(Flight::default()), ..Table::default() }, layout, cue)
     }
 
     #[test]
@@ -179,13 +191,18 @@ mod tests {
         // The first ball is met from the air, and nothing is flown over.
         let onto = flown("-0.5,0 -0.2,0 0.5,0.02", "0,0,20,0,6");
         assert!(onto.first.is_some_and(|hit| hit.ball == 1) && onto.over.is_none(), "{onto:?}");
-        assert_eq!(technique("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6").over, None, "on a table that keeps its balls");
+        let (layout, cue) = ("-0.5,0 -0.2,0 0.5,0.02", "0,0,45,0,6");
+        let frozen = technique_on(&Table { flight: None, ..Table::default() }, layout, cue);
+        assert_eq!(frozen.over, None, "on a table that keeps its balls");
     }
 
     fn technique(layout: &str, cue: &str) -> Technique {
-        let table = Table::default();
-        let layout = Layout::parse(layout, &table).unwrap();
-        Technique::of(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
+        technique_on(&Table::default(), layout, cue)
+    }
+
+    fn technique_on(table: &Table, layout: &str, cue: &str) -> Technique {
+        let layout = Layout::parse(layout, table).unwrap();
+        Technique::of(table, &layout, &CueInputs::parse(cue).unwrap()).unwrap()
     }
 
     #[test]

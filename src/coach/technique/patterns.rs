@@ -25,7 +25,7 @@ const MARKED: f64 = 0.2;
 
 /// Least bend of the way to the first contact that makes a massé, rad: 15°. Side with a cue as level as the rails allow bends
 /// it by a degree or two.
-const BENT: f64 = 0.26;
+pub(super) const BENT: f64 = 0.26;
 
 /// Spin below which the cue ball is drawn, in units of a rolling ball's.
 const DRAWN: f64 = -0.15;

@@ -12,7 +12,7 @@ mod units;
 use glam::DVec2;
 use serde::Serialize;
 
-pub use flight::{height_words, jump_words};
+pub use flight::{height_words, jump_words, no_jump_words};
 use numbers::clock;
 pub use numbers::fullness_word;
 pub(super) use numbers::number_word;

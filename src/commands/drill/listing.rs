@@ -18,7 +18,7 @@ use crate::{
 /// List the exercises, with the player's record.
 #[derive(Debug, clap::Args)]
 pub struct ListArgs {
-    /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion or own.
+    /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion, systems, jump-and-masse or own.
     #[arg(long, value_parser = category_called)]
     category: Option<Category>,
     /// Only this grade, 1 (easy) to 5; 0 for exercises without a grade.

@@ -24,6 +24,9 @@ pub struct PlayOptions {
     /// Time that the coach has for a shot, ms.
     #[arg(long, default_value_t = 300, value_parser = clap::value_parser!(u64).range(0..=3_600_000))]
     pub(super) budget_ms: u64,
+    /// The coach advises neither jumps over a ball nor massés, as most clubs have it.
+    #[arg(long)]
+    pub(super) no_jumps: bool,
     /// Print JSON: an object a line, of the kinds "position", "attempt", "refused" and "result".
     #[arg(long)]
     pub(super) json: bool,

@@ -278,7 +278,8 @@ impl<'a> StrokeByStroke<'a> {
         // In a game the next point counts too.
         let plan = self.session.is_game();
         let budget = Duration::from_millis(self.options.budget_ms);
-        let request = Request { rule, skill, doubt, plan, budget, seed, ..Request::default() };
+        let jumps = !self.options.no_jumps;
+        let request = Request { rule, skill, doubt, plan, jumps, budget, seed, ..Request::default() };
         let coach = self.coaches.get(&table.name)?;
         let advice = advise(coach, layout, &request).map_err(Failure::wrong_input)?;
         self.advice = advice.map(|advice| (*layout, advice));

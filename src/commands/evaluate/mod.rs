@@ -87,6 +87,9 @@ pub struct Args {
     /// Rank shots by the probability of this point and the next.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     plan: bool,
+    /// Advise neither jumps over a ball nor massés, as most clubs have it.
+    #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
+    no_jumps: bool,
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only")]
     budget_ms: u64,
@@ -179,8 +182,8 @@ fn request(args: &Args, skill: Skill) -> Request {
         None => (Duration::from_millis(args.budget_ms), u64::MAX),
     };
     let doubt = args.choose_doubt.unwrap_or(args.doubt);
-    let Args { rule, plan, seed, .. } = *args;
-    Request { rule, skill, doubt, plan, budget, simulations, seed, ..Request::default() }
+    let Args { rule, plan, no_jumps, seed, .. } = *args;
+    Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
 }
 
 /// Speed above which a stroke counts as a hard one, m/s: filmed players' balls leave the cue at 3.5 m/s, after a stroke of 2.5.

@@ -54,6 +54,9 @@ pub struct Args {
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
     #[arg(long, conflicts_with = "policy_only")]
     plan: bool,
+    /// Advise neither jumps over a ball nor massés, as most clubs have it.
+    #[arg(long, conflicts_with = "policy_only")]
+    no_jumps: bool,
     /// Say also how far off each input may be, with maps of the outcome, and where to aim.
     #[arg(long)]
     margins: bool,
@@ -189,8 +192,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         describe(&mut out, args, coach.table(), &answer)?;
     }
     if answer.solved == Some(false) {
+        let without = if args.no_jumps { " without jumps and massés" } else { "" };
         return Err(Failure::failed(format_args!(
-            "no point was found in {} ms; this is the best attempt, a larger --budget-ms may do",
+            "no point was found{without} in {} ms; this is the best attempt, a larger --budget-ms may do",
             args.budget_ms
         )));
     }
@@ -248,6 +252,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         skill: args.skill,
         doubt: args.doubt,
         plan: args.plan,
+        jumps: !args.no_jumps,
         budget: Duration::from_millis(args.budget_ms),
         simulations: args.simulations.unwrap_or(u64::MAX),
         seed: args.seed,

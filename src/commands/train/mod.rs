@@ -144,7 +144,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // A terminal that is hung up, as when an ssh connection breaks, is no reason to stop: the run can be watched and
     // stopped from the next one.
     flag::register(SIGHUP, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
-    let options = TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
+    let options =
+        TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
     if let Some(name) = &args.resume {
         return resume(&run_named(name), args.jobs, &options);
     }

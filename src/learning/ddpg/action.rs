@@ -117,18 +117,39 @@ impl Meaning {
         let (left, up) = (input(2), input(3));
         let radius = TIP_SHARE * table.miscue_limit.sqrt();
         let tip = [left * (-(up * up) * 0.5 + 1.0).sqrt() * radius, up * (-(left * left) * 0.5 + 1.0).sqrt() * radius];
-        Self {
+        let meaning = Self {
             offset: scaled(OFFSETS, input(0)),
             speed: scaled(SPEEDS, input(1)),
             tip,
             theta: scaled(ELEVATIONS, input(4)),
-        }
+        };
+        if table.flight.is_some() { meaning.levelled(table) } else { meaning }
+    }
+
+    /// The stroke with a level cue that gives the cue ball the same speed, roll and side: where a raised cue makes a ball hop,
+    /// networks strike level. What the raised cue would have made it swerve is left out, and where the tip would have to be
+    /// beyond its limit, so is the rest of the roll. See `physics::level_stroke`.
+    fn levelled(self, table: &Table) -> Self {
+        let [a, b] = self.tip;
+        let (sin, cos) = self.theta.sin_cos();
+        let lever = b * cos - (-(a * a) - b * b + 1.0).at_least(1e-6).sqrt() * sin;
+        let limit = TIP_SHARE * TIP_SHARE * table.miscue_limit;
+        let most = (-(a * a) + limit).at_least(1e-12).sqrt();
+        let up = -((-(lever * cos.recip())).min(most));
+        let up = up.min(most);
+        let mass = |lever: Dual| (a * a + lever * lever) * 2.5 + (1.0 + table.ball_mass / table.cue_mass);
+        let speed = self.speed * cos * mass(up) * mass(lever).recip();
+        Self { speed, tip: [a, up], theta: Dual::constant(0.0), ..self }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        physics::{CueInputs, strike},
+        table::Flight,
+    };
 
     #[test]
     fn offsets_and_actions_are_inverse() {
@@ -136,5 +157,28 @@ mod tests {
             let action = [aim_at(value), 0.0, 0.0, 0.0, 0.0];
             assert!((Meaning::of(&Table::default(), action).offset.value - value).abs() < 1e-7);
         }
+    }
+
+    #[test]
+    fn where_balls_fly_a_raised_stroke_becomes_the_level_one_of_the_same_speed_roll_and_side() {
+        let frozen = Table { flight: None, ..Table::default() };
+        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        for action in [[0.2, 0.3, 0.4, 0.5, 0.3], [0.2, -0.3, -0.6, 0.2, 1.0], [0.2, 0.9, 0.0, 0.0, 0.0]] {
+            let [raised, level] = [&frozen, &table].map(|table| {
+                let Meaning { speed, tip: [a, b], theta, .. } = Meaning::of(table, action);
+                let cue = CueInputs { a: a.value, b: b.value, theta: theta.value, phi: 0.0, speed: speed.value };
+                cue.validate_tip(table.miscue_limit).unwrap();
+                (cue.theta, strike(table, &cue))
+            });
+            assert!(raised.0 > 0.1 && level.0 == 0.0 && level.1.lift == 0.0);
+            let speeds = [raised.1, level.1].map(|impulse| impulse.velocity.length());
+            assert!((speeds[0] - speeds[1]).abs() < 1e-12, "{speeds:?}");
+            let ways = [raised.1, level.1].map(|impulse| impulse.velocity.normalize());
+            let rolls = [raised.1.spin.truncate().dot(ways[0].perp()), level.1.spin.truncate().dot(ways[1].perp())];
+            assert!((rolls[0] - rolls[1]).abs() < 1e-9 && (raised.1.spin.z - level.1.spin.z).abs() < 1e-9, "{rolls:?}");
+        }
+        // Low and raised by 20 degrees, the tip would have to be below where it slips.
+        let low = Meaning::of(&table, [0.2, 0.3, 0.0, -1.0, 1.0]);
+        assert!((low.tip[1].value + 0.98 * table.miscue_limit.sqrt()).abs() < 1e-12, "{low:?}");
     }
 }

@@ -210,15 +210,18 @@ pub struct Spread {
 impl Spread {
     fn of(shots: u64, rewards: &[f64]) -> Self {
         let count = rewards.len() as f64;
-        let mean = rewards.iter().sum::<f64>() / count;
+        let min = rewards.iter().copied().fold(f64::INFINITY, f64::min);
+        let max = rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // The mean of equal rewards is that reward, whatever rounding makes of their sum.
+        let mean = (rewards.iter().sum::<f64>() / count).max(min).min(max);
         let squares = rewards.iter().map(|reward| (reward - mean).powi(2)).sum::<f64>();
         Self {
             shots,
             seeds: rewards.len(),
             mean,
             sd: (rewards.len() > 1).then(|| (squares / (count - 1.0)).sqrt()),
-            min: rewards.iter().copied().fold(f64::INFINITY, f64::min),
-            max: rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            min,
+            max,
         }
     }
 }

@@ -145,7 +145,7 @@ impl App {
     #[must_use]
     pub fn with_settings(mut self, settings: &Settings) -> Self {
         self.coach.take_settings(settings);
-        self.drills.units = settings.units;
+        self.drills.take_settings(settings);
         self.settings.settings = settings.clone();
         self.in_force = settings.clone();
         self.mouse = settings.mouse;

@@ -48,7 +48,7 @@ impl App {
         if let Err(sentence) = self.coach.take_changes(&before, &settings) {
             self.toasts.push(sentence, false);
         }
-        self.drills.units = settings.units;
+        self.drills.take_settings(&settings);
         self.mouse = settings.mouse;
         let looks = |settings: &Settings| (settings.depth, settings.glyphs);
         if looks(&before) != looks(&settings) {

@@ -159,6 +159,18 @@ pub const ENTRIES: &[Entry] = &[
     },
     Entry {
         group: "Game",
+        key: "jumps",
+        about: "Whether the coach may advise jumps over a ball and massés; most clubs forbid them.",
+        accepted: "true, false",
+        choices: truths,
+        get: |settings| settings.jumps.to_string(),
+        set: |settings, value| {
+            settings.jumps = value.as_bool()?;
+            Some(())
+        },
+    },
+    Entry {
+        group: "Game",
         key: "think_ms",
         about: "How long the coach may think, in milliseconds.",
         accepted: "10 to 60000",

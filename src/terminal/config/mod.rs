@@ -46,6 +46,8 @@ pub struct Settings {
     pub doubt: Doubt,
     /// Whether the coach has the next point in mind.
     pub plan: bool,
+    /// Whether the coach may advise jumps and massés.
+    pub jumps: bool,
     /// How long the coach may think, ms. A quarter of the usual second finds an expert three-cushion shots that are made 98
     /// times of 100; the rest is for players who err more and for the next point, and no longer than a player looks at the
     /// table.
@@ -73,6 +75,7 @@ impl Default for Settings {
             skill: Skill::EXPERT,
             doubt: Doubt::FULL,
             plan: true,
+            jumps: true,
             think_ms: 1000,
             units: Units::default(),
             step_mm: 10.0,

@@ -69,6 +69,7 @@ pub fn converse(
         skill: settings.skill,
         doubt: settings.doubt,
         plan: settings.plan,
+        jumps: settings.jumps,
         budget: Duration::from_millis(settings.think_ms),
         ..Request::default()
     };

@@ -25,7 +25,8 @@ pub use self::{
 };
 
 use crate::{
-    coach::{Hit, Pattern, ShotWords, Technique},
+    coach::{Hit, Pattern, ShotWords, Technique, Verdict},
+    game::Rule,
     physics::{CueInputs, Impulse},
     simulation::{EventKind, Rail, Recording, ShotError, TOLD_HEIGHT},
     table::{BALLS, CueBall, Layout, Table},
@@ -103,6 +104,8 @@ pub struct Shot {
     pub pattern: Option<&'static Pattern>,
     /// Its jump from the side, once somebody has looked.
     profile: OnceLock<Option<Profile>>,
+    /// What came of it by each rule, once somebody has asked.
+    verdicts: [OnceLock<Verdict>; Rule::ALL.len()],
 }
 
 impl Shot {
@@ -135,6 +138,7 @@ impl Shot {
             words: ShotWords::of_technique(table, &layout, &cue, &technique),
             pattern: Pattern::of(&technique),
             profile: OnceLock::new(),
+            verdicts: Default::default(),
             recording,
         }
     }
@@ -142,6 +146,13 @@ impl Shot {
     /// Its jump on `table`, as one who looks from the side sees it; `None` where nothing jumps.
     pub fn profile(&self, table: &Table) -> Option<&Profile> {
         self.profile.get_or_init(|| Profile::of(table, &self.recording)).as_ref()
+    }
+
+    /// What came of it on `table` by a rule.
+    pub fn verdict(&self, rule: Rule, table: &Table) -> Verdict {
+        let layout = || Layout::new(self.recording.positions(0.0));
+        let place = Rule::ALL.iter().position(|one| *one == rule).unwrap_or_default();
+        *self.verdicts[place].get_or_init(|| Verdict::of(rule, table, &layout(), &self.recording))
     }
 
     /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.

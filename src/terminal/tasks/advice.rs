@@ -22,17 +22,20 @@ pub struct CoachQuery {
     pub doubt: Doubt,
     /// Whether the next point counts too.
     pub plan: bool,
+    /// Whether jumps and massés may be advised.
+    pub jumps: bool,
 }
 
 impl Default for CoachQuery {
     fn default() -> Self {
-        Self { policy: None, rule: Rule::default(), skill: Skill::EXPERT, doubt: Doubt::FULL, plan: true }
+        Self { policy: None, rule: Rule::default(), skill: Skill::EXPERT, doubt: Doubt::FULL, plan: true, jumps: true }
     }
 }
 
 impl PartialEq for CoachQuery {
     fn eq(&self, other: &Self) -> bool {
-        (self.rule, self.shooter(), self.plan) == (other.rule, other.shooter(), other.plan) && self.has_policy_of(other)
+        (self.rule, self.shooter(), self.plan, self.jumps) == (other.rule, other.shooter(), other.plan, other.jumps)
+            && self.has_policy_of(other)
     }
 }
 
@@ -123,6 +126,7 @@ mod tests {
             CoachQuery { rule: Rule::OneCushion, ..query.clone() },
             CoachQuery { skill: Skill::CLUB, ..query.clone() },
             CoachQuery { plan: false, ..query.clone() },
+            CoachQuery { jumps: false, ..query.clone() },
             CoachQuery { doubt: Doubt::NONE, ..query.clone() },
         ] {
             assert_ne!(query, other);

@@ -61,6 +61,8 @@ pub struct Position {
     pub shooter: Shooter,
     /// Whether what comes next counts too, as in a game.
     pub plan: bool,
+    /// Whether jumps and massés may be advised.
+    pub jumps: bool,
     /// The exercise's own shot, where the balls lie for it; otherwise the coach is asked.
     pub own: Option<CueInputs>,
     /// Set when the answer is no longer wanted.

@@ -127,6 +127,7 @@ impl PracticeWorker {
                 skill: shooter.skill,
                 doubt: shooter.doubt,
                 plan: position.plan,
+                jumps: position.jumps,
                 budget: BUDGET,
                 cancel,
                 ..Request::default()

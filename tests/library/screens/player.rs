@@ -73,7 +73,7 @@ pub fn proposal(table: &Table, layout: &Layout, cue: &str, way: Way, made: usize
     let pace = if shot.cue.speed < 2.5 { Pace::Soft } else { Pace::Hard };
     Proposal {
         shot: Arc::new(shot),
-        kind: Some(Kind { first_ball: 1, cushion_first: false, way, pace }),
+        kind: Some(Kind { first_ball: 1, cushion_first: false, way, pace, raised: false }),
         made: Some(SuccessRate::new(made, 1000)),
         risk: None,
         next: Some(0.97),

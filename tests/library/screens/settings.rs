@@ -45,19 +45,20 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     let player = with(TRUE_COLOUR, "# mine\ntheme = \"dark\" # at night\n").press("Right");
     assert_eq!(player.picture(80, 24)[(79, 23)].bg, Color::Rgb(0xf6, 0xf5, 0xf0), "the light theme's paper");
     assert_eq!(player.settings_text(), "# mine\ntheme = \"light\" # at night\n");
-    // theme, colours, glyphs, table, rule, skill, doubt, plan, think_ms, step_mm, speed, mouse
+    // theme, colours, glyphs, table, rule, skill, doubt, plan, jumps, think_ms, step_mm, speed, mouse
     let player = player.press(
-        "Down Down Down Right Down Right Right Down Left Down Left Down Right Down Left Down Right Down Right Down l",
+        "Down Down Down Right Down Right Right Down Left Down Left Down Right Down Right Down Left Down Right Down Right Down l",
     );
     assert_eq!(player.app.table().name, "textbook");
     let query = &player.app.coach().query;
-    assert_eq!((query.rule, query.plan), (Rule::ThreeCushion, false));
+    assert_eq!((query.rule, query.plan, query.jumps), (Rule::ThreeCushion, false, false));
+    assert!(player.text(80, 24).contains("jumps") && player.settings_text().contains("jumps = false\n"));
     assert_eq!((player.app.step_mm(), player.app.playback().speed(), player.app.wants_mouse()), (50.0, 2.0, false));
     let (settings, complaints) = Settings::load(&player.path("config.toml"));
     assert_eq!((settings.think_ms, settings.rule, complaints.len()), (500, Rule::ThreeCushion, 0));
     // Back to the defaults, each in its place.
     let player = player.press(
-        "Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Up Up Delete",
+        "Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Up Up Delete",
     );
     assert_eq!(Settings::load(&player.path("config.toml")).0, Settings::default());
     assert!(player.settings_text().starts_with("# mine\ntheme = \"dark\" # at night\n"));
@@ -75,7 +76,7 @@ fn the_table_comes_back_with_a_step_back() {
 
 #[test]
 fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
-    let player = new().press("Down Down Down Down Down Down Down Down Enter").type_in("5");
+    let player = new().press("Down Down Down Down Down Down Down Down Down Enter").type_in("5");
     player.shows(&["think_ms = 5", "Accepted: 10 to 60000.", "Enter take it"]);
     assert_eq!(player.app.place(), KeyContext::Settings(SettingsContext::Typing));
     let player = player.press("Enter");

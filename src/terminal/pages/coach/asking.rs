@@ -237,7 +237,8 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
     if !shot.solved {
         let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
         let source = &shot.source;
-        return Message::poor(format!("no point found{tried}; this is the best attempt ({source}{took})"));
+        let without = if query.jumps { "" } else { " without jumps and massés" };
+        return Message::poor(format!("no point found{without}{tried}; this is the best attempt ({source}{took})"));
     }
     let Some(chance) = chance(proposal, query) else {
         return Message::good(format!("makes the point ({}{took})", shot.source));
@@ -247,7 +248,8 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery) -> Mess
         Some(Cause::Placing) => "; the balls' places are the main risk",
         Some(Cause::Hand) | None => "",
     };
-    Message::good(format!("{} makes it {chance}{cause}", skill_word(query.skill)))
+    let forbidden = if query.jumps { "" } else { "; jumps are off" };
+    Message::good(format!("{} makes it {chance}{cause}{forbidden}", skill_word(query.skill)))
 }
 
 /// How often the player makes a shot, where there is a doubt.

@@ -233,8 +233,8 @@ impl CoachPage {
 
     /// Begins as the user wants it.
     pub fn take_settings(&mut self, settings: &Settings) {
-        let Settings { rule, skill, doubt, plan, .. } = *settings;
-        self.query = CoachQuery { rule, skill, doubt, plan, ..self.query.clone() };
+        let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
+        self.query = CoachQuery { rule, skill, doubt, plan, jumps, ..self.query.clone() };
         self.budget = Duration::from_millis(settings.think_ms);
         self.units = settings.units;
         self.set_step(settings.step_mm);
@@ -269,6 +269,9 @@ impl CoachPage {
         if before.plan != settings.plan {
             query.plan = settings.plan;
         }
+        if before.jumps != settings.jumps {
+            query.jumps = settings.jumps;
+        }
         if query != self.query {
             self.cancel();
             self.query = query;
@@ -291,11 +294,8 @@ impl CoachPage {
     pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
         let layout = if self.table() == table { *self.layout() } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
-        self.take(
-            table,
-            layout,
-            CoachQuery { skill: self.query.skill, doubt: self.query.doubt, plan: self.query.plan, ..query },
-        );
+        let CoachQuery { skill, doubt, plan, jumps, .. } = self.query;
+        self.take(table, layout, CoachQuery { skill, doubt, plan, jumps, ..query });
         self.message = Some(Message::good(news));
     }
 
@@ -389,7 +389,7 @@ impl CoachPage {
     /// What came of the shot that is watched, once the balls lie still.
     pub fn verdict(&self) -> Option<Verdict> {
         let shot = self.watched().filter(|shot| self.playback.time >= shot.recording.duration())?;
-        Some(Verdict::of(self.query.rule, self.table(), self.layout(), &shot.recording))
+        Some(shot.verdict(self.query.rule, self.table()))
     }
 
     /// The chosen step in millimetres, mm.

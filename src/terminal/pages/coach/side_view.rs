@@ -1,8 +1,10 @@
 //! The jump from the side: when it is shown, and what is said where there is none.
 
+use std::sync::Arc;
+
 use crate::{
-    coach::words::height_words,
-    terminal::{pages::coach::CoachPage, shot::Profile, ui::Message},
+    coach::words::no_jump_words,
+    terminal::{Shot, pages::coach::CoachPage, shot::Profile, ui::Message},
 };
 
 /// From where the shot is looked at.
@@ -34,15 +36,7 @@ impl CoachPage {
     }
 
     fn no_jump(&self) -> String {
-        if self.table().flight.is_none() {
-            return "no ball leaves this table's cloth: its file has no section [flight]".to_owned();
-        }
-        let jumps = self.shot().map_or_else(Vec::new, |shot| shot.recording.jumps());
-        let highest = jumps.iter().map(|jump| jump.height).fold(0.0, f64::max);
-        if highest == 0.0 {
-            return "nothing leaves the cloth in this shot".to_owned();
-        }
-        let height = height_words(highest, self.units.length);
-        format!("nothing leaves the cloth by more than {height} in this shot")
+        let words = |shot: &Arc<Shot>| no_jump_words(self.table(), &shot.recording, self.units.length);
+        self.shot().map_or_else(|| "nothing leaves the cloth in this shot".to_owned(), words)
     }
 }

@@ -113,7 +113,8 @@ impl DrillsPage {
     /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
         match Turn::new(session) {
-            Ok(Some(turn)) => {
+            Ok(Some(mut turn)) => {
+                turn.jumps = self.jumps;
                 self.pages = vec![Screen::Library, Screen::Exercise];
                 return self.turn.insert(turn).ask();
             }

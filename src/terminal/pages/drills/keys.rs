@@ -69,6 +69,8 @@ pub enum DrillAction {
     Filmed(isize),
     /// Shows the model shot, or hides it.
     Hint,
+    /// Shows the jump from the side too, or the table alone.
+    TurnSideView,
     /// Turns to another page of a text that has no room, the next where positive.
     TurnText(isize),
     /// Shifts the balls by half a ball at each repetition, or not.
@@ -266,6 +268,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Adopted, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
+    bind(Stroke, W::Here, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
     bind(Stroke, W::Here, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
         "turn the pages of a text that is longer than its room"),
     bind(Score, W::Free, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),

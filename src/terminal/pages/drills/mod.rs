@@ -28,7 +28,9 @@ use crate::{
     game::Rule,
     storage::Places,
     table::{Layout, Table},
-    terminal::{DrillContext, DrillTask, Effect, pages::drills::film::FilmsScreen, shot::Playback, ui::Message},
+    terminal::{
+        DrillContext, DrillTask, Effect, Settings, pages::drills::film::FilmsScreen, shot::Playback, ui::Message,
+    },
 };
 
 pub use book::{Book, record_of};
@@ -123,6 +125,8 @@ pub struct DrillsPage {
     pub question: Option<Question>,
     /// What the status line says.
     pub message: Option<Message>,
+    /// Whether the coach may advise jumps and massés.
+    pub jumps: bool,
     /// The units in which the player is told lengths.
     pub units: Units,
     options: RepetitionOptions,
@@ -149,12 +153,21 @@ impl DrillsPage {
             player: Player { skill: Skill::default(), own: None, at_coach: Skill::default() },
             question: None,
             message: None,
+            jumps: true,
             units: Units::default(),
             options: RepetitionOptions { goal: Goal::Free, shifted: false },
             for_coach: None,
             pages: Vec::new(),
             left_exam: None,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
+        }
+    }
+
+    /// Takes what is set for all pages.
+    pub fn take_settings(&mut self, settings: &Settings) {
+        (self.units, self.jumps) = (settings.units, settings.jumps);
+        if let Some(turn) = &mut self.turn {
+            turn.jumps = settings.jumps;
         }
     }
 

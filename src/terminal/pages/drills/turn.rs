@@ -8,7 +8,10 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Skill, words::LengthUnit},
+    coach::{
+        Skill,
+        words::{LengthUnit, no_jump_words},
+    },
     drills::{Exercise, ExerciseError, Goal, Session, Venue},
     learning::evaluation::SuccessRate,
     physics::{CueInputs, LeastElevation, NoRoom, least_elevation},
@@ -19,7 +22,7 @@ use crate::{
             Watched,
             sight::{Sight, sight},
         },
-        shot::{OwnStroke, Playback, StrokeChange, WhatIf, aiming, stroke::TipSlips, what_if},
+        shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::TipSlips, what_if},
         ui::Message,
     },
 };
@@ -64,12 +67,16 @@ pub struct Turn {
     pub cue_ball: CueBall,
     /// What is going on.
     pub stage: Stage,
+    /// Whether the coach may advise jumps and massés here.
+    pub jumps: bool,
     /// The stroke that is taught.
     pub lesson: Lesson,
     /// Whether it is shown.
     pub shows_hint: bool,
     /// Whether it was shown since the balls were placed.
     pub is_helped: bool,
+    /// Whether a jump is shown from the side too.
+    pub is_from_side: bool,
     /// The page of the aim's text, where one has no room for all of it; beyond the last the first comes again.
     pub text_page: isize,
     /// The session as it will be once all notes are saved.
@@ -95,6 +102,7 @@ impl Turn {
             stroke: OwnStroke::new(aiming::first_stroke(&layout)),
             what_if: None,
             cue_ball: session.cue_ball_now(),
+            jumps: true,
             session,
             exercise,
             table,
@@ -103,6 +111,7 @@ impl Turn {
             lesson: Lesson::Pending,
             shows_hint: false,
             is_helped: false,
+            is_from_side: false,
             text_page: 0,
             ahead: None,
             position: 0,
@@ -247,6 +256,23 @@ impl Turn {
         }
     }
 
+    /// The jump of the shot on the table, while it is to be shown from the side; a shot without one has none.
+    pub fn profile(&self) -> Option<&Profile> {
+        self.shot().filter(|_| self.is_from_side)?.profile(&self.table)
+    }
+
+    /// Shows jumps from the side, or no longer; what there is to say where the shot on the table has none. Before the stroke
+    /// it holds for the one that comes.
+    pub(super) fn turn_side_view(&mut self, unit: LengthUnit) -> String {
+        self.is_from_side = !self.is_from_side;
+        match (self.is_from_side, self.shot()) {
+            (false, _) => "jumps are shown from above alone".to_owned(),
+            (true, None) => "jumps are shown from the side too".to_owned(),
+            (true, Some(shot)) if shot.profile(&self.table).is_some() => "the jump from the side".to_owned(),
+            (true, Some(shot)) => no_jump_words(&self.table, &shot.recording, unit),
+        }
+    }
+
     /// Whether the last attempt of the session is still being watched: its result is not shown yet.
     fn is_open(&self) -> bool {
         self.watched().is_some_and(|watched| !watched.is_settled)
@@ -283,6 +309,7 @@ impl Turn {
             rule: self.exercise.rule,
             shooter: self.session.shooter(),
             plan: self.session.is_game(),
+            jumps: self.jumps,
             own: self.exercise.model_shot().filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]

@@ -89,8 +89,8 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
             }
         }
     }
-    rows.push(side_words(proposal, coach));
-    rows.push(height_words(proposal, coach));
+    rows.push(tip_side_words(proposal, coach));
+    rows.push(tip_height_words(proposal, coach));
     rows.push(format!("{} {}", pace_word(words.table_lengths), short(words.table_lengths, 1)));
     rows.push(match fixed(words.elevation_deg, 0) {
         _ if words.has_level_cue() => "level cue".to_owned(),
@@ -131,8 +131,8 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         |mark: Mark| format!("{} rail {}", rail_word(mark.rail), place_along(coach, mark.diamond, to_hundredths));
     vec![
         ("hit", hit),
-        ("side", side_words(proposal, coach) + english),
-        ("height", height_words(proposal, coach)),
+        ("side", tip_side_words(proposal, coach) + english),
+        ("height", tip_height_words(proposal, coach)),
         ("speed", format!("{}, {} lengths", pace_word(words.table_lengths), short(words.table_lengths, 1))),
         ("cue", cue),
         ("from", mark(words.behind)),
@@ -140,13 +140,13 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     ]
 }
 
-fn side_words(proposal: &Proposal, coach: &CoachPage) -> String {
+fn tip_side_words(proposal: &Proposal, coach: &CoachPage) -> String {
     let tips = proposal.shot.words.tips_right;
     offset(tips, coach)
         .map_or_else(|| "no side".to_owned(), |text| format!("{text} {}", if tips > 0.0 { "right" } else { "left" }))
 }
 
-fn height_words(proposal: &Proposal, coach: &CoachPage) -> String {
+fn tip_height_words(proposal: &Proposal, coach: &CoachPage) -> String {
     let tips = proposal.shot.words.tips_above;
     offset(tips, coach).map_or_else(
         || "centre height".to_owned(),

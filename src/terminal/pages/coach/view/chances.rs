@@ -16,8 +16,9 @@ const NUMBER_END: u16 = 2;
 const CHANCE_END: u16 = 9;
 const WORDS: u16 = 10;
 
-/// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`.
-pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: &mut Ui) {
+/// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`; why the first shot leads it says where
+/// no other panel does.
+pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Chances", ui.theme.text())];
     if let Some(advised) = advised {
         title.push(Span::styled(ui.caps.pick(" · ", " - "), ui.theme.faint()));
@@ -56,7 +57,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, area: Rect, ui: 
         row += 1;
     }
     let rest = Rect { y: row, height: inner.bottom().saturating_sub(row), ..inner };
-    if let Some(words) = list_words(advised, ui) {
+    if let Some(words) = list_words(advised, ui).filter(|_| says_why) {
         let why = if advised.chosen() == 0 { "Why" } else { "Why shot 1 leads" };
         write_lines(&format!("{why}: {words}"), rest, ui);
     }

@@ -20,6 +20,8 @@ const WORDY: usize = 16;
 /// Columns behind the tabs from which on the usual table is named, and its size given.
 const NAMED: usize = 60;
 const MEASURED: usize = 90;
+/// What is said where jumps and massés are forbidden; the answer says it too.
+const FORBIDDEN: &str = " no jumps";
 /// Fewest columns of a policy's name that still tell something.
 const NAME: usize = 8;
 
@@ -61,8 +63,16 @@ fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
     line
 }
 
-/// The policy that is asked or the table, where it is not the usual one or there is room for it.
+/// The policy that is asked or the table, where it is not the usual one or there is room for it; then that jumps are forbidden.
 fn name(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
+    let mut line = policy_or_table(coach, left, room, ui);
+    if !coach.query.jumps && line.width() + FORBIDDEN.len() <= left {
+        line.push_span(Span::styled(FORBIDDEN, ui.theme.text()));
+    }
+    line
+}
+
+fn policy_or_table(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
     let table = coach.table();
     let is_usual = coach.query.policy.is_none() && table.name == "match";
     if left < NAME || is_usual && room < NAMED {

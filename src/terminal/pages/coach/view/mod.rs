@@ -125,11 +125,23 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
     }
     let told = coach.told().filter(|_| chosen == View::Shot);
     let is_beside = panes.is_beside();
+    // Before the stroke words have the room of what only tells later, or tells the same.
+    let is_wide = !is_beside && !coach.is_in_numbers;
+    let has_told_why = told.is_some_and(|told| {
+        let area = match () {
+            () if is_beside => panes.info.union(panes.events),
+            () if is_wide => panes.info.union(panes.shot),
+            () => panes.info,
+        };
+        draw_told(coach, told, area, ui)
+    });
+    let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
+    let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     for (view, area) in views(chosen, panes) {
         match coach.lesson().filter(|_| view == chosen) {
             Some(lesson) => draw_lesson(lesson, area, ui),
             None if told.is_some() && view == chosen => {}
-            None => draw_info(coach, view, area, ui),
+            None => draw_info(coach, view, !has_told_why && !is_explained, area, ui),
         }
     }
     let study = coach.shown().and_then(|advised| advised.choice().study.as_ref());
@@ -137,16 +149,6 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         draw_aim_map(&study.aim, study.hand, panes.shot, ui);
         draw_tip_map(&study.tip, &shot.cue, table, panes.tip.union(panes.sight), ui);
         return draw_legend(panes.events, ui);
-    }
-    // Before the stroke words have the room of what only tells later, or tells the same.
-    let is_wide = !is_beside && !coach.is_in_numbers;
-    if let Some(told) = told {
-        let area = match () {
-            () if is_beside => panes.info.union(panes.events),
-            () if is_wide => panes.info.union(panes.shot),
-            () => panes.info,
-        };
-        draw_told(coach, told, area, ui);
     }
     match coach.proposal() {
         Some(_) if told.is_some() && is_wide => {}
@@ -161,8 +163,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         Some(spin) => draw_spin(&spin, panes.sight, ui),
         None => draw_sight(shot.map(Shot::meeting), panes.sight, ui),
     }
-    let explained = coach.shown().filter(|_| is_beside && chosen == View::Chances && coach.told().is_some());
-    if told.is_some() && is_beside || explained.is_some_and(|advised| draw_why(advised, panes.events, ui)) {
+    if told.is_some() && is_beside || is_explained {
         return;
     }
     draw_listed(coach, shot, time, panes.events, ui);
@@ -210,8 +211,8 @@ pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target
     choice_at(advised, panel, at.y).map(Target::Shot)
 }
 
-/// Draws what one of the views tells.
-fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
+/// Draws what one of the views tells; the chances say why the first shot leads, if nothing else does.
+fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut Ui) {
     let advised = coach.shown();
     let choice = advised.map(AdviceState::choice);
     let empty = match (coach.spinner(), choice) {
@@ -221,7 +222,7 @@ fn draw_info(coach: &CoachPage, view: View, area: Rect, ui: &mut Ui) {
     };
     match view {
         View::Shot => draw_balls(coach, area, ui),
-        View::Chances => draw_chances(advised, empty, area, ui),
+        View::Chances => draw_chances(advised, empty, says_why, area, ui),
         View::Margins => {
             let study = choice.and_then(|choice| choice.study.as_deref());
             draw_margins(study, empty, area, ui);

@@ -20,8 +20,8 @@ use crate::{
 };
 
 /// Draws the panel. The line of aim stands in the title, or where that has no room for it in a row; what else has no room is left
-/// out from the end.
-pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) {
+/// out from the end. Whether it says why the first shot leads.
+pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) -> bool {
     let (words, units, cue_ball) = (&proposal.shot.words, coach.units, coach.cue_ball());
     let part = |text: String, style| (spell(&text, ui.caps), style);
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
@@ -36,7 +36,9 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     });
     let mut lines = lay_out(&tries, width, rows);
     let why = coach.shown().and_then(|advised: &AdviceState| why_words(advised, ui));
-    if let Some(why) = why.filter(|_| lines.len() < rows) {
+    let why = why.filter(|_| lines.len() < rows);
+    let says_why = why.is_some();
+    if let Some(why) = why {
         let lines_of_why = cut(wrap(&why, width), rows - lines.len(), width, ui.caps);
         lines.extend(lines_of_why.into_iter().map(|line| Line::styled(line, ui.theme.faint())));
     }
@@ -44,6 +46,7 @@ pub fn draw_told(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui
     for (line, row) in lines.iter().zip(inner.y..inner.bottom()) {
         ui.buffer.set_line(inner.x + 1, row, line, inner.width.saturating_sub(2));
     }
+    says_why
 }
 
 /// The titles, the longest first: the pattern's name, how often the shot is made, and the line of aim; the last without that.

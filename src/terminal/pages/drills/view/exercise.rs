@@ -13,8 +13,8 @@ use crate::{
         },
         shot::Meeting,
         ui::{
-            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_sight, draw_spin, draw_table, draw_tip,
-            draw_what_if,
+            Beside, Message, Spot, TableView, Theme, Ui, cue_sign, draw_profile, draw_sight, draw_spin, draw_table,
+            draw_tip, draw_what_if,
         },
     },
 };
@@ -28,7 +28,9 @@ const CUE_DOT: f64 = 0.008;
 /// Draws the page; gives what the status line says while there is no news.
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     draw_header(drills, &turn.exercise.title, &about(turn, ui.caps), header, ui);
+    let profile = turn.profile();
     let panes = Panes::new(&turn.table, area);
+    let (panes, side) = if profile.is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) };
     let what_if = turn.what_if();
     // The whole way is drawn then.
     let spots = turn
@@ -45,14 +47,12 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         ..TableView::new(&turn.table, &turn.layout, ui)
     };
     draw_table(&view, panes.table, ui);
-    panels::draw_stroke(turn, panes.stroke, ui);
-    let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
-    draw_tip(Some(meant), what_if.is_some() && drills.units.tip == TipUnit::Tips, &turn.table, panes.tip, ui);
-    let watched = turn.watched().filter(|_| !turn.shows_hint);
-    let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
-    match spin {
-        Some(spin) => draw_spin(&spin, panes.sight, ui),
-        None => draw_sight(meeting(turn), panes.sight, ui),
+    if let Some(profile) = profile {
+        let playing = turn.watched().filter(|_| !turn.shows_hint).map(|watched| watched.playback.time);
+        draw_profile(profile, playing, drills.units.length, side, ui);
+    }
+    if side.intersection(panes.stroke).is_empty() {
+        draw_precision(drills, turn, &panes, ui);
     }
     match what_if.zip(turn.taught()) {
         Some((what_if, taught)) => {
@@ -68,6 +68,20 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     }
     score::draw(drills, turn, panes.score, ui);
     standing(turn, drills.units.length)
+}
+
+/// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins.
+fn draw_precision(drills: &DrillsPage, turn: &Turn, panes: &Panes, ui: &mut Ui) {
+    panels::draw_stroke(turn, panes.stroke, ui);
+    let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
+    let how_long = turn.what_if().is_some() && drills.units.tip == TipUnit::Tips;
+    draw_tip(Some(meant), how_long, &turn.table, panes.tip, ui);
+    let watched = turn.watched().filter(|_| !turn.shows_hint);
+    let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
+    match spin {
+        Some(spin) => draw_spin(&spin, panes.sight, ui),
+        None => draw_sight(meeting(turn), panes.sight, ui),
+    }
 }
 
 /// What counts, how hard it is, and how it is repeated.

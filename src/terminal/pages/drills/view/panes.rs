@@ -8,6 +8,8 @@ use crate::{table::Table, terminal::Mapping};
 const BELOW: u16 = 8;
 /// The same where there is a column beside it: a title and four lines.
 const BELOW_BESIDE: u16 = 5;
+/// Rows of the side view where it is taken from the table: a title, four of the plot, and the axis.
+const SIDE_ROWS: u16 = 6;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (22, 36);
 /// Columns of the stroke and the tip where all panels stand side by side.
@@ -49,6 +51,18 @@ impl Panes {
         let (below, beside) = (Self::all_below(table, area), Self::some_beside(table, area));
         let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
         if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
+    }
+
+    /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes
+    /// rows from the table, else in the place of the stroke's numbers, the tip and the sight.
+    pub fn with_side_view(self) -> (Self, Rect) {
+        let Rect { x, y, width, height } = self.table;
+        if self.stroke.y >= self.aim.y {
+            return (self, self.stroke.union(self.sight));
+        }
+        let bottom = self.aim.y.max(y + SIDE_ROWS).min(y + height.max(SIDE_ROWS));
+        let side = Rect::new(x, bottom - SIDE_ROWS, width, SIDE_ROWS);
+        (Self { table: Rect { height: side.y - y, ..self.table }, ..self }, side)
     }
 
     fn all_below(table: &Table, area: Rect) -> Self {
@@ -109,6 +123,13 @@ mod tests {
         for width in 80..=240 {
             for height in 21..=77 {
                 let panes = Panes::new(&table, Rect::new(0, 1, width, height));
+                let (smaller, side) = panes.with_side_view();
+                assert!(
+                    side.width >= 40 && side.height >= 6 && side.bottom() <= height + 1,
+                    "{width}×{height}: {side}"
+                );
+                let rest = [Mapping::fit(&table, smaller.table).outer(), smaller.aim, smaller.score];
+                assert!(rest.iter().all(|pane| pane.intersection(side).is_empty()), "{width}×{height}: {side}");
                 let bed = Mapping::fit(&table, panes.table).outer();
                 let all = [bed, panes.stroke, panes.tip, panes.sight, panes.aim, panes.score];
                 for (n, one) in all.iter().enumerate() {

@@ -1,0 +1,223 @@
+//! Strokes with the cue raised high: jumps over a ball that is in the way, and massés. Most clubs forbid both.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec2;
+use rand::RngExt;
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    Technique,
+    candidates::{MAX_ELEVATION, MAX_SPEED, TIP_SHARE},
+};
+use crate::{
+    physics::{CueInputs, slip, strike},
+    table::{Layout, Table},
+};
+
+/// Steepest cue that is tried, rad: 80°.
+pub const STEEPEST: f64 = 80.0_f64.to_radians();
+
+/// Elevations and speeds of jumps that are tried, rad and m/s: a flatter or softer one clears no ball.
+const JUMPS: [f64; 2] = [12.0_f64.to_radians(), 60.0_f64.to_radians()];
+const JUMP_SPEEDS: [f64; 2] = [2.0, MAX_SPEED];
+
+/// The speeds of massés, m/s, and how far away they are played, m.
+const MASSE_SPEEDS: [f64; 2] = [0.8, 5.0];
+const MASSE_REACH: f64 = 1.2;
+
+/// How far a jump's edge has to pass over that of a ball, m.
+const CLEAR: f64 = 0.002;
+
+/// Moments of a massé's curve at which it is looked where the ball is.
+const MOMENTS: u32 = 24;
+
+/// Elevation up to which no stroke bends a ball's way as a massé does, rad, and the upward speed below which no ball passes
+/// over another, or its edge, m/s: it rises by 10 mm.
+const FLAT: f64 = 10.0_f64.to_radians();
+const LOW_LIFT: f64 = 0.44;
+
+/// Whether a club that forbids jumps and massés forbids this stroke: the cue ball flies over a ball, its way bends as a
+/// massé's does, or the cue is raised by more than 30 degrees.
+pub fn is_leap(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+    if cue.theta > MAX_ELEVATION {
+        return true;
+    }
+    if cue.theta <= FLAT && strike(table, cue).lift < LOW_LIFT {
+        return false;
+    }
+    shows_leap(table, layout, cue)
+}
+
+/// Whether the cue ball flies over a ball, or its way bends as a massé's does; what cannot be played does neither.
+pub fn shows_leap(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+    Technique::of(table, layout, cue).is_ok_and(|technique| technique.is_leap())
+}
+
+/// A jump over a ball that is in the way, or a massé; `None` where the direction that is drawn asks for neither.
+pub fn raised(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
+    let cue = if rng.random() { jump(table, layout, rng) } else { masse(table, layout, rng) };
+    cue.filter(|cue| cue.validate_tip(table.miscue_limit).is_ok())
+}
+
+/// A jump over either object ball, at the other one, its image in a cushion, or anywhere beyond.
+fn jump(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
+    let [cue_ball, first, second] = layout.balls;
+    let (over, other) = if rng.random() { (first, second) } else { (second, first) };
+    let (way, diameter) = (over - cue_ball, 2.0 * table.radius);
+    let target = match rng.random_range(0..10) {
+        0..7 => other - cue_ball,
+        _ => way,
+    };
+    let widest = (diameter / target.length()).min(1.0).asin();
+    let direction = DVec2::from_angle(target.to_angle() + rng.random_range(-widest..=widest));
+    // Over which part of the ball, and how high the centre has to be there.
+    let (along, aside) = (direction.dot(way), direction.perp_dot(way));
+    let needed = (diameter * diameter - aside * aside).max(0.0).sqrt();
+    if along <= 0.0 || needed == 0.0 || target != way && along >= target.length() {
+        return None;
+    }
+    (0..8).find_map(|_| {
+        let theta = rng.random_range(JUMPS[0]..JUMPS[1]);
+        let speed = rng.random_range(JUMP_SPEEDS[0]..JUMP_SPEEDS[1]);
+        let (a, b) = across(table, theta, 0.5, rng);
+        let cue = CueInputs { a, b, theta, phi: direction.to_angle(), speed };
+        let impulse = strike(table, &cue);
+        let time = along / impulse.velocity.length();
+        let height = impulse.lift * time - 0.5 * table.gravity * time * time;
+        // The way of a ball with side is bent: it leaves so that it flies over where it is meant to.
+        let turned = direction.angle_to(impulse.velocity);
+        (height >= needed + CLEAR).then_some(CueInputs { phi: cue.phi - turned, ..cue })
+    })
+}
+
+/// A massé whose curve comes to either object ball, thick or thin.
+fn masse(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
+    let [cue_ball, first, second] = layout.balls;
+    let target = if rng.random() { first } else { second } - cue_ball;
+    let distance = target.length();
+    if distance > MASSE_REACH {
+        return None;
+    }
+    let theta = rng.random_range(MAX_ELEVATION..STEEPEST);
+    let speed = rng.random_range(MASSE_SPEEDS[0]..MASSE_SPEEDS[1]);
+    let (a, b) = across(table, theta, 1.0, rng);
+    let cue = CueInputs { a, b, theta, phi: 0.0, speed };
+    let passed = passes(table, &cue, distance)?;
+    let widest = (2.0 * table.radius / distance).min(1.0).asin();
+    let phi = target.to_angle() + rng.random_range(-widest..=widest) - passed;
+    Some(CueInputs { phi: (phi + PI).rem_euclid(TAU) - PI, ..cue })
+}
+
+/// In which direction the cue ball is when it has come so far away from where it lay, rad; `None` where it does not. As if it
+/// were on the cloth all the time: hops are rubbed by the cloth as much, only less evenly.
+fn passes(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
+    let impulse = strike(table, cue);
+    let friction = table.sliding_friction * table.gravity;
+    let slips = slip(table.radius, impulse.velocity, impulse.spin);
+    let (against, sliding) = (-friction * slips.normalize_or_zero(), 2.0 * slips.length() / (7.0 * friction));
+    let place = |time: f64| time * impulse.velocity + 0.5 * time * time * against;
+    let met = (1..=MOMENTS).map(|n| place(sliding * f64::from(n) / f64::from(MOMENTS)));
+    if let Some(place) = met.into_iter().find(|place| place.length() >= distance) {
+        return Some(place.to_angle());
+    }
+    // From where it rolls on straight: where the line meets the circle.
+    let (from, ahead) = (place(sliding), (impulse.velocity + sliding * against).try_normalize()?);
+    let along = from.dot(ahead);
+    let way = (along * along + distance * distance - from.length_squared()).sqrt() - along;
+    Some((from + way * ahead).to_angle())
+}
+
+/// A tip place for a raised cue: anywhere within so much of the miscue limit around where its line goes through the centre.
+fn across(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
+    let radius = share * TIP_SHARE * (table.miscue_limit.min(1.0) * rng.random::<f64>()).sqrt();
+    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
+    on_ball(theta, radius * cos, radius * sin)
+}
+
+/// Where on the ball a cue raised by `theta` meets it whose line passes the centre by `a` to the left and `lever` above, in
+/// units of R.
+fn on_ball(theta: f64, a: f64, lever: f64) -> (f64, f64) {
+    let ring = (1.0 - a * a).sqrt();
+    // Beyond the top there is no other half that a cue from behind could meet.
+    let up = (theta + (lever / ring).clamp(-1.0, 1.0).asin()).min(STEEPEST);
+    (a, ring * up.sin())
+}
+
+/// A tip place near the limit, brought back within it: towards the centre of the ball for a usual cue, towards where the
+/// line goes through it for a steep one.
+pub fn within_limit(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
+    let most = TIP_SHARE * table.miscue_limit.sqrt();
+    if theta <= MAX_ELEVATION {
+        let share = (most / a.hypot(b)).min(1.0);
+        return (a * share, b * share);
+    }
+    let a = a.clamp(-most, most);
+    let ring = (1.0 - a * a).sqrt();
+    let turned = (b / ring).clamp(-1.0, 1.0).asin() - theta;
+    let lever = ring * turned.max(-FRAC_PI_2).sin();
+    let share = (most / a.hypot(lever)).min(1.0);
+    if share < 1.0 { on_ball(theta, a * share, lever * share) } else { (a, ring * (b / ring).clamp(-1.0, 1.0)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+
+    #[test]
+    fn raised_strokes_are_playable_and_jumps_fly_over_the_ball_in_the_way() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 -0.2,0.01 0.5,0.02", &table).unwrap();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+        let mut over = 0;
+        for _ in 0..400 {
+            let Some(cue) = jump(&table, &layout, &mut rng) else { continue };
+            cue.validate().unwrap();
+            let technique = Technique::of(&table, &layout, &cue).unwrap();
+            over += usize::from(technique.over == Some(1));
+            assert!(is_leap(&table, &layout, &cue) || technique.over.is_none());
+        }
+        assert!(over > 100, "{over}");
+    }
+
+    #[test]
+    fn massés_come_to_the_ball_that_they_are_meant_for() {
+        let table = Table::default();
+        let layout = Layout::parse("-0.5,0 0.1,0 1.2,0.6", &table).unwrap();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
+        let (mut tried, mut met, mut bent) = (0, 0, 0);
+        while tried < 300 {
+            let Some(cue) = masse(&table, &layout, &mut rng) else { continue };
+            cue.validate().unwrap();
+            cue.validate_tip(table.miscue_limit).unwrap();
+            tried += 1;
+            let technique = Technique::of(&table, &layout, &cue).unwrap();
+            met += usize::from(technique.first.is_some_and(|hit| hit.ball == 1 && technique.before.is_empty()));
+            bent += usize::from(technique.is_leap());
+        }
+        assert!(met > 150 && bent > 50, "{met} met, {bent} bent of {tried}");
+    }
+
+    #[test]
+    fn a_tip_brought_back_is_within_the_limit_for_every_cue() {
+        let table = Table::default();
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
+        for _ in 0..2000 {
+            let theta = rng.random_range(0.0..STEEPEST);
+            let (a, b) = within_limit(&table, theta, rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
+            let cue = CueInputs { a, b, theta, phi: 0.0, speed: 2.0 };
+            cue.validate_tip(table.miscue_limit).unwrap();
+        }
+    }
+
+    #[test]
+    fn level_strokes_are_no_leaps_and_steep_ones_are() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let leaps = |text: &str| is_leap(&table, &layout, &CueInputs::parse(text).unwrap());
+        assert!(!leaps("0.3,-0.3,0,10,6") && !leaps("0.3,-0.3,5,10,3") && leaps("0.1,0.6,40,10,1"));
+        // 25 degrees alone are none.
+        assert!(!leaps("0,0.4,25,100,1"));
+    }
+}
