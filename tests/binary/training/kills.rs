@@ -2,7 +2,7 @@
 //!
 //! `CAROM_KILLS=500 cargo test --profile quick --test binary training::kills -- --nocapture` kills until 500 have hit.
 
-use std::{env, path::Path, time::Duration};
+use std::{env, time::Duration};
 
 use super::common::{Files, done, folder, start};
 
@@ -57,5 +57,4 @@ fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
 /// The same command starts a run and goes on with it. A run that is killed before its first checkpoint is none.
 fn start_or_continue(seed: u32) -> String {
     format!("{LONG} --seed {seed} --run killed --continue")
-}
 }
