@@ -157,7 +157,7 @@ pub fn within_limit(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
     let turned = (b / ring).clamp(-1.0, 1.0).asin() - theta;
     let lever = ring * turned.max(-FRAC_PI_2).sin();
     let share = (most / a.hypot(lever)).min(1.0);
-    if share < 1.0 { on_ball(theta, a * share, lever * share) } else { (a, ring * (b / ring).clamp(-1.0, 1.0)) }
+    on_ball(theta, a * share, lever * share)
 }
 
 #[cfg(test)]

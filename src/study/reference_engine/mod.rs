@@ -36,8 +36,6 @@ mod tolerance;
 mod vector;
 
 #[cfg(test)]
-mod flight_tests;
-#[cfg(test)]
 mod tests;
 
 pub use cue::{Stroke, strike};

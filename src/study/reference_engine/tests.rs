@@ -1,5 +1,7 @@
 //! The engine as a whole, where balls rest against each other or against cushions.
 
+mod flight;
+
 use super::*;
 use crate::{
     physics,
@@ -178,10 +180,10 @@ fn both_engines_agree_on_every_model_of_a_table() {
 }
 
 #[test]
-fn a_rail_at_the_height_of_the_centre_is_the_equators() {
+fn a_rail_at_the_height_of_the_centre_is_the_equators_where_balls_stay_on_the_cloth() {
     let at_centre = |model| {
         let rail = Rails { model, height: Some(Table::default().radius), ..Rails::default() };
-        Table { rail, ..Table::default() }
+        Table { rail, flight: None, ..Table::default() }
     };
     let [nose, equator] = [RailModel::Nose, RailModel::Equator].map(at_centre);
     for shot in random_shots(&nose, 30, 8, Steepest::USUAL) {

@@ -169,7 +169,7 @@ fn the_plan_and_where_it_goes_on() {
     assert_eq!(player.app.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
     player.shows(&[
         "Plan · the point after it 97 %",
-        "now  100 % yellow, ",
+        "now  100 % very hard",
         "stop being tried",
         "next being looked for",
     ]);

@@ -254,13 +254,13 @@ fn without_colours_letters_tell_everything() {
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").studied();
-        let signs = ["Margins", "-5.11   +1.36", "V    -1.57     any", "# point", "= too few", "X the stro"];
+        let signs = ["Margins", "-4.33   +2.31", "V    -1.51     any", "# point", "= too few", "X the stro"];
         let text = player.is_plain().text(120, 40);
         assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
         let text = player.text(80, 24);
-        assert!(text.contains("a -5.11 +1.36 0.5") && text.contains("# point = too few cushions - one ball"), "{text}");
+        assert!(text.contains("a -4.33 +2.31 0.5") && text.contains("# point = too few cushions - one ball"), "{text}");
         let plan = player.press("v");
-        plan.is_plain().shows(&["now  94 % yellow, ", "stop white 80, yellow 24, red 136 cm", "next 100 % yellow"]);
+        plan.is_plain().shows(&["now  94 % yellow, ", "stop white 75, yellow 45, red 95 cm", "next 100 % yellow"]);
         if caps == ASCII {
             check_at(&[(120, 40)], "ascii_plan", &plan);
         }

@@ -1,6 +1,6 @@
 //! Balls in the air: against an independent program, against the simulator, and by what they must keep.
 
-use super::*;
+use super::super::*;
 use crate::{
     simulation::{EventKind, Rail},
     study::{
