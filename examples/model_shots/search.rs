@@ -269,7 +269,6 @@ fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
                     b: rounded(shot.b + sign * b / TIP, TIP),
                     phi: rounded(shot.phi.to_degrees() + sign * phi / DEGREE, DEGREE).to_radians(),
                     speed: rounded(shot.speed + sign * speed / SPEED, SPEED),
-                    ..shot
                 };
                 let Some(next) = exercise.table().ok().and_then(|table| stands_free(exercise, &table, &next)) else {
                     continue;

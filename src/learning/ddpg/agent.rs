@@ -62,6 +62,7 @@ impl Ddpg {
     }
 
     /// This agent with other operations in its networks.
+    #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
     }

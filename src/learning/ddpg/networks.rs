@@ -54,6 +54,7 @@ impl Networks {
     }
 
     /// These networks with other operations.
+    #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { actor: self.actor.with(operations), critic: self.critic.with(operations) }
     }

@@ -89,6 +89,7 @@ impl Mlp {
     }
 
     /// This network with other operations.
+    #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { operations, ..self }
     }

@@ -1,4 +1,4 @@
-//! A run's metrics as TensorBoard reads them: a file of events beside `metrics.jsonl`, with the same names.
+//! A run's metrics as `TensorBoard` reads them: a file of events beside `metrics.jsonl`, with the same names.
 //!
 //! The file is a series of records (length, masked checksum, content, masked checksum), each an `Event` in the encoding of
 //! protocol buffers: <https://github.com/tensorflow/tensorflow/blob/master/tensorflow/core/util/event.proto>.
@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use super::metrics::Record;
 
-/// The file's name; TensorBoard finds files by a part of it.
+/// The file's name; `TensorBoard` finds files by a part of it.
 pub const FILE: &str = "events.out.tfevents.carom";
 
 const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISCSI);

@@ -131,6 +131,7 @@ impl ActorCritic {
     }
 
     /// These networks with other operations.
+    #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { online: self.online.with(operations), target: self.target.with(operations), ..self }
     }

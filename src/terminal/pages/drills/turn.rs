@@ -54,6 +54,7 @@ pub enum Lesson {
 
 /// The page of an exercise.
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own, seen or not, asked or not")]
 pub struct Turn {
     /// What counts, as far as it is safe on the disk or was seen not to be.
     pub session: Session,
