@@ -260,7 +260,7 @@ fn without_colours_letters_tell_everything() {
         let text = player.text(80, 24);
         assert!(text.contains("a -4.33 +2.31 0.5") && text.contains("# point = too few cushions - one ball"), "{text}");
         let plan = player.press("v");
-        plan.is_plain().shows(&["now  94 % yellow, ", "stop white 75, yellow 45, red 95 cm", "next 100 % yellow"]);
+        plan.is_plain().shows(&["now  94 % yellow, ", "stop white 75, yellow 45, red 95 cm", "next 100 % very hard"]);
         if caps == ASCII {
             check_at(&[(120, 40)], "ascii_plan", &plan);
         }
