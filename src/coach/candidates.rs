@@ -8,8 +8,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Skill,
+    elevated::{STEEPEST, within_limit},
     errors::{Errors, normal},
-    leaps::{STEEPEST, within_limit},
 };
 use crate::{
     physics::{CueInputs, squirt},

@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{TIP_SHARE, anything, variation},
-    leaps::raised,
+    elevated::raised,
     trial::{CONTACT_STEPS, Course, ENDLESS, Task},
 };
 use crate::{
@@ -31,7 +31,7 @@ const FOLLOWED: u64 = 50;
 
 /// Usual strokes after which jumps and massés are tried too, one in so many: where so many made no point, hardly any does.
 const USUAL: u64 = 4000;
-const USUAL_TO_A_LEAP: u64 = 4;
+const USUAL_TO_AN_ELEVATED: u64 = 4;
 
 /// How good a shot is that makes no point: object balls met, then cushions on the way as far as the rule wants them.
 type Merit = (u32, u32);
@@ -75,9 +75,9 @@ impl<'a> Attempt<'a> {
         let mut tried = 0_u64;
         while !self.is_over() {
             tried += 1;
-            let is_raised = self.task.leaps() && tried > USUAL && tried.is_multiple_of(USUAL_TO_A_LEAP);
-            let leap = if is_raised { raised(table, layout, &mut rng) } else { None };
-            let cue = leap.unwrap_or_else(|| anything(table, layout, &mut rng));
+            let is_raised = self.task.seeks_jumps() && tried > USUAL && tried.is_multiple_of(USUAL_TO_AN_ELEVATED);
+            let elevated = if is_raised { raised(table, layout, &mut rng) } else { None };
+            let cue = elevated.unwrap_or_else(|| anything(table, layout, &mut rng));
             self.play(cue, Source::Search);
         }
         // With no time at all and no policy, nothing was tried.

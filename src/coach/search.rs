@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Source, Suggestion,
     candidates::{MIN_SPEED, neighbour, stratified, variation},
-    leaps::raised,
+    elevated::raised,
     next::NextValue,
     parallel,
     pool::{Candidate, Race, keep, suppose_the_worst},
@@ -46,8 +46,8 @@ const SOFT: f64 = 1.0;
 
 /// One stroke in so many of the first rounds of sampling is a jump or a massé, and of the later ones where none of these is
 /// among the better half of what stays in; none is where the best shot so far is made this often.
-const LEAPS_TRIED: [usize; 2] = [8, 64];
-const ROUNDS_OF_LEAPS: usize = 3;
+const ELEVATED_TRIED: [usize; 2] = [8, 64];
+const ROUNDS_OF_ELEVATED: usize = 3;
 const GOOD_WITHOUT: f64 = 0.9;
 
 /// Shots that leave the sampling, and then the race, besides the best of each kind.
@@ -124,8 +124,8 @@ impl<'a> Search<'a> {
                 cue: stratified(table, self.task.layout, drawn + n, softest, &mut self.rng),
                 source: Source::Search,
             }));
-            let leaps = self.leaps(batch, rounds);
-            shots.extend(leaps.into_iter().map(|cue| Suggestion { cue, source: Source::Search }));
+            let elevated = self.elevated(batch, rounds);
+            shots.extend(elevated.into_iter().map(|cue| Suggestion { cue, source: Source::Search }));
             drawn += batch as u64;
             batch = (2 * batch).min(LARGEST_BATCH);
             rounds += 1;
@@ -138,13 +138,13 @@ impl<'a> Search<'a> {
     }
 
     /// Jumps and massés for a round of sampling with so many other strokes.
-    fn leaps(&mut self, batch: usize, rounds: usize) -> Vec<CueInputs> {
+    fn elevated(&mut self, batch: usize, rounds: usize) -> Vec<CueInputs> {
         let is_good = self.pool.first().is_some_and(|best| best.tried >= SECOND_LOOK && best.rate() >= GOOD_WITHOUT);
-        if !self.task.leaps() || is_good {
+        if !self.task.seeks_jumps() || is_good {
             return Vec::new();
         }
         let is_among = self.pool.iter().take(SHORTLIST / 2).any(|candidate| candidate.kind.raised);
-        let one_in = LEAPS_TRIED[usize::from(rounds >= ROUNDS_OF_LEAPS && !is_among)];
+        let one_in = ELEVATED_TRIED[usize::from(rounds >= ROUNDS_OF_ELEVATED && !is_among)];
         (0..batch / one_in).filter_map(|_| raised(self.task.table, self.task.layout, &mut self.rng)).collect()
     }
 

@@ -354,11 +354,13 @@ fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
     let is_candidate = |jumps| Candidate::new(&task(&table, jumps), model, Source::Search, 0.0).is_some();
     assert!(is_candidate(true) && !is_candidate(false));
     // A steep cue that neither jumps nor bends the way is none, nor is any where balls stay on the cloth.
-    assert!(!task(&table, true).allows(&steep) && !task(&frozen, true).allows(&steep) && !task(&frozen, true).leaps());
+    assert!(
+        !task(&table, true).allows(&steep) && !task(&frozen, true).allows(&steep) && !task(&frozen, true).seeks_jumps()
+    );
     // The search's own jumps make the point here, and fly over red.
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
     let allowed = task(&table, true);
-    let found = (0..40_000).filter_map(|_| leaps::raised(&table, &layout, &mut rng));
+    let found = (0..40_000).filter_map(|_| elevated::raised(&table, &layout, &mut rng));
     let found = found.filter_map(|cue| Candidate::new(&allowed, cue, Source::Search, 0.0));
     let over = found.filter(|found| Technique::of(&table, &layout, &found.shot.cue).unwrap().over.is_some()).count();
     assert!(over > 0);
@@ -373,7 +375,7 @@ fn no_shot_that_is_advised_jumps_or_bends_where_that_is_forbidden() {
         let advice = coach.recommend(&layout, &Request { jumps: false, ..request(rule, 20_000) }).unwrap();
         for cue in std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)) {
             let technique = Technique::of(coach.table(), &layout, &cue).unwrap();
-            assert!(!technique.is_leap() && cue.theta <= candidates::MAX_ELEVATION, "{rule}: {cue:?}");
+            assert!(!technique.is_jump_or_masse() && cue.theta <= candidates::MAX_ELEVATION, "{rule}: {cue:?}");
         }
     }
 }

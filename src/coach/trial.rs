@@ -7,8 +7,8 @@ use super::{
     candidates::{MAX_ELEVATION, steepest},
     clock::Clock,
     draws::{Draw, World, Worlds, aimed},
+    elevated::{is_jump_or_masse, makes_jump_or_masse},
     errors::Errors,
-    leaps::{is_leap, shows_leap},
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
@@ -70,7 +70,7 @@ impl Task<'_> {
 
     /// Whether strokes are looked for with the cue raised for a jump or a massé: on a table that keeps its balls on the cloth
     /// neither is what it would be.
-    pub const fn leaps(&self) -> bool {
+    pub const fn seeks_jumps(&self) -> bool {
         self.jumps && self.table.flight.is_some()
     }
 
@@ -78,9 +78,9 @@ impl Task<'_> {
     /// as high as for one must make one.
     pub fn allows(&self, cue: &CueInputs) -> bool {
         if cue.theta > MAX_ELEVATION {
-            self.leaps() && shows_leap(self.table, self.layout, cue)
+            self.seeks_jumps() && makes_jump_or_masse(self.table, self.layout, cue)
         } else {
-            self.jumps || !is_leap(self.table, self.layout, cue)
+            self.jumps || !is_jump_or_masse(self.table, self.layout, cue)
         }
     }
 

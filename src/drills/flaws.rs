@@ -114,7 +114,7 @@ fn raised(
     let has_landed = hops.zip(first).is_some_and(|(hop, first)| hop.is_told() && hop.end <= first.time);
     let is_least = with_room(table, &exercise.layout, &CueInputs { theta: 0.0, ..*cue })
         .is_ok_and(|least| cue.theta <= least.theta + 0.5_f64.to_radians());
-    let (flies, bends) = (technique.over == Some(2), technique.over.is_none() && technique.is_leap());
+    let (flies, bends) = (technique.over == Some(2), technique.over.is_none() && technique.is_jump_or_masse());
     let steep = cue.theta;
     Ok(vec![
         (

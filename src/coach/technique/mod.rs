@@ -1,6 +1,6 @@
 //! What a shot does on the table, and the name that players have for it.
 
-mod leap;
+mod jump;
 mod patterns;
 
 use patterns::BENT;
@@ -85,7 +85,7 @@ impl Technique {
             between: Vec::new(),
             sent: events.filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0))).collect(),
             turn: 0.0,
-            over: leap::flown_over(table, recording),
+            over: jump::flown_over(table, recording),
             bend: 0.0,
             roll: 0.0,
             english: 0.0,
@@ -103,7 +103,7 @@ impl Technique {
     }
 
     /// Whether the cue ball flies over a ball, or its way bends as a massé's does, before it meets anything.
-    pub fn is_leap(&self) -> bool {
+    pub fn is_jump_or_masse(&self) -> bool {
         self.over.is_some() || self.bend > BENT
     }
 

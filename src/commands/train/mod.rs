@@ -150,11 +150,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return resume(&run_named(name), args.jobs, &options);
     }
     let read = spec::read(args)?;
-    if args.r#continue && is_group(&read.folder) {
-        return multi_seed::resume(&read.folder, args.jobs, &options);
-    }
-    if args.r#continue && holds_checkpoints(&read.folder) {
-        spec::same_order(&read).map_err(Failure::wrong_input)?;
+    if args.r#continue && (is_group(&read.folder) || holds_checkpoints(&read.folder)) {
+        spec::same_order(&read, args.seeds).map_err(Failure::wrong_input)?;
         return resume(&read.folder, args.jobs, &options);
     }
     if let Some(seeds) = args.seeds {

@@ -9,7 +9,12 @@ use crate::{
     commands::{Failure, input::table_named, lookup::run_named},
     learning::{
         learner::TrainingPlan,
-        run::{Config, Schedule, origin::Weights, run_name, seeds::TrainingSpec},
+        run::{
+            Config, Schedule,
+            origin::Weights,
+            run_name,
+            seeds::{TrainingSpec, described, is_group},
+        },
         timestamp,
     },
     storage::{self, Places},
@@ -49,16 +54,25 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     Ok(Read { spec, weights, folder })
 }
 
-/// Whether the run in the folder was started by such an order; else a sentence that names the difference.
-pub fn same_order(read: &Read) -> Result<(), String> {
-    let Ok(config) = Config::read(&read.folder) else { return Ok(()) };
+/// Whether the run, or the group of seeds, in the folder was started by such an order; else a sentence that names the
+/// difference.
+pub fn same_order(read: &Read, seeds: Option<u64>) -> Result<(), String> {
     let TrainingSpec { agent, plan, table, .. } = &read.spec;
+    let known = if is_group(&read.folder) {
+        described(&read.folder).map(|(order, seeds)| (order.agent, order.plan, order.table, Some(seeds))).ok()
+    } else {
+        Config::read(&read.folder).map(|config| (config.agent, config.plan, config.table, None)).ok()
+    };
+    // What cannot be read is told by whoever goes on with it.
+    let Some((their_agent, theirs, their_table, their_seeds)) = known else { return Ok(()) };
+    let count = |seeds: Option<u64>| seeds.map_or_else(|| "none".to_owned(), |seeds| seeds.to_string());
     let pairs = [
-        ("agent", config.agent, agent.clone()),
-        ("reward", config.plan.reward.to_string(), plan.reward.to_string()),
-        ("seed", config.plan.seed.to_string(), plan.seed.to_string()),
-        ("steps", config.plan.shots.to_string(), plan.shots.to_string()),
-        ("table", config.table.name, table.name.clone()),
+        ("agent", their_agent, agent.clone()),
+        ("reward", theirs.reward.to_string(), plan.reward.to_string()),
+        ("seed", theirs.seed.to_string(), plan.seed.to_string()),
+        ("steps", theirs.shots.to_string(), plan.shots.to_string()),
+        ("table", their_table.name, table.name.clone()),
+        ("seeds", count(their_seeds), count(seeds)),
     ];
     match pairs.into_iter().find(|(_, theirs, ours)| theirs != ours) {
         None => Ok(()),

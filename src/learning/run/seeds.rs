@@ -76,6 +76,23 @@ struct GroupFile {
     order: TrainingSpec,
 }
 
+impl GroupFile {
+    fn read(folder: &Path) -> Result<Self, RunError> {
+        let path = folder.join(FILE);
+        let text = storage::read(&path, storage::SMALL).map_err(file(&path))?;
+        serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))
+    }
+}
+
+/// What the group in `folder` trains, and with how many seeds.
+///
+/// # Errors
+/// Where its description cannot be read.
+pub fn described(folder: &Path) -> Result<(TrainingSpec, u64), RunError> {
+    let GroupFile { seeds, order, .. } = GroupFile::read(folder)?;
+    Ok((order, seeds))
+}
+
 /// Runs that differ in their seed alone, in folders of one folder.
 #[derive(Debug)]
 pub struct Group {
@@ -111,9 +128,7 @@ impl Group {
     /// # Errors
     /// Where its description or its weights cannot be read, or another process works on it.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
-        let path = folder.join(FILE);
-        let text = storage::read(&path, storage::SMALL).map_err(file(&path))?;
-        let note: GroupFile = serde_json::from_slice(&text).map_err(|error| file(&path)(error.into()))?;
+        let note = GroupFile::read(folder)?;
         let lock = super::lock(folder)?;
         let weights = match &note.from {
             Some(start) => Some(Weights::load(&folder.join(WEIGHTS))?.known_as(start.clone())),

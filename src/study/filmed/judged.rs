@@ -14,7 +14,7 @@ use super::{
 use crate::{
     physics::{BallState, Cushion},
     study::statistics::Spread,
-    table::{Rail, RailModel, Table},
+    table::{Rail, Table},
 };
 
 /// What a model reaches on some shots of the film.
@@ -28,10 +28,10 @@ pub struct Judged {
     pub rail_after: (usize, f64),
     /// By how much the ball comes late to the fourth and to the fifth rail, median s.
     pub late_s: [f64; 2],
-    /// Whole shots, and the cue ball's error at 3, 4 and 5 s, median cm. None where the model is too slow.
-    pub whole_cm: Option<(usize, [f64; 3])>,
-    /// Each diamond system with its best natural stroke. None where the model is too slow.
-    pub systems: Option<Vec<Natural>>,
+    /// Whole shots, and the cue ball's error at 3, 4 and 5 s, median cm.
+    pub whole_cm: (usize, [f64; 3]),
+    /// Each diamond system with its best natural stroke.
+    pub systems: Vec<Natural>,
     /// Time of a rail impact, ns.
     pub impact_ns: f64,
 }
@@ -46,30 +46,27 @@ pub fn judge(name: &str, table: &Table, film: &[FilmedShot]) -> Judged {
         let late = played.iter().map(|played| played.late[count - 2]).collect();
         (played.len(), median(places), median(late))
     });
-    let slow = table.rail.model == RailModel::Mathavan;
-    let whole_cm = (!slow).then(|| {
-        let shots: Vec<_> =
-            film.iter().filter(|shot| shot.is_long_enough()).filter_map(|shot| whole::play(table, shot)).collect();
-        let error = |index: usize| 100.0 * median(shots.iter().map(|shot| shot.errors[index]).collect());
-        (shots.len(), [0, 1, 2].map(error))
-    });
-    let systems = (!slow).then(|| systems::bundled().iter().map(|system| system.natural(table)).collect());
+    let shots: Vec<_> =
+        film.iter().filter(|shot| shot.is_long_enough()).filter_map(|shot| whole::play(table, shot)).collect();
+    let error = |index: usize| 100.0 * median(shots.iter().map(|shot| shot.errors[index]).collect());
     Judged {
         model: name.to_owned(),
         next_rail: (four.0, four.1),
         rail_after: (five.0, five.1),
         late_s: [four.2, five.2],
-        whole_cm,
-        systems,
+        whole_cm: (shots.len(), [0, 1, 2].map(error)),
+        systems: systems::bundled().iter().map(|system| system.natural(table)).collect(),
         impact_ns: impact_time(table),
     }
 }
 
+/// Impacts of a round in which their time is measured.
+const IMPACTS: u32 = 2000;
+
 /// Time of a rail impact, ns: the least of several rounds over balls of many speeds and spins.
 fn impact_time(table: &Table) -> f64 {
     let cushion = Cushion::of(table, Rail::Top);
-    let count = if table.rail.model == RailModel::Mathavan { 100 } else { 20_000 };
-    let balls: Vec<BallState> = (0..count)
+    let balls: Vec<BallState> = (0..IMPACTS)
         .map(|n| {
             let [a, b, c] = [0.618, 0.755, 0.570].map(|step| (f64::from(n) * step).fract());
             let spin = DVec3::new(60.0 * (b - 0.5), 80.0 * (c - 0.5), 90.0 * (a - 0.5));
@@ -85,7 +82,7 @@ fn impact_time(table: &Table) -> f64 {
             sum += ball.velocity.x + ball.spin.z;
         }
         std::hint::black_box(sum);
-        1e9 * begin.elapsed().as_secs_f64() / f64::from(count)
+        1e9 * begin.elapsed().as_secs_f64() / f64::from(IMPACTS)
     };
     (0..7).map(|_| round()).fold(f64::INFINITY, f64::min)
 }

@@ -58,10 +58,8 @@ pub fn text(rows: &[Judged]) -> String {
         "model", "next, diamonds", "after, diamonds", "late, s", "at 3, 4, 5 s, cm", "systems, diamonds", "impact"
     );
     for row in rows {
-        let whole = row.whole_cm.map_or("-".to_owned(), |(count, [a, b, c])| format!("{a:.1} {b:.1} {c:.1} ({count})"));
-        let systems = row.systems.as_ref().map_or("-".to_owned(), |systems| {
-            systems.iter().map(|system| format!("{:.2}", system.rms)).collect::<Vec<_>>().join(" ")
-        });
+        let (count, [a, b, c]) = row.whole_cm;
+        let systems: Vec<_> = row.systems.iter().map(|system| format!("{:.2}", system.rms)).collect();
         let _ = writeln!(
             out,
             "{:<28} {:>16} {:>16} {:>15} {:>22} {:>20} {:>9}",
@@ -69,8 +67,8 @@ pub fn text(rows: &[Judged]) -> String {
             format!("{:.3} ({})", row.next_rail.1, row.next_rail.0),
             format!("{:.3} ({})", row.rail_after.1, row.rail_after.0),
             format!("{:+.3} {:+.3}", row.late_s[0], row.late_s[1]),
-            whole,
-            systems,
+            format!("{a:.1} {b:.1} {c:.1} ({count})"),
+            systems.join(" "),
             format!("{:.0} ns", row.impact_ns),
         );
     }
@@ -85,12 +83,9 @@ pub fn csv(rows: &[Judged]) -> String {
          whole_shots,cm_at_3_s,cm_at_4_s,cm_at_5_s,corner5_diamonds,plus_diamonds,seven_diamonds,impact_ns\n",
     );
     for row in rows {
-        let (count, cm) = row.whole_cm.map_or((String::new(), [const { String::new() }; 3]), |(count, cm)| {
-            (count.to_string(), cm.map(|value| value.to_string()))
-        });
-        let systems = row.systems.as_ref().map_or([const { String::new() }; 3], |systems| {
-            std::array::from_fn(|index| systems.get(index).map_or(String::new(), |system| system.rms.to_string()))
-        });
+        let (count, cm) = row.whole_cm;
+        let cm = cm.map(|value| value.to_string());
+        let systems: Vec<_> = row.systems.iter().map(|system| system.rms.to_string()).collect();
         let Judged { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
         let _ = writeln!(
             out,

@@ -34,6 +34,12 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
 
+    // Another order is refused in words, by its number of seeds too; the same one finds it finished.
+    let continued = |rest: &str| carom(here, &format!("{SHORT} --run whole --continue {rest}"));
+    let [fewer, single] = ["--seeds 2", ""].map(continued);
+    assert!(fewer.code == Some(2) && fewer.err.contains("has seeds 3, not 2"), "{}", fewer.err);
+    assert!(single.code == Some(2) && single.err.contains("has seeds 3, not none"), "{}", single.err);
+    assert_eq!(continued("--seeds 3").code, Some(0));
     // A single run would hide the seeds.
     let single = carom(here, &format!("{SHORT} --run whole"));
     assert_eq!(single.code, Some(2));

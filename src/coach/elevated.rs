@@ -1,4 +1,4 @@
-//! Strokes with the cue raised high: jumps over a ball that is in the way, and massés. Most clubs forbid both.
+//! Elevated-cue shots: jumps over a ball that is in the way, and massés. Most clubs forbid both.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -39,19 +39,19 @@ const LOW_LIFT: f64 = 0.44;
 
 /// Whether a club that forbids jumps and massés forbids this stroke: the cue ball flies over a ball, its way bends as a
 /// massé's does, or the cue is raised by more than 30 degrees.
-pub fn is_leap(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+pub fn is_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     if cue.theta > MAX_ELEVATION {
         return true;
     }
     if cue.theta <= FLAT && strike(table, cue).lift < LOW_LIFT {
         return false;
     }
-    shows_leap(table, layout, cue)
+    makes_jump_or_masse(table, layout, cue)
 }
 
 /// Whether the cue ball flies over a ball, or its way bends as a massé's does; what cannot be played does neither.
-pub fn shows_leap(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
-    Technique::of(table, layout, cue).is_ok_and(|technique| technique.is_leap())
+pub fn makes_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
+    Technique::of(table, layout, cue).is_ok_and(|technique| technique.is_jump_or_masse())
 }
 
 /// A jump over a ball that is in the way, or a massé; `None` where the direction that is drawn asks for neither.
@@ -176,7 +176,7 @@ mod tests {
             cue.validate().unwrap();
             let technique = Technique::of(&table, &layout, &cue).unwrap();
             over += usize::from(technique.over == Some(1));
-            assert!(is_leap(&table, &layout, &cue) || technique.over.is_none());
+            assert!(is_jump_or_masse(&table, &layout, &cue) || technique.over.is_none());
         }
         assert!(over > 100, "{over}");
     }
@@ -194,7 +194,7 @@ mod tests {
             tried += 1;
             let technique = Technique::of(&table, &layout, &cue).unwrap();
             met += usize::from(technique.first.is_some_and(|hit| hit.ball == 1 && technique.before.is_empty()));
-            bent += usize::from(technique.is_leap());
+            bent += usize::from(technique.is_jump_or_masse());
         }
         assert!(met > 150 && bent > 50, "{met} met, {bent} bent of {tried}");
     }
@@ -212,12 +212,12 @@ mod tests {
     }
 
     #[test]
-    fn level_strokes_are_no_leaps_and_steep_ones_are() {
+    fn level_strokes_are_neither_jumps_nor_masses_and_steep_ones_are() {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let leaps = |text: &str| is_leap(&table, &layout, &CueInputs::parse(text).unwrap());
-        assert!(!leaps("0.3,-0.3,0,10,6") && !leaps("0.3,-0.3,5,10,3") && leaps("0.1,0.6,40,10,1"));
+        let counts = |text: &str| is_jump_or_masse(&table, &layout, &CueInputs::parse(text).unwrap());
+        assert!(!counts("0.3,-0.3,0,10,6") && !counts("0.3,-0.3,5,10,3") && counts("0.1,0.6,40,10,1"));
         // 25 degrees alone are none.
-        assert!(!leaps("0,0.4,25,100,1"));
+        assert!(!counts("0,0.4,25,100,1"));
     }
 }
