@@ -93,7 +93,8 @@ impl Belief {
         half.iter().map(|one| self.factor.iter().map(|other| dot(one, other)).collect()).collect()
     }
 
-    /// The doubt that a covariance of the constants is. Small correlations are left out, and what that leaves stays the
+    /// The doubt that a covariance of the constants is, under the table's own law of the rails: other laws that its file holds in
+    /// doubt are not told apart and left out. Small correlations are left out, and what that leaves stays the
     /// covariance of something.
     pub fn doubt(&self, covariance: &[Vec<f64>]) -> TableDoubt {
         let deviation = |index: usize| covariance[index][index].max(0.0).sqrt();

@@ -75,7 +75,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The distribution around the lowest of some minima, and around others as far as they are likely: each has the weight of its
+    /// The distribution around the likeliest of some minima, and around others as far as they are likely: each has the weight of its
     /// normal distribution (Laplace), and what all have together is told by its means and its covariance.
     fn of(belief: &Belief, hand: &Hand, trials: &[Trial], minima: &[Minimum]) -> Option<Self> {
         let count = belief.count();
@@ -144,16 +144,18 @@ impl Estimate {
 pub fn estimate(belief: &Belief, hand: &Hand, trials: &[Trial]) -> Estimate {
     let minima = descend(belief, hand, trials);
     Estimate::of(belief, hand, trials, &minima).unwrap_or_else(|| {
-        // Where no minimum has a width, nothing is told.
-        let count = belief.count();
-        let unit = |row: usize| (0..count).map(|column| f64::from(u8::from(row == column))).collect();
+        // Where no minimum has a width, nothing is told: all is as it was held to be before.
+        let (count, all) = (belief.count(), belief.count() + STROKE * trials.len());
+        let unit = |size: usize| -> Vec<Vec<f64>> {
+            (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect()
+        };
         let nought = vec![0.0; count];
         Estimate {
             unknowns: nought.clone(),
-            covariance: (0..count).map(unit).collect(),
+            covariance: unit(count),
             likely: nought,
             strokes: vec![[0.0; STROKE]; trials.len()],
-            normal: Vec::new(),
+            normal: unit(all),
         }
     })
 }

@@ -166,7 +166,7 @@ const fn mark(name: &'static str, words: &'static str, quantity: Quantity, sure:
 /// The protocol, in the order in which it is played, chosen from candidates by what it is worth to a club player's three-cushion
 /// shots: what rails do to a ball without side or with reverse side, which slips and sticks at them, and where a ball stops
 /// that has met several, tell more than anything else. A frozen pair tells of the throw between balls, which hardly matters
-/// there: it is asked for no times.
+/// there: nobody is asked to play it.
 pub const PROTOCOL: &[Test] = &[
     Test {
         name: "slow-roll",

@@ -29,9 +29,11 @@ const HASTE: u32 = 5;
 /// One in so many of them is followed further: where balls touch from the start, all others may be given up.
 const FOLLOWED: u64 = 50;
 
-/// Usual strokes after which jumps and massés are tried too, one in so many: where so many made no point, hardly any does.
-const USUAL: u64 = 4000;
-const USUAL_TO_AN_ELEVATED: u64 = 4;
+/// Usual strokes that are tried before any jump or massé: where so many made no point, hardly any does.
+const USUAL_BEFORE_ELEVATED: u64 = 4000;
+
+/// From then on one stroke in so many is a jump or a massé.
+const ONE_ELEVATED_IN: u64 = 4;
 
 /// How good a shot is that makes no point: object balls met, then cushions on the way as far as the rule wants them.
 type Merit = (u32, u32);
@@ -75,7 +77,8 @@ impl<'a> Attempt<'a> {
         let mut tried = 0_u64;
         while !self.is_over() {
             tried += 1;
-            let is_raised = self.task.seeks_jumps() && tried > USUAL && tried.is_multiple_of(USUAL_TO_AN_ELEVATED);
+            let is_raised =
+                self.task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ONE_ELEVATED_IN);
             let elevated = if is_raised { raised(table, layout, &mut rng) } else { None };
             let cue = elevated.unwrap_or_else(|| anything(table, layout, &mut rng));
             self.play(cue, Source::Search);

@@ -20,9 +20,10 @@ const WORTH_OF_WIDE: f64 = 0.3;
 /// Speed up to which strokes are usual, m/s. The ball leaves such a stroke at 5.6 m/s, and one of 91 filmed shots is faster.
 const HARDEST_USUAL: f64 = 4.0;
 
-/// Effort of every m/s beyond. A harder stroke is not worth a point or two in a hundred: what is not simulated, as the
-/// rebound's own height off a nose that presses the ball down, makes it less certain than it looks. With it 2.5 % of the three-cushion shots for a club player are struck
-/// harder than 5 m/s, without 5.8 %, and as many of all are made within 0.2 in a hundred (120 layouts).
+/// Effort of every m/s beyond. A harder stroke is not worth a point or two in a hundred: what is not simulated, such as how high
+/// a ball comes off a nose that pressed it down, makes it less certain than it looks. With it 2.5 % of the three-cushion
+/// shots for a club player are struck harder than 5 m/s, without 5.8 %, and as many of all are made within 0.2 in a hundred
+/// (120 layouts).
 const HARDER: f64 = 2.0;
 
 /// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.

@@ -52,8 +52,8 @@ pub fn scatter(
     cancel: &AtomicBool,
 ) -> Scatter {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let Shooter { skill, doubt } = shooter.into();
-    let worlds = Worlds::new(table, layout, doubt);
+    let shooter = shooter.into();
+    let (skill, worlds) = (shooter.skill, Worlds::new(table, layout, shooter.doubts()));
     let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
     let task = Task { table, layout, rule, skill, jumps: true, worlds: &worlds, clock: &clock, until, patience };
     let draws = Draws::independent(attempts, &worlds, seed);

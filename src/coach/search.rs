@@ -124,6 +124,7 @@ impl<'a> Search<'a> {
                 cue: stratified(table, self.task.layout, drawn + n, softest, &mut self.rng),
                 source: Source::Search,
             }));
+            keep(&mut self.pool, SHORTLIST, OF_EACH_KIND);
             let elevated = self.elevated(batch, rounds);
             shots.extend(elevated.into_iter().map(|cue| Suggestion { cue, source: Source::Search }));
             drawn += batch as u64;
@@ -155,7 +156,6 @@ impl<'a> Search<'a> {
 
     /// Judges the net's catch.
     fn sample_batch(&mut self, shots: &[Suggestion]) {
-        keep(&mut self.pool, SHORTLIST, OF_EACH_KIND);
         // Who does not come near those who stay in is not looked at twice.
         let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
         let (task, race, weight) = (&self.task, &self.race, self.weight());

@@ -14,7 +14,7 @@ use crate::{
     printing,
     storage::write_atomic,
     study::{self, Method, Plan, Steepest, Study, filmed, random_shots, stability},
-    table::{Flight, JUDGED, Table},
+    table::{JUDGED, Table},
 };
 
 /// Measure how exact the simulator is and what that costs: the engine, other root finders, single precision and fixed
@@ -194,10 +194,8 @@ fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<(
 
 /// The tables that are judged where none is named: two with usual strokes, and one with steep ones whose balls fly.
 fn judged() -> Result<Vec<(Table, Steepest)>, Failure> {
-    let table = Table::default();
-    let flying = Table { flight: table.flight.or(Some(Flight::default())), ..table };
     let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
-    flat.chain([Ok((flying, Steepest::FLIGHTS))]).collect()
+    flat.chain([Ok((Table::default(), Steepest::FLIGHTS))]).collect()
 }
 
 /// A table with usual strokes, and with steep ones where balls leave its cloth.

@@ -93,8 +93,8 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
 /// a massé is a half and a full one, rad.
 const FAR: f64 = 0.6;
 const NEAR: f64 = 0.2;
-const HALF_MASSE: f64 = 0.5 * FRAC_PI_3;
-const FULL_MASSE: f64 = 1.05 * FRAC_PI_3;
+const HALF_MASSE: f64 = 30.0_f64.to_radians();
+const FULL_MASSE: f64 = 63.0_f64.to_radians();
 
 /// What a shot with a raised cue shows, by its first tag: it flies over red, or its way bends, and the cue has hopped where it
 /// began at a rail.

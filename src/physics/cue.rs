@@ -133,8 +133,10 @@ impl CueInputs {
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }
 
-    /// Checks `a² + b² <= limit`; a [`Table`]'s `miscue_limit` is where a real tip begins to slip. A steep cue may meet the ball
-    /// further up: what counts there is how far its line passes by the centre.
+    /// Checks that the place on the ball, `a² + b²`, or how far the cue's line passes by the centre,
+    /// [`Self::offset_across_squared`], is within the limit; a [`Table`]'s `miscue_limit` is where a real tip begins to slip. A
+    /// level cue has the same of both. A steep one may meet the ball further up, by the second; a low tip with a cue that is
+    /// raised a little is not refused, by the first.
     ///
     /// # Errors
     /// [`CueError::Tip`] where it is larger or not a number.
@@ -147,8 +149,7 @@ impl CueInputs {
 
     /// Whether the tip slips off the ball on this table: no ball is moved then, and no point is made.
     pub fn is_miscue(&self, table: &Table) -> bool {
-        let (offset, limit) = (self.tip_offset_squared(), table.miscue_limit);
-        offset > limit && (offset > 1.0 || self.offset_across_squared() > limit)
+        self.validate_tip(table.miscue_limit).is_err()
     }
 
     /// How far the cue's line passes by the ball's centre, squared, in units of R²: `a² + (b cos theta - c sin theta)²`, as in

@@ -200,6 +200,11 @@ pub enum DoubtError {
     /// A standard deviation that is none.
     #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
     Deviation(String, f64),
+    /// A value that no constant can have.
+    #[error(
+        "the doubt has {0} = {1} under another law of the rails; accepted is a finite number in the unit of the table's file"
+    )]
+    Value(String, f64),
     /// A weight that no law can have.
     #[error(
         "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
@@ -266,8 +271,11 @@ impl TableDoubt {
         let mut other = table.clone();
         other.rail.model = law.model;
         other.rail.kappa = table.rail.kappa.filter(|_| law.model == RailModel::Smooth);
-        for (name, value) in &law.values {
-            other = Self::with_value(&other, name, *value);
+        for constant in &CONSTANTS {
+            if let Some(value) = law.values.get(constant.name) {
+                // A constant that the table's own law does not have is one of the other's.
+                constant.give(&mut other, *value);
+            }
         }
         let mut deviations = self.deviations.clone();
         deviations.extend(law.deviations.clone());
@@ -302,7 +310,7 @@ impl TableDoubt {
         }
         self.laws.iter().try_for_each(|law| {
             if let Some((name, value)) = law.values.iter().find(|(_, value)| !value.is_finite()) {
-                return Err(DoubtError::Deviation(name.clone(), *value));
+                return Err(DoubtError::Value(name.clone(), *value));
             }
             let mut deviations = self.deviations.clone();
             deviations.extend(law.deviations.clone());
@@ -340,8 +348,13 @@ impl Constant {
     /// Gives a table this value, within the limits; one whose models do not have the constant stays as it is.
     pub(super) fn change(&self, table: &mut Table, value: f64) {
         if (self.get)(table).is_some() {
-            (self.set)(table, value.clamp(self.limits.0, self.limits.1));
+            self.give(table, value);
         }
+    }
+
+    /// Gives a table this value, within the limits.
+    fn give(&self, table: &mut Table, value: f64) {
+        (self.set)(table, value.clamp(self.limits.0, self.limits.1));
     }
 }
 
@@ -381,5 +394,15 @@ mod tests {
         assert!(law("weight = 1.5").contains("1.5") && law("weight = -0.1").contains("-0.1"));
         assert!(law("weight = 0.5\nvalues = { mu_x = 0.1 }").contains("mu_x"));
         assert!(law("weight = 0.5\ndeviations = { mu_r = -1 }").contains("mu_r = -1"));
+        assert!(law("weight = 0.5\nvalues = { e_rail = inf }").contains("a finite number"));
+    }
+
+    #[test]
+    fn another_law_has_the_constants_that_the_tables_own_does_not_have() {
+        let mut table = Table::default();
+        (table.rail.model, table.rail.kappa) = (RailModel::Nose, None);
+        let text = "[[laws]]\nmodel = \"smooth\"\nweight = 0.5\nvalues = { \"rail.kappa\" = 1.2 }";
+        let doubt: TableDoubt = toml::from_str(text).unwrap();
+        assert_eq!(doubt.under(&doubt.laws[0], &table).0.rail.kappa, Some(1.2));
     }
 }

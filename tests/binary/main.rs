@@ -3,11 +3,13 @@
 mod accuracy;
 mod bench;
 mod calibrate;
+mod cluster;
 mod command_faults;
 mod commands;
 mod cue_room;
 mod documents;
 mod drills;
+mod evaluate;
 mod fuzz;
 mod hostile;
 mod program;

@@ -16,6 +16,9 @@ use crate::{
     table::{Layout, Table},
 };
 
+/// How long before an event its course is read, s: at its own time it has already changed.
+const JUST_BEFORE: f64 = 1e-9;
+
 /// A cushion that the cue ball meets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cushion {
@@ -118,7 +121,7 @@ impl Technique {
         for event in recording.events() {
             self.tally.note(event);
             // At its own time an event has already changed the course.
-            let before = recording.state(0, event.time - 1e-9);
+            let before = recording.state(0, event.time - JUST_BEFORE);
             if let (Some(way), true) = (incoming, event.kind.balls().0 == 0) {
                 self.turn = before.velocity.angle_to(way).abs();
                 incoming = None;
@@ -131,7 +134,7 @@ impl Technique {
             if !has_touched && touches {
                 has_touched = true;
                 // What turns a ball that touches another or a cushion from the start is no bend of its way.
-                if event.time > 1e-9 {
+                if event.time > JUST_BEFORE {
                     self.bend = recording.impulse().velocity.angle_to(before.velocity).abs();
                 }
             }

@@ -22,11 +22,12 @@ pub fn jump_words(jump: &Jump, unit: LengthUnit) -> String {
     format!("{} high, {} far", height_words(jump.height, unit), unit.words(jump.distance))
 }
 
-/// Why there is no jump to be seen in a shot: how high the highest hop is.
-pub fn no_jump_words(table: &Table, recording: &Recording, unit: LengthUnit) -> String {
+/// Why there is no jump to be seen in a shot, if there is one: how high the highest hop is.
+pub fn no_jump_words(table: &Table, recording: Option<&Recording>, unit: LengthUnit) -> String {
     if table.flight.is_none() {
         return "no ball leaves this table's cloth: its file has no section [flight]".to_owned();
     }
+    let Some(recording) = recording else { return "there is no shot to look at yet".to_owned() };
     let highest = recording.jumps().iter().map(|jump| jump.height).fold(0.0, f64::max);
     if highest == 0.0 {
         return "nothing leaves the cloth in this shot".to_owned();

@@ -1,35 +1,28 @@
 //! `carom evaluate`: measure the recommender or a policy on held-out layouts.
 
-use std::{
-    f64::consts::PI,
-    io::Write,
-    time::{Duration, Instant},
-};
-
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
-use serde::Serialize;
-
+mod order;
 mod robustness;
 mod self_play;
+mod shots;
 
-use self::robustness::Robustness;
+use std::{io::Write, path::PathBuf, time::Duration};
+
+use self::{
+    order::{Order, Part, Records, Shard, merged},
+    shots::Player,
+};
 use super::{
     Failure,
-    input::{note_doubts, table_named},
+    input::{minutes, note_doubts, table_named},
     lookup::{policy_called, skill_called},
     recommend::coach_for,
 };
 use crate::{
     coach::{Doubt, Request, Skill},
-    game::{Reward, Rule, scores},
-    learning::{
-        Policy, PolicyError,
-        evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
-    },
-    physics::{CueInputs, has_room},
+    game::{Reward, Rule},
+    learning::{Policy, PolicyError, evaluation::EVALUATION_SEED},
     printing,
-    table::{Layout, Table},
+    table::Table,
 };
 
 /// Measure the recommender, or with --policy-only the networks alone, on layouts that nobody has practised: the share on
@@ -41,7 +34,7 @@ pub struct Args {
     #[arg(long, default_value_t = 2_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     layouts: u32,
     /// Seed of the layouts.
-    #[arg(long, default_value_t = HELD_OUT_SEED)]
+    #[arg(long, default_value_t = EVALUATION_SEED)]
     seed: u64,
     /// The table: "match", "textbook", "thesis" or the path of a TOML file.
     #[arg(long, default_value = "match")]
@@ -97,82 +90,82 @@ pub struct Args {
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
         value_parser = clap::value_parser!(u64).range(1..))]
     simulations: Option<u64>,
+    /// Measure part K of N of the layouts only, and print what was measured as JSON for --merge.
+    #[arg(long, value_name = "K/N", conflicts_with = "json")]
+    shard: Option<Shard>,
+    /// Measure nothing; report what the files of all parts hold together.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = [
+        "layouts", "seed", "table", "policy", "policy_only", "rule", "reward", "random_search", "skill", "doubt", "choose_doubt",
+        "self_play", "most_points", "minutes", "plan", "no_jumps", "budget_ms", "simulations", "shard",
+    ])]
+    merge: Vec<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
 }
 
-/// What is printed.
-#[derive(Debug, Serialize)]
-struct EvaluationReport {
-    player: &'static str,
-    /// Of players that have one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    policy: Option<String>,
-    table: String,
-    /// The reward or the rule.
-    measure: &'static str,
-    seed: u64,
-    mean_reward: f64,
-    /// Of rewards that are 0 or 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    success: Option<SuccessRate>,
-    /// Decisions a second; judging the shots is not counted.
-    layouts_per_second: f64,
-    slowest_ms: f64,
-    /// The share of the strokes that are harder than [`HARD`].
-    hard_share: f64,
-    /// Of the recommender.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    simulations_per_layout: Option<f64>,
-    /// How often the player of the skill makes the shots.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    robustness: Option<Robustness>,
-}
-
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let table = table_named(&args.table)?;
-    let rule_reward = Reward::for_rule(args.rule);
-    if args.self_play {
-        return self_play::run(args, table);
-    }
-    // The player and what it is measured by are all that differs.
-    let report = if let Some(shots) = args.random_search {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(args.seed);
-        measure(args, &table, "random search", rule_reward, &mut |layout| {
-            random_search(&table, layout, args.rule, shots, &mut rng)
-        })
-    } else if args.policy_only {
-        let reward = args.reward.unwrap_or(rule_reward);
-        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
-        note_doubts(&policy, &table, reward.rule());
-        measure(args, &table, POLICY, reward, &mut |layout| policy.propose(&table, layout))
-    } else {
-        let coach = coach_for(table.clone(), &args.policy)?;
-        let request = request(args, args.skill.unwrap_or(Skill::PERFECT));
-        let mut simulations = 0;
-        let mut claimed = Vec::new();
-        let mut report = measure(args, &table, "recommender", rule_reward, &mut |layout| {
-            coach.recommend(layout, &request).map_or(NO_SHOT, |advice| {
-                simulations += advice.simulations;
-                claimed.push(advice.make_probability.map(|chance| chance.rate));
-                advice.cue
-            })
-        });
-        report.simulations_per_layout = Some(simulations as f64 / f64::from(args.layouts));
-        if let Some(robustness) = &mut report.robustness {
-            robustness.claim(&claimed);
+    let (order, records) = if args.merge.is_empty() {
+        let (order, records) = measure(args)?;
+        if let Some(shard) = args.shard {
+            let mut out = printing::stdout();
+            printing::json(&mut out, &Part { order, shard, records })?;
+            return Ok(writeln!(out)?);
         }
-        report
-    };
-    if args.json {
-        let mut out = printing::stdout();
-        printing::json(&mut out, &report)?;
-        writeln!(out)?;
+        (order, records)
     } else {
-        print(&mut printing::stdout(), &report, args.layouts)?;
+        merged(&args.merge).map_err(Failure::failed)?
+    };
+    match records {
+        Records::Shots(records) => shots::print(&order, &records, args.json)?,
+        Records::Innings(records) => self_play::print(&order, &records, args.json)?,
     }
     Ok(())
+}
+
+/// Measures the layouts of one part, or all.
+fn measure(args: &Args) -> Result<(Order, Records), Failure> {
+    let table = table_named(&args.table)?;
+    let shard = args.shard.unwrap_or(Shard::WHOLE);
+    let reward = args.reward.unwrap_or_else(|| Reward::for_rule(args.rule));
+    let skill = if args.self_play { args.skill.or(Some(Skill::EXPERT)) } else { args.skill };
+    let player = if let Some(shots) = args.random_search {
+        Player::RandomSearch(shots)
+    } else if args.policy_only {
+        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
+        note_doubts(&policy, &table, reward.rule());
+        Player::Policy(policy)
+    } else {
+        let coach = coach_for(table.clone(), &args.policy)?;
+        Player::Recommender(Box::new(coach), request(args, skill.unwrap_or(Skill::PERFECT)))
+    };
+    let order = Order {
+        player: player.name().to_owned(),
+        policy: args.random_search.is_none().then(|| args.policy.clone()),
+        table,
+        measure: if args.policy_only { reward.name() } else { args.rule.name() }.to_owned(),
+        is_yes_or_no: reward == Reward::R1 || reward.rule().is_some(),
+        seed: args.seed,
+        layouts: args.layouts,
+        skill,
+        doubt: args.doubt,
+        choose_doubt: args.choose_doubt,
+        plan: args.plan,
+        no_jumps: args.no_jumps,
+        budget_ms: (!args.policy_only && args.random_search.is_none() && args.simulations.is_none())
+            .then_some(args.budget_ms),
+        simulations: args.simulations,
+        random_search: args.random_search,
+        most_points: args.self_play.then_some(args.most_points),
+    };
+    let records = match &player {
+        Player::Recommender(coach, request) if args.self_play => {
+            let limit = args.minutes.map(minutes).transpose()?;
+            Records::Innings(self_play::play(&order, shard, coach, request, limit)?)
+        }
+        player => Records::Shots(shots::measure(&order, shard, player, args.rule, reward)),
+    };
+    Ok((order, records))
 }
 
 /// What the recommender is asked for.
@@ -184,96 +177,6 @@ fn request(args: &Args, skill: Skill) -> Request {
     let doubt = args.choose_doubt.unwrap_or(args.doubt);
     let Args { rule, plan, no_jumps, seed, .. } = *args;
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
-}
-
-/// Speed above which a stroke counts as a hard one, m/s: filmed players' balls leave the cue at 3.5 m/s, after a stroke of 2.5.
-const HARD: f64 = 5.0;
-
-/// Name of the networks alone as a player.
-const POLICY: &str = "policy";
-
-/// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
-const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
-
-/// The first of `shots` shots in a random direction at a random speed that the cue has room for and that makes the point; the last
-/// one where none does.
-fn random_search(table: &Table, layout: &Layout, rule: Rule, shots: u32, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
-    let mut cue = NO_SHOT;
-    for _ in 0..shots {
-        let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
-        cue = CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed };
-        if has_room(table, layout, &cue) && scores(rule, table, layout, &cue) {
-            break;
-        }
-    }
-    cue
-}
-
-/// Lets `player` decide on every layout and plays what it decides.
-fn measure(
-    args: &Args,
-    table: &Table,
-    name: &'static str,
-    reward: Reward,
-    player: &mut dyn FnMut(&Layout) -> CueInputs,
-) -> EvaluationReport {
-    let (mut total, mut successes, mut hard, mut seconds, mut slowest) = (0.0, 0, 0, 0.0, 0.0_f64);
-    let mut chances = Vec::new();
-    for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
-        let start = Instant::now();
-        let cue = player(&layout);
-        let taken = start.elapsed().as_secs_f64();
-        seconds += taken;
-        slowest = slowest.max(taken);
-        let earned = reward.of(table, &layout, &cue);
-        total += earned;
-        successes += usize::from(earned >= 1.0);
-        hard += usize::from(cue.speed > HARD);
-        if let Some(skill) = args.skill {
-            chances.push(robustness::chance(args, table, &layout, skill, &cue));
-        }
-    }
-    let count = args.layouts as usize;
-    EvaluationReport {
-        player: name,
-        policy: args.random_search.is_none().then(|| args.policy.clone()),
-        table: table.name.clone(),
-        measure: if name == POLICY { reward.name() } else { args.rule.name() },
-        seed: args.seed,
-        mean_reward: total / count as f64,
-        success: (reward == Reward::R1 || reward.rule().is_some()).then(|| SuccessRate::new(successes, count)),
-        layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
-        slowest_ms: 1e3 * slowest,
-        hard_share: hard as f64 / count as f64,
-        simulations_per_layout: None,
-        robustness: args.skill.map(|skill| Robustness::new(skill, args.doubt, chances)),
-    }
-}
-
-fn print(out: &mut impl Write, report: &EvaluationReport, layouts: u32) -> std::io::Result<()> {
-    let EvaluationReport { player, policy, table, measure, .. } = report;
-    let policy = policy.as_ref().map_or_else(String::new, |policy| format!(" {policy}"));
-    match report.success {
-        Some(SuccessRate { rate, low, high, .. }) => writeln!(
-            out,
-            "{player}{policy} on \"{table}\": {measure} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
-            100.0 * rate,
-            100.0 * low,
-            100.0 * high
-        )?,
-        None => writeln!(
-            out,
-            "{player}{policy} on \"{table}\": mean {measure} {:.4} over {layouts} layouts",
-            report.mean_reward
-        )?,
-    }
-    write!(out, "{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms)?;
-    match report.simulations_per_layout {
-        Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
-        None => writeln!(out)?,
-    }
-    writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
-    report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
 /// The bundled policy for `rule` on `table`, or the one in the file.
@@ -295,34 +198,6 @@ fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::Parser;
-
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        args: Args,
-    }
-
-    fn args(line: &[&str]) -> Args {
-        Line::parse_from(std::iter::once(&"evaluate").chain(line)).args
-    }
-
-    #[test]
-    fn a_player_is_measured_with_its_interval() {
-        let table = Table::default();
-        let args = args(&["--layouts", "50"]);
-        let mut at_the_first_ball = |layout: &Layout| CueInputs {
-            a: 0.0,
-            b: 0.0,
-            theta: 0.1,
-            phi: (layout.balls[1] - layout.balls[0]).to_angle(),
-            speed: 4.0,
-        };
-        let report = measure(&args, &table, "straight", Reward::R1, &mut at_the_first_ball);
-        let success = report.success.unwrap();
-        assert_eq!((report.mean_reward, success.successes, success.trials), (1.0, 50, 50));
-        assert!(success.low > 0.9 && report.layouts_per_second > 0.0);
-    }
 
     #[test]
     fn unknown_tables_and_policies_are_named() {

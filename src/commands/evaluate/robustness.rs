@@ -4,11 +4,12 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::Args;
+use super::order::Order;
 use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
+    game::Rule,
     physics::CueInputs,
-    table::{Layout, Table},
+    table::Layout,
 };
 
 /// Independent attempts at each shot.
@@ -48,9 +49,10 @@ struct Tenth {
 }
 
 /// The make probability of a shot.
-pub fn chance(args: &Args, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
+pub fn chance(order: &Order, rule: Rule, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
     // Another stream than the recommender's, which has this seed too.
-    make_probability(Shooter { skill, doubt: args.doubt }, args.rule, table, layout, cue, ATTEMPTS, !args.seed).rate
+    let shooter = Shooter { skill, doubt: order.doubt };
+    make_probability(shooter, rule, &order.table, layout, cue, ATTEMPTS, !order.seed).rate
 }
 
 impl Robustness {

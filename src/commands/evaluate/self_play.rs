@@ -7,15 +7,15 @@ use std::{
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::{Args, request};
+use super::order::{Order, Shard};
 use crate::{
-    coach::{Doubt, Inning, Skill, inning},
-    commands::{Failure, input::minutes, output::tell, recommend::coach_for},
+    coach::{Coach, Doubt, Inning, Request, Skill, inning},
+    commands::{Failure, output::tell},
     learning::evaluation::{SuccessRate, held_out_layouts},
     printing,
-    table::{Layout, Table},
+    table::Layout,
 };
 
 /// Longest play where no limit is given: a hundred years' worth of nobody waiting.
@@ -24,13 +24,27 @@ const NO_LIMIT: Duration = Duration::from_hours(100 * 365 * 24);
 /// Turns between two lines of progress.
 const PROGRESS: u32 = 100;
 
+/// What was measured from one layout on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InningRecord {
+    /// The layout's number, from 0.
+    pub layout: u32,
+    points: u32,
+    missed: bool,
+    simulations: u64,
+    seconds: f64,
+    /// Of the turn that took longest.
+    slowest_seconds: f64,
+}
+
 /// What is printed.
 #[derive(Debug, Serialize)]
-struct SelfPlayReport {
-    player: &'static str,
-    table: String,
-    rule: &'static str,
-    skill: Skill,
+struct SelfPlayReport<'a> {
+    player: &'a str,
+    table: &'a str,
+    rule: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    skill: Option<Skill>,
     doubt: Doubt,
     seed: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -56,77 +70,90 @@ struct SelfPlayReport {
     slowest_ms: f64,
 }
 
-pub fn run(args: &Args, table: Table) -> Result<(), Failure> {
-    let limit = args.minutes.map_or(Ok(NO_LIMIT), minutes)?;
-    let coach = coach_for(table, &args.policy)?;
-    let skill = args.skill.unwrap_or(Skill::EXPERT);
-    let request = request(args, skill);
-    let start = Instant::now();
-    let until = start + limit.min(NO_LIMIT);
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(!args.seed);
-    let mut innings = Vec::new();
-    for layout in held_out_layouts(coach.table(), args.layouts as usize, args.seed) {
-        if Instant::now() >= until {
+/// Plays an inning from every layout of the part; no further ones after the `limit` of time.
+pub fn play(
+    order: &Order,
+    shard: Shard,
+    coach: &Coach,
+    request: &Request,
+    limit: Option<Duration>,
+) -> Result<Vec<InningRecord>, Failure> {
+    let until = Instant::now() + limit.unwrap_or(NO_LIMIT).min(NO_LIMIT);
+    let most = order.most_points.unwrap_or(u32::MAX);
+    let mut records = Vec::new();
+    let layouts = held_out_layouts(&order.table, order.layouts as usize, order.seed);
+    for (index, layout) in (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index)) {
+        let start = Instant::now();
+        if start >= until {
             break;
         }
-        let number = innings.len() + 1;
+        let number = index + 1;
         let mut say = |so_far: &Inning, _: &Layout| {
             if so_far.points.is_multiple_of(PROGRESS) {
                 tell(format_args!("inning {number}: {} points", so_far.points));
             }
         };
-        let played = inning(&coach, &layout, &request, args.most_points, until, &mut rng, &mut say)
-            .map_err(Failure::wrong_input)?;
-        tell(format_args!(
-            "inning {number}: {} points{}",
-            played.points,
-            if played.missed { "" } else { ", broken off" }
-        ));
-        innings.push(played);
+        // Numbers of its own for each inning: parts play what the whole plays.
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(!order.seed ^ (u64::from(index) << 32));
+        let Inning { points, missed, simulations, slowest } =
+            inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
+        tell(format_args!("inning {number}: {points} points{}", if missed { "" } else { ", broken off" }));
+        records.push(InningRecord {
+            layout: index,
+            points,
+            missed,
+            simulations,
+            seconds: start.elapsed().as_secs_f64(),
+            slowest_seconds: slowest.as_secs_f64(),
+        });
     }
-    let report = report(args, &coach.table().name, skill, &innings, start.elapsed());
-    let mut out = printing::stdout();
-    if args.json {
-        printing::json(&mut out, &report)?;
-        writeln!(out)?;
-    } else {
-        print(&mut out, &report)?;
-    }
-    Ok(())
+    Ok(records)
 }
 
-fn report(args: &Args, table: &str, skill: Skill, innings: &[Inning], elapsed: Duration) -> SelfPlayReport {
-    let points: u32 = innings.iter().map(|inning| inning.points).sum();
-    let misses = innings.iter().filter(|inning| inning.missed).count() as u32;
+/// Prints the report over all innings.
+pub fn print(order: &Order, records: &[InningRecord], json: bool) -> std::io::Result<()> {
+    let report = report(order, records);
+    let mut out = printing::stdout();
+    if json {
+        printing::json(&mut out, &report)?;
+        writeln!(out)
+    } else {
+        print_text(&mut out, &report)
+    }
+}
+
+fn report<'a>(order: &'a Order, records: &[InningRecord]) -> SelfPlayReport<'a> {
+    let points: u32 = records.iter().map(|inning| inning.points).sum();
+    let misses = records.iter().filter(|inning| inning.missed).count() as u32;
     let turns = f64::from((points + misses).max(1));
     let missed = SuccessRate::new(misses as usize, (points + misses) as usize);
     let average = |miss: f64| (miss > 0.0).then(|| (1.0 - miss) / miss);
     SelfPlayReport {
-        player: "recommender",
-        table: table.to_owned(),
-        rule: args.rule.name(),
-        skill,
-        doubt: args.doubt,
-        seed: args.seed,
-        budget_ms: args.simulations.is_none().then_some(args.budget_ms),
-        simulations: args.simulations,
-        plan: args.plan,
-        innings: innings.len(),
-        broken_off: innings.len() - misses as usize,
+        player: &order.player,
+        table: &order.table.name,
+        rule: &order.measure,
+        skill: order.skill,
+        doubt: order.doubt,
+        seed: order.seed,
+        budget_ms: order.budget_ms,
+        simulations: order.simulations,
+        plan: order.plan,
+        innings: records.len(),
+        broken_off: records.len() - misses as usize,
         points,
         misses,
-        mean_run: f64::from(points) / innings.len().max(1) as f64,
+        mean_run: f64::from(points) / records.len().max(1) as f64,
         average: f64::from(points) / f64::from(misses.max(1)),
         average_interval: [average(missed.high), average(missed.low)],
-        longest: innings.iter().map(|inning| inning.points).max().unwrap_or(0),
-        runs: innings.iter().map(|inning| inning.points).collect(),
-        simulations_per_turn: innings.iter().map(|inning| inning.simulations).sum::<u64>() as f64 / turns,
-        mean_ms: 1e3 * elapsed.as_secs_f64() / turns,
-        slowest_ms: 1e3 * innings.iter().map(|inning| inning.slowest).max().unwrap_or_default().as_secs_f64(),
+        longest: records.iter().map(|inning| inning.points).max().unwrap_or(0),
+        runs: records.iter().map(|inning| inning.points).collect(),
+        simulations_per_turn: records.iter().map(|inning| inning.simulations).sum::<u64>() as f64 / turns,
+        mean_ms: 1e3 * records.iter().map(|inning| inning.seconds).sum::<f64>() / turns,
+        slowest_ms: 1e3 * records.iter().map(|inning| inning.slowest_seconds).fold(0.0, f64::max),
     }
 }
 
-fn print(out: &mut impl Write, report: &SelfPlayReport) -> std::io::Result<()> {
+fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Result<()> {
     let end = |end: Option<f64>| end.map_or_else(|| "no limit".to_owned(), |end| format!("{end:.1}"));
     let [low, high] = report.average_interval.map(end);
     writeln!(
@@ -134,7 +161,7 @@ fn print(out: &mut impl Write, report: &SelfPlayReport) -> std::io::Result<()> {
         "self-play on \"{}\", {}, skill \"{}\", doubt \"{}\": {} points and {} misses in {} innings ({} broken off)",
         report.table,
         report.rule,
-        report.skill,
+        report.skill.unwrap_or(Skill::EXPERT),
         report.doubt,
         report.points,
         report.misses,

@@ -10,7 +10,7 @@ use crate::{
     learning::{
         learner::TrainingPlan,
         run::{
-            Config, Schedule,
+            Config, Schedule, Start,
             origin::Weights,
             run_name,
             seeds::{TrainingSpec, described, is_group},
@@ -54,34 +54,50 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
     Ok(Read { spec, weights, folder })
 }
 
-/// Whether the run, or the group of seeds, in the folder was started by such an order; else a sentence that names the
-/// difference.
-pub fn same_order(read: &Read, seeds: Option<u64>) -> Result<(), String> {
-    let TrainingSpec { agent, plan, table, .. } = &read.spec;
-    let known = if is_group(&read.folder) {
-        described(&read.folder).map(|(order, seeds)| (order.agent, order.plan, order.table, Some(seeds))).ok()
-    } else {
-        Config::read(&read.folder).map(|config| (config.agent, config.plan, config.table, None)).ok()
-    };
+/// Whether the run, or the group of seeds, in the folder was started by such an order.
+pub fn same_order(read: &Read, seeds: Option<u64>) -> Result<(), Failure> {
     // What cannot be read is told by whoever goes on with it.
-    let Some((their_agent, theirs, their_table, their_seeds)) = known else { return Ok(()) };
+    let Some((theirs, from, their_seeds)) = known_order(&read.folder) else { return Ok(()) };
+    let ours = &read.spec;
+    let source = |start: Option<&Start>| start.map_or_else(|| "none".to_owned(), |start| start.path.clone());
     let count = |seeds: Option<u64>| seeds.map_or_else(|| "none".to_owned(), |seeds| seeds.to_string());
+    let (their_settings, our_settings) =
+        (theirs.all_settings().map_err(failure)?, ours.all_settings().map_err(failure)?);
     let pairs = [
-        ("agent", their_agent, agent.clone()),
-        ("reward", theirs.reward.to_string(), plan.reward.to_string()),
-        ("seed", theirs.seed.to_string(), plan.seed.to_string()),
-        ("steps", theirs.shots.to_string(), plan.shots.to_string()),
-        ("table", their_table.name, table.name.clone()),
+        ("agent", theirs.agent, ours.agent.clone()),
+        ("reward", theirs.plan.reward.to_string(), ours.plan.reward.to_string()),
+        ("seed", theirs.plan.seed.to_string(), ours.plan.seed.to_string()),
+        ("steps", theirs.plan.shots.to_string(), ours.plan.shots.to_string()),
         ("seeds", count(their_seeds), count(seeds)),
+        ("from", source(from.as_ref()), source(read.weights.as_ref().map(|weights| &weights.start))),
+        ("evaluate-every", theirs.schedule.evaluate_every.to_string(), ours.schedule.evaluate_every.to_string()),
+        (
+            "evaluation-layouts",
+            theirs.schedule.evaluation_layouts.to_string(),
+            ours.schedule.evaluation_layouts.to_string(),
+        ),
+        ("table", theirs.table.name.clone(), ours.table.name.clone()),
+        ("settings", their_settings.to_string(), our_settings.to_string()),
     ];
-    match pairs.into_iter().find(|(_, theirs, ours)| theirs != ours) {
-        None => Ok(()),
-        Some((what, theirs, ours)) => Err(format!(
-            "the run in {} has {what} {theirs}, not {ours}: --continue goes on with the run of the same order; choose another \
-             folder by --run",
-            read.folder.display()
-        )),
+    let difference = match pairs.into_iter().find(|(_, theirs, ours)| theirs != ours) {
+        Some((what, theirs, ours)) => format!("{what} {theirs}, not {ours}"),
+        None if theirs.table != ours.table => format!("another table of the name {}", ours.table.name),
+        None => return Ok(()),
+    };
+    Err(Failure::wrong_input(format_args!(
+        "the run in {} has {difference}: --continue goes on with the run of the same order; choose another folder by --run",
+        read.folder.display()
+    )))
+}
+
+/// What the run or the group in the folder was started with: the order, whose weights, and how many seeds.
+fn known_order(folder: &Path) -> Option<(TrainingSpec, Option<Start>, Option<u64>)> {
+    if is_group(folder) {
+        let (order, seeds, from) = described(folder).ok()?;
+        return Some((order, from, Some(seeds)));
     }
+    let Config { agent, plan, settings, schedule, table, from, .. } = Config::read(folder).ok()?;
+    Some((TrainingSpec { agent, plan, settings, schedule, table }, from, None))
 }
 
 /// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them.

@@ -3,13 +3,11 @@
 use candle_core::{Device, Result, Tensor, Var, bail};
 use candle_nn::{Linear, Module};
 use rand::{Rng, RngExt};
-use serde::{Deserialize, Serialize};
 
 use super::fused::Fused;
 
 /// How a network's passes are computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Operations {
     /// The whole network as one operation, [`Fused`].
     #[default]

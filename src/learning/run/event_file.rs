@@ -33,8 +33,10 @@ impl EventFile {
         let file = OpenOptions::new().create(true).truncate(true).write(true).open(folder.join(FILE))?;
         let mut events = Self(file);
         let mut bytes = framed(&version_event());
+        // As if the run had gone on without a break: when its parts were played is not known.
+        let begin = now() - records.last().map_or(0.0, |last| last.seconds);
         for record in records {
-            bytes.extend(framed(&event(record, record.seconds)));
+            bytes.extend(framed(&event(record, begin + record.seconds)));
         }
         events.0.write_all(&bytes)?;
         Ok(events)
@@ -59,7 +61,8 @@ fn framed(content: &[u8]) -> Vec<u8> {
     [&length, &masked(&length)[..], content, &masked(content)].concat()
 }
 
-/// The checksum as it stands in the file, turned so that a file of files does not contain its own.
+/// The checksum as it stands in the file, rotated and offset, as the format asks, so that checksums of data that hold
+/// checksums stay useful.
 fn masked(bytes: &[u8]) -> [u8; 4] {
     CHECKSUM.checksum(bytes).rotate_right(15).wrapping_add(0xa282_ead8).to_le_bytes()
 }
@@ -167,6 +170,9 @@ mod tests {
         assert_eq!(events.len(), 3);
         let has = |event: &[u8], part: &[u8]| event.windows(part.len()).any(|window| window == part);
         assert!(has(events[0], b"brain.Event:2"));
+        let wall_times: Vec<f64> =
+            events.iter().map(|event| f64::from_le_bytes(event[1..9].try_into().unwrap())).collect();
+        assert!(wall_times.iter().all(|time| (now() - time).abs() < 60.0), "{wall_times:?}");
         for event in &events[1..] {
             assert!(has(event, b"rollout/ep_rew_mean") && has(event, &0.25_f32.to_le_bytes()));
             assert!(has(event, &[STEP << 3, 0xac, 0x02]), "300 shots");

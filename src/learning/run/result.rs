@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::error::{RunError, file};
 use crate::{
@@ -13,11 +13,11 @@ use crate::{
     storage::write_atomic,
 };
 
-/// The file's name in a run's folder; it is there if and only if the run is finished.
+/// The file's name in a run's folder; it is there once the run is finished, and taken away when it goes on.
 pub const FILE: &str = "result.json";
 
 /// The content of the file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub struct RunResult {
     /// The agent's name.
     pub agent: String,

@@ -57,6 +57,14 @@ impl TrainingSpec {
         Run::create(folder, learner, self.schedule, weights.map(|weights| weights.start.clone()))
     }
 
+    /// All settings of the agent, with the defaults of those that are not given.
+    ///
+    /// # Errors
+    /// Where the agent refuses one.
+    pub fn all_settings(&self) -> Result<Value, RunError> {
+        Ok(self.untrained(self.plan.seed, None)?.settings())
+    }
+
     fn untrained(&self, seed: u64, weights: Option<&Weights>) -> Result<Box<dyn Learner>, RunError> {
         let agent = Agent::named(&self.agent)?;
         let mut learner = (agent.start)(TrainingPlan { seed, ..self.plan }, self.table.clone(), self.settings.clone())?;
@@ -84,13 +92,13 @@ impl GroupFile {
     }
 }
 
-/// What the group in `folder` trains, and with how many seeds.
+/// What the group in `folder` trains, with how many seeds, and from whose weights.
 ///
 /// # Errors
 /// Where its description cannot be read.
-pub fn described(folder: &Path) -> Result<(TrainingSpec, u64), RunError> {
-    let GroupFile { seeds, order, .. } = GroupFile::read(folder)?;
-    Ok((order, seeds))
+pub fn described(folder: &Path) -> Result<(TrainingSpec, u64, Option<Start>), RunError> {
+    let GroupFile { seeds, order, from } = GroupFile::read(folder)?;
+    Ok((order, seeds, from))
 }
 
 /// Runs that differ in their seed alone, in folders of one folder.

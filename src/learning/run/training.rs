@@ -1,7 +1,7 @@
 //! The loop that fills a run's folder.
 
 use std::{
-    thread,
+    fs, thread,
     time::{Duration, Instant},
 };
 
@@ -14,7 +14,7 @@ use super::{
     heartbeat::Heartbeat,
     metrics::{self, MetricsFile, Record},
     request::Request,
-    result::RunResult,
+    result::{self, RunResult},
     status::Phase,
 };
 use crate::{
@@ -80,6 +80,10 @@ impl Run {
         let (metrics, last) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let events = metrics::read(&path).and_then(|records| EventFile::create(&self.folder, &records)).ok();
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
+        if !self.learner.is_finished() {
+            // A finished run whose last checkpoint was lost goes on from the one before.
+            let _ = fs::remove_file(self.folder.join(result::FILE));
+        }
         let clock = Clock::new(self.learner.shots(), last.map_or(0.0, |record| record.seconds));
         let mut reporting =
             Reporting { metrics, events, clock, heartbeat: Heartbeat::new(&self.folder), layouts, watcher };

@@ -17,7 +17,7 @@ pub struct Weighed {
     pub fitted: Fitted,
     /// How likely it is that the law predicts a meeting with a rail, among those that were weighed together.
     pub weight: f64,
-    /// By how much it misses the rails that it predicts on shots it was not fitted to: median, diamonds.
+    /// By how much it misses the rails that it predicts on shots it was not fitted to: median, diamonds. A rail that is not met counts as 9 m off.
     pub median: f64,
     /// How many of these there are.
     pub predicted: usize,
@@ -42,7 +42,7 @@ pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64
                 let diamond = table.diamond();
                 let miss = move |chain: chains::Chain| {
                     let played = chain.play(&table);
-                    played.places.last().map_or(9.0, |place| place / diamond)
+                    played.places[played.places.len() - 1] / diamond
                 };
                 chains::all(&Table::default(), &halves[1 - fit_on], 4).into_iter().map(miss).collect::<Vec<_>>()
             };

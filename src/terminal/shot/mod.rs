@@ -143,16 +143,18 @@ impl Shot {
         }
     }
 
-    /// Its jump on `table`, as one who looks from the side sees it; `None` where nothing jumps.
+    /// Its jump on `table`, the one that it was recorded on, as one who looks from the side sees it; `None` where nothing jumps.
     pub fn profile(&self, table: &Table) -> Option<&Profile> {
         self.profile.get_or_init(|| Profile::of(table, &self.recording)).as_ref()
     }
 
-    /// What came of it on `table` by a rule.
+    /// What came of it by a rule on `table`, the one that it was recorded on.
     pub fn verdict(&self, rule: Rule, table: &Table) -> Verdict {
-        let layout = || Layout::new(self.recording.positions(0.0));
         let place = Rule::ALL.iter().position(|one| *one == rule).unwrap_or_default();
-        *self.verdicts[place].get_or_init(|| Verdict::of(rule, table, &layout(), &self.recording))
+        *self.verdicts[place].get_or_init(|| {
+            let layout = Layout::new(self.recording.positions(0.0));
+            Verdict::of(rule, table, &layout, &self.recording)
+        })
     }
 
     /// How the cue ball, of `radius` in m, spins at `time`, s, while the shot is under way; `None` before and after.

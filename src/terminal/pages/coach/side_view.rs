@@ -1,10 +1,8 @@
 //! The jump from the side: when it is shown, and what is said where there is none.
 
-use std::sync::Arc;
-
 use crate::{
     coach::words::no_jump_words,
-    terminal::{Shot, pages::coach::CoachPage, shot::Profile, ui::Message},
+    terminal::{pages::coach::CoachPage, shot::Profile, ui::Message},
 };
 
 /// From where the shot is looked at.
@@ -36,7 +34,7 @@ impl CoachPage {
     }
 
     fn no_jump(&self) -> String {
-        let words = |shot: &Arc<Shot>| no_jump_words(self.table(), &shot.recording, self.units.length);
-        self.shot().map_or_else(|| "nothing leaves the cloth in this shot".to_owned(), words)
+        let recording = self.shot().map(|shot| &shot.recording);
+        no_jump_words(self.table(), recording, self.units.length)
     }
 }

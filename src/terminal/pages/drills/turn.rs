@@ -270,7 +270,7 @@ impl Turn {
             (false, _) => "jumps are shown from above alone".to_owned(),
             (true, None) => "jumps are shown from the side too".to_owned(),
             (true, Some(shot)) if shot.profile(&self.table).is_some() => "the jump from the side".to_owned(),
-            (true, Some(shot)) => no_jump_words(&self.table, &shot.recording, unit),
+            (true, Some(shot)) => no_jump_words(&self.table, Some(&shot.recording), unit),
         }
     }
 

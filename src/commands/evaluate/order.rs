@@ -1,0 +1,185 @@
+//! What an evaluation measures, and the parts that several processes or machines share it out in.
+
+use std::{collections::BTreeSet, fmt, path::PathBuf, str::FromStr};
+
+use serde::{Deserialize, Serialize};
+
+use super::{self_play::InningRecord, shots::ShotRecord};
+use crate::{
+    coach::{Doubt, Skill},
+    storage,
+    table::Table,
+};
+
+/// What is measured: all parts of an evaluation have it in common.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Order {
+    /// Who decides: "recommender", "policy" or "random search".
+    pub player: String,
+    /// The policy, of players that have one.
+    pub policy: Option<String>,
+    pub table: Table,
+    /// The reward or the rule.
+    pub measure: String,
+    /// Whether that is yes or no.
+    pub is_yes_or_no: bool,
+    pub seed: u64,
+    /// Layouts of all parts together.
+    pub layouts: u32,
+    pub skill: Option<Skill>,
+    pub doubt: Doubt,
+    /// The doubt that shots are chosen with, where it is another.
+    pub choose_doubt: Option<Doubt>,
+    pub plan: bool,
+    pub no_jumps: bool,
+    /// What the recommender has for a layout: a time, or a number of simulations.
+    pub budget_ms: Option<u64>,
+    pub simulations: Option<u64>,
+    /// Shots of the random search.
+    pub random_search: Option<u32>,
+    /// Points after which an inning of self-play is broken off.
+    pub most_points: Option<u32>,
+}
+
+/// A part of the layouts: `k/n` is every n-th layout from the k-th on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Shard {
+    part: u32,
+    of: u32,
+}
+
+impl Shard {
+    /// All layouts.
+    pub const WHOLE: Self = Self { part: 1, of: 1 };
+
+    /// Whether the layout with this number, from 0, belongs to it.
+    pub const fn holds(self, index: u32) -> bool {
+        index % self.of == self.part - 1
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}/{}", self.part, self.of)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let shard = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
+        match shard {
+            Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
+            _ => Err(format!("\"{text}\" is no part: write K/N like 2/8, K from 1 to N")),
+        }
+    }
+}
+
+impl TryFrom<String> for Shard {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Shard> for String {
+    fn from(shard: Shard) -> Self {
+        shard.to_string()
+    }
+}
+
+/// What was measured on each layout.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Records {
+    /// One shot a layout.
+    Shots(Vec<ShotRecord>),
+    /// One inning a layout.
+    Innings(Vec<InningRecord>),
+}
+
+/// What one process measured.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Part {
+    pub order: Order,
+    pub shard: Shard,
+    pub records: Records,
+}
+
+/// Why parts cannot be put together.
+#[derive(Debug, thiserror::Error)]
+pub enum MergeError {
+    /// A file cannot be read.
+    #[error("{}: {error}", path.display())]
+    File { path: PathBuf, error: std::io::Error },
+    /// Its contents are no part.
+    #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {error}", path.display())]
+    Contents { path: PathBuf, error: serde_json::Error },
+    /// The parts measured different things.
+    #[error("{} and {} are parts of different evaluations", one.display(), other.display())]
+    Different { one: PathBuf, other: PathBuf },
+    /// The same layouts twice.
+    #[error("{} holds part {shard}, which another file holds too", path.display())]
+    Twice { path: PathBuf, shard: Shard },
+    /// Parts are missing.
+    #[error("part {shard} is missing; give the files of all parts")]
+    Missing { shard: Shard },
+}
+
+/// The whole of which these files hold the parts.
+pub fn merged(files: &[PathBuf]) -> Result<(Order, Records), MergeError> {
+    let mut whole: Option<Part> = None;
+    let mut seen = BTreeSet::new();
+    for path in files {
+        let part = read(path)?;
+        if !seen.insert(part.shard.part) {
+            return Err(MergeError::Twice { path: path.clone(), shard: part.shard });
+        }
+        match &mut whole {
+            None => whole = Some(part),
+            Some(whole) => {
+                let is_same = whole.order == part.order && whole.shard.of == part.shard.of;
+                if !(is_same && whole.records.append(part.records)) {
+                    return Err(MergeError::Different { one: files[0].clone(), other: path.clone() });
+                }
+            }
+        }
+    }
+    // The command line asks for one file at least.
+    let Some(Part { order, shard: Shard { of, .. }, mut records }) = whole else {
+        return Err(MergeError::Missing { shard: Shard::WHOLE });
+    };
+    if let Some(part) = (1..=of).find(|part| !seen.contains(part)) {
+        return Err(MergeError::Missing { shard: Shard { part, of } });
+    }
+    records.sort();
+    Ok((order, records))
+}
+
+fn read(path: &PathBuf) -> Result<Part, MergeError> {
+    let text = storage::read(path, storage::LARGE).map_err(|error| MergeError::File { path: path.clone(), error })?;
+    serde_json::from_slice(&text).map_err(|error| MergeError::Contents { path: path.clone(), error })
+}
+
+impl Records {
+    /// Takes the records of another part; not if they are of the other kind.
+    fn append(&mut self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Shots(all), Self::Shots(more)) => all.extend(more),
+            (Self::Innings(all), Self::Innings(more)) => all.extend(more),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Brings them into the order of the layouts.
+    fn sort(&mut self) {
+        match self {
+            Self::Shots(records) => records.sort_by_key(|record| record.layout),
+            Self::Innings(records) => records.sort_by_key(|record| record.layout),
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! One shot a layout: who decides, what each layout showed, and the report over all of them.
+
+use std::{f64::consts::PI, io::Write, time::Instant};
+
+use rand::{RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    order::{Order, Shard},
+    robustness::{self, Robustness},
+};
+use crate::{
+    coach::{Coach, Request},
+    game::{Reward, Rule, scores},
+    learning::{
+        Policy,
+        evaluation::{SuccessRate, held_out_layouts},
+    },
+    physics::{CueInputs, has_room},
+    printing,
+    table::{Layout, Table},
+};
+
+/// Speed above which a stroke counts as a hard one, m/s: filmed players' balls leave the cue at 3.5 m/s, after a stroke of 2.5.
+const HARD: f64 = 5.0;
+
+/// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
+const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
+
+/// Who decides on a shot.
+pub enum Player {
+    /// Networks and search together.
+    Recommender(Box<Coach>, Request),
+    /// The networks alone.
+    Policy(Policy),
+    /// The first of so many random shots that makes the point.
+    RandomSearch(u32),
+}
+
+impl Player {
+    /// Its name in reports.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Recommender(..) => "recommender",
+            Self::Policy(_) => "policy",
+            Self::RandomSearch(_) => "random search",
+        }
+    }
+}
+
+/// A decision.
+struct Decision {
+    cue: CueInputs,
+    simulations: Option<u64>,
+    claimed: Option<f64>,
+}
+
+/// What was measured on one layout.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShotRecord {
+    /// Its number, from 0.
+    pub layout: u32,
+    /// The reward of the shot without errors.
+    earned: f64,
+    /// Speed of the stroke, m/s.
+    speed: f64,
+    /// Time of the decision, s.
+    seconds: f64,
+    /// Of players that search.
+    simulations: Option<u64>,
+    /// What the player said of the shot's make probability.
+    claimed: Option<f64>,
+    /// How often the player of the skill makes it.
+    chance: Option<f64>,
+}
+
+/// Lets `player` decide on every layout of the part and plays what it decides.
+pub fn measure(order: &Order, shard: Shard, player: &Player, rule: Rule, reward: Reward) -> Vec<ShotRecord> {
+    let layouts = held_out_layouts(&order.table, order.layouts as usize, order.seed);
+    let mine = (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index));
+    mine.map(|(index, layout)| {
+        let start = Instant::now();
+        let decision = decide(order, player, rule, layout, index);
+        let seconds = start.elapsed().as_secs_f64();
+        let cue = decision.cue;
+        ShotRecord {
+            layout: index,
+            earned: reward.of(&order.table, layout, &cue),
+            speed: cue.speed,
+            seconds,
+            simulations: decision.simulations,
+            claimed: decision.claimed,
+            chance: order.skill.map(|skill| robustness::chance(order, rule, layout, skill, &cue)),
+        }
+    })
+    .collect()
+}
+
+fn decide(order: &Order, player: &Player, rule: Rule, layout: &Layout, index: u32) -> Decision {
+    let shot = |cue| Decision { cue, simulations: None, claimed: None };
+    match player {
+        Player::Recommender(coach, request) => {
+            coach.recommend(layout, request).map_or(shot(NO_SHOT), |advice| Decision {
+                cue: advice.cue,
+                simulations: Some(advice.simulations),
+                claimed: advice.make_probability.map(|chance| chance.rate),
+            })
+        }
+        Player::Policy(policy) => shot(policy.propose(&order.table, layout)),
+        Player::RandomSearch(shots) => {
+            // Numbers of its own for each layout: parts find what the whole finds.
+            let mut rng = Xoshiro256PlusPlus::seed_from_u64(order.seed ^ (u64::from(index) << 32));
+            shot(random_search(&order.table, layout, rule, *shots, &mut rng))
+        }
+    }
+}
+
+/// The first of `shots` shots in a random direction at a random speed that the cue has room for and that makes the point; the last
+/// one where none does.
+fn random_search(table: &Table, layout: &Layout, rule: Rule, shots: u32, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+    let mut cue = NO_SHOT;
+    for _ in 0..shots {
+        let (phi, speed) = (rng.random_range(-PI..PI), rng.random_range(0.5..6.0));
+        cue = CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed };
+        if has_room(table, layout, &cue) && scores(rule, table, layout, &cue) {
+            break;
+        }
+    }
+    cue
+}
+
+/// What is printed.
+#[derive(Debug, Serialize)]
+struct EvaluationReport<'a> {
+    player: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    policy: Option<&'a str>,
+    table: &'a str,
+    /// The reward or the rule.
+    measure: &'a str,
+    seed: u64,
+    mean_reward: f64,
+    /// Of rewards that are 0 or 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    success: Option<SuccessRate>,
+    /// Decisions a second; judging the shots is not counted.
+    layouts_per_second: f64,
+    slowest_ms: f64,
+    /// The share of the strokes that are harder than [`HARD`].
+    hard_share: f64,
+    /// Of players that search.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulations_per_layout: Option<f64>,
+    /// How often the player of the skill makes the shots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robustness: Option<Robustness>,
+}
+
+/// Prints the report over all layouts.
+pub fn print(order: &Order, records: &[ShotRecord], json: bool) -> std::io::Result<()> {
+    let report = report(order, records);
+    let mut out = printing::stdout();
+    if json {
+        printing::json(&mut out, &report)?;
+        writeln!(out)
+    } else {
+        print_text(&mut out, &report, records.len())
+    }
+}
+
+fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> {
+    let count = records.len();
+    let mean = |of: &dyn Fn(&ShotRecord) -> f64| records.iter().map(of).sum::<f64>() / count as f64;
+    let seconds: f64 = records.iter().map(|record| record.seconds).sum();
+    let chances: Option<Vec<f64>> = records.iter().map(|record| record.chance).collect();
+    let is_searching = records.iter().any(|record| record.simulations.is_some());
+    let robustness = order.skill.zip(chances).map(|(skill, chances)| {
+        let mut robustness = Robustness::new(skill, order.doubt, chances);
+        if is_searching {
+            let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
+            robustness.claim(&claimed);
+        }
+        robustness
+    });
+    let successes = records.iter().filter(|record| record.earned >= 1.0).count();
+    EvaluationReport {
+        player: &order.player,
+        policy: order.policy.as_deref(),
+        table: &order.table.name,
+        measure: &order.measure,
+        seed: order.seed,
+        mean_reward: mean(&|record| record.earned),
+        success: order.is_yes_or_no.then(|| SuccessRate::new(successes, count)),
+        layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
+        slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
+        hard_share: mean(&|record| f64::from(record.speed > HARD)),
+        simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
+        robustness,
+    }
+}
+
+fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usize) -> std::io::Result<()> {
+    let EvaluationReport { player, policy, table, measure, .. } = report;
+    let policy = policy.map_or_else(String::new, |policy| format!(" {policy}"));
+    match report.success {
+        Some(SuccessRate { rate, low, high, .. }) => writeln!(
+            out,
+            "{player}{policy} on \"{table}\": {measure} on {:.2} % of {layouts} layouts (95 % interval {:.2} to {:.2} %)",
+            100.0 * rate,
+            100.0 * low,
+            100.0 * high
+        )?,
+        None => writeln!(
+            out,
+            "{player}{policy} on \"{table}\": mean {measure} {:.4} over {layouts} layouts",
+            report.mean_reward
+        )?,
+    }
+    write!(out, "{:.0} layouts a second, the slowest took {:.2} ms", report.layouts_per_second, report.slowest_ms)?;
+    match report.simulations_per_layout {
+        Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
+        None => writeln!(out)?,
+    }
+    writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
+    report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coach::Doubt;
+
+    fn order(layouts: u32) -> Order {
+        Order {
+            player: "random search".to_owned(),
+            policy: None,
+            table: Table::default(),
+            measure: "straight".to_owned(),
+            is_yes_or_no: true,
+            seed: 4,
+            layouts,
+            skill: None,
+            doubt: Doubt::FULL,
+            choose_doubt: None,
+            plan: false,
+            no_jumps: false,
+            budget_ms: None,
+            simulations: None,
+            random_search: Some(30),
+            most_points: None,
+        }
+    }
+
+    #[test]
+    fn parts_measure_what_the_whole_does() {
+        let order = order(40);
+        let player = Player::RandomSearch(30);
+        let measured = |shard: &str| {
+            let records = measure(&order, shard.parse().unwrap(), &player, Rule::StraightRail, Reward::R3);
+            records.into_iter().map(|record| (record.layout, record.earned, record.speed)).collect::<Vec<_>>()
+        };
+        let mut parts = [measured("2/3"), measured("1/3"), measured("3/3")].concat();
+        parts.sort_by_key(|record| record.0);
+        assert_eq!(parts, measured("1/1"));
+    }
+
+    #[test]
+    fn a_report_counts_what_the_records_say() {
+        let order = order(4);
+        let record = |layout, earned, speed| ShotRecord {
+            layout,
+            earned,
+            speed,
+            seconds: 0.5,
+            simulations: None,
+            claimed: None,
+            chance: None,
+        };
+        let records = [record(0, 1.0, 2.0), record(1, 0.0, 6.0), record(2, 1.0, 5.5), record(3, 1.0, 1.0)];
+        let report = report(&order, &records);
+        let success = report.success.unwrap();
+        assert_eq!((report.mean_reward, success.successes, success.trials), (0.75, 3, 4));
+        assert_eq!((report.hard_share, report.layouts_per_second, report.slowest_ms), (0.5, 2.0, 500.0));
+        assert!(report.simulations_per_layout.is_none() && report.robustness.is_none());
+    }
+}

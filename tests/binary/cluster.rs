@@ -1,0 +1,75 @@
+//! The scripts of `docs/cluster.md`, really run: they need Slurm, or Python with Optuna.
+//!
+//! `cargo test --profile quick --test binary cluster:: -- --ignored`
+
+use std::{
+    env, fs,
+    path::Path,
+    process::Command,
+    thread::sleep,
+    time::{Duration, Instant},
+};
+
+use assert_cmd::cargo::cargo_bin;
+
+/// Longest that an array of jobs may take.
+const PATIENCE: Duration = Duration::from_mins(10);
+
+/// A folder with the script `name` of the page.
+fn folder_with(name: &str) -> tempfile::TempDir {
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/cluster.md")).unwrap();
+    let after = page.split_once(&format!(" {name}\n")).expect(name).1;
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), after.split_once("```").unwrap().0).unwrap();
+    folder
+}
+
+/// Runs a program in the folder with this carom on its path, and gives what it prints.
+fn output(folder: &Path, program: &str, args: &[&str]) -> String {
+    let carom = cargo_bin("carom");
+    let path = format!("{}:{}", carom.parent().unwrap().display(), env::var("PATH").unwrap());
+    let output = Command::new(program).args(args).current_dir(folder).env("PATH", path).output().expect(program);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Submits the array and waits until no task of it is left.
+fn run_array(folder: &Path, script: &str) {
+    output(folder, "sbatch", &["--wait", script]);
+}
+
+#[test]
+#[ignore = "needs Slurm"]
+fn an_array_of_seeds_ends_in_their_results() {
+    let folder = folder_with("train.sbatch");
+    run_array(folder.path(), "train.sbatch");
+    let begin = Instant::now();
+    for seed in 1..=3 {
+        // A task that was stopped queues again.
+        let result = folder.path().join(format!("runs/seed-{seed}/result.json"));
+        while !result.exists() {
+            assert!(begin.elapsed() < PATIENCE, "{}", result.display());
+            sleep(Duration::from_secs(1));
+        }
+        assert!(fs::read_to_string(result).unwrap().contains(&format!("\"seed\": {seed}")));
+    }
+}
+
+#[test]
+#[ignore = "needs Slurm"]
+fn parts_that_an_array_measures_are_merged() {
+    let folder = folder_with("evaluate.sbatch");
+    run_array(folder.path(), "evaluate.sbatch");
+    let parts = ["part-1.json", "part-2.json", "part-3.json", "part-4.json"];
+    let report = output(folder.path(), "carom", &[&["evaluate", "--merge"][..], &parts].concat());
+    assert!(report.contains("of 20 layouts"), "{report}");
+}
+
+#[test]
+#[ignore = "needs Python with Optuna"]
+fn a_study_finds_the_best_of_its_trials() {
+    let folder = folder_with("study.py");
+    let best = output(folder.path(), "python3", &["study.py"]);
+    assert!(best.contains("learning_rate") && best.starts_with("0."), "{best}");
+    assert!(folder.path().join("runs/trial-2/result.json").exists());
+}

@@ -1,0 +1,76 @@
+//! `carom evaluate` in parts: together they report what one process does.
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+
+use crate::program::asked;
+
+const WHOLE: &str = "evaluate --rule three-cushion --layouts 7 --simulations 800";
+
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+fn json(line: &str) -> Value {
+    let output = asked(&words(&format!("{line} --json"))).assert().success().get_output().stdout.clone();
+    serde_json::from_slice(&output).unwrap()
+}
+
+/// Measures a part into a file and gives its path.
+fn part(folder: &Path, line: &str, shard: &str) -> String {
+    let output = asked(&words(&format!("{line} --shard {shard}"))).assert().success().get_output().stdout.clone();
+    let path = folder.join(format!("{}.json", shard.replace('/', "-of-")));
+    fs::write(&path, output).unwrap();
+    path.display().to_string()
+}
+
+/// Without what depends on the machine's speed.
+fn timeless(mut report: Value) -> Value {
+    for name in ["layouts_per_second", "slowest_ms", "mean_ms"] {
+        report.as_object_mut().unwrap().remove(name);
+    }
+    report
+}
+
+#[test]
+fn merged_parts_are_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let kinds = [" --skill club", " --self-play --skill expert --most-points 2", " --random-search 20"];
+    for kind in kinds {
+        let line = match kind {
+            " --random-search 20" => "evaluate --layouts 7".to_owned() + kind,
+            kind => WHOLE.to_owned() + kind,
+        };
+        // In any order.
+        let parts = ["3/3", "1/3", "2/3"].map(|shard| part(folder.path(), &line, shard));
+        let merged = json(&format!("evaluate --merge {}", parts.join(" ")));
+        assert_eq!(timeless(merged), timeless(json(&line)), "{kind}");
+    }
+}
+
+#[test]
+fn what_is_not_a_whole_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = "evaluate --layouts 4 --random-search 5";
+    let [one, two] = ["1/3", "2/3"].map(|shard| part(folder.path(), line, shard));
+    let other = tempfile::tempdir().unwrap();
+    let stranger = part(other.path(), "evaluate --layouts 4 --random-search 6", "3/3");
+    let broken = folder.path().join("broken.json").display().to_string();
+    fs::write(&broken, "{}").unwrap();
+    for (files, said) in [
+        (vec![&one, &two], "part 3/3 is missing"),
+        (vec![&one, &two, &one], "which another file holds too"),
+        (vec![&one, &two, &stranger], "different evaluations"),
+        (vec![&broken], "is no part of an evaluation"),
+    ] {
+        let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
+        let output = asked(&[&["evaluate", "--merge"][..], &files].concat()).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && output.stdout.is_empty() && error.contains(said), "{error}");
+    }
+    for shard in ["0/3", "4/3", "2", "a/b", "1/0"] {
+        let output = asked(&["evaluate", "--shard", shard]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{shard}");
+    }
+}
