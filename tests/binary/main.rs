@@ -3,9 +3,11 @@
 mod accuracy;
 mod bench;
 mod calibrate;
+mod club;
 mod command_faults;
 mod commands;
 mod cue_room;
+mod doctor;
 mod documents;
 mod drills;
 mod fuzz;
