@@ -69,6 +69,6 @@ fn screen_words(screen: &Screen) -> String {
     let size = size.map_or_else(|| "no terminal".to_owned(), |(columns, rows)| format!("{columns}x{rows}"));
     let drawn = if *can_draw { "the screens can open" } else { "the screens cannot open here" };
     let unicode = if *unicode { "UTF-8" } else { "no UTF-8" };
-    let over = over.iter().map(|what| format!(", over {what}")).collect::<String>();
+    let over = if over.is_empty() { String::new() } else { format!(", over {}", over.join(" and ")) };
     format!("{size}{over}: {drawn}, colours: {colours}, table in {glyphs}, {unicode}")
 }
