@@ -1,9 +1,10 @@
 //! `carom` is a terminal coach for carom billiards: it shows the table, recommends how to strike and plays the shot.
 //!
-//! The rooms, from the ground up; each may use those above it, never those below: [`printing`] what goes out, [`storage`] files,
-//! [`statistics`] fits, [`table`] what is played on, [`physics`] formulas, [`simulation`] when things happen, [`game`] what
-//! counts, [`learning`] agents, [`coach`] recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`]
-//! the program measuring itself, [`terminal`] screens, [`commands`] the command line.
+//! The rooms, from the ground up; each may use those above it, never those below: [`platform`] what operating systems do
+//! each in its own way, [`printing`] what goes out, [`storage`] files, [`statistics`] fits, [`table`] what is played on,
+//! [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents, [`coach`]
+//! recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`] the program measuring itself,
+//! [`terminal`] screens, [`commands`] the command line.
 
 // What may not be used stands in clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]
@@ -15,6 +16,7 @@ pub mod drills;
 pub mod game;
 pub mod learning;
 pub mod physics;
+pub mod platform;
 pub mod printing;
 pub mod simulation;
 pub mod statistics;

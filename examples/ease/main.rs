@@ -30,7 +30,7 @@ const SIMULATIONS: u64 = 20_000;
 const MOST_POINTS: u32 = 12;
 
 /// Longer than anybody waits.
-const YEAR: Duration = Duration::from_hours(365 * 24);
+const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count: usize = env::args().nth(1).ok_or("say how many layouts a rule: ease 1600")?.parse()?;

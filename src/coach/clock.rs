@@ -19,7 +19,7 @@ impl<'a> Clock<'a> {
     /// Starts it.
     pub fn start(budget: Duration, most_simulations: u64, cancel: &'a AtomicBool) -> Self {
         // A moment beyond the clock's range would be a panic; nobody waits for a year.
-        let budget = budget.min(Duration::from_hours(365 * 24));
+        let budget = budget.min(Duration::from_secs(365 * 24 * 3600));
         Self { start: Instant::now(), budget, most_simulations, cancel, simulations: AtomicU64::new(0) }
     }
 

@@ -10,6 +10,7 @@ use super::{
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
+    platform,
     simulation::{Event, Observer, StepBudget, watch},
     table::{Layout, Table},
 };
@@ -159,7 +160,7 @@ impl<'a> Sensitivity<'a> {
     /// point is made in less than half of the worlds in which it is made as meant. `None` where that is in none.
     pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
         let least = self.least(cue)?;
-        parallel::map(parallel::cores(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
+        parallel::map(platform::threads(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
     }
 
     /// The margin of one input alone.
@@ -220,7 +221,7 @@ impl<'a> Sensitivity<'a> {
         let (columns, rows) = (line(width), line(height));
         // Around a stroke that makes no point, one counts as made that is made in half of the worlds.
         let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
-        let outcomes = parallel::map(parallel::cores(), &rows, |&y| {
+        let outcomes = parallel::map(platform::threads(), &rows, |&y| {
             let row = up.shifted(self.table, middle, y);
             columns.iter().map(|&x| self.usual(&across.shifted(self.table, &row, x), least)).collect()
         });

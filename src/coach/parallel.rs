@@ -1,16 +1,10 @@
 //! Work on all cores, with results in the order of the work whoever does it.
 
 use std::{
-    num::NonZero,
     panic::resume_unwind,
     sync::atomic::{AtomicUsize, Ordering},
     thread,
 };
-
-/// Threads that this machine runs at once.
-pub fn cores() -> usize {
-    thread::available_parallelism().map_or(1, NonZero::get)
-}
 
 /// `work` on every item, by up to `threads` threads of which this is one. A thread that cannot be started is done without.
 pub fn map<T: Sync, R: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{Doubt, Skill};
-use crate::game::Rule;
+use crate::{game::Rule, platform};
 
 /// Who plays, and how much of the table and of the balls' places is in doubt.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl Default for Request {
             jumps: true,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,
-            threads: super::parallel::cores(),
+            threads: platform::threads(),
             seed: 0,
             cancel: Arc::default(),
         }

@@ -16,6 +16,7 @@ use crate::{
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::CueInputs,
+    platform,
     table::{Layout, Table},
 };
 
@@ -60,7 +61,7 @@ pub fn scatter(
     let draws: Vec<_> = draws.iter().collect();
     let ends =
         parallel::map(
-            parallel::cores(),
+            platform::threads(),
             &draws,
             |draw| {
                 if clock.is_cancelled() { None } else { end_of(&task, cue, *draw) }

@@ -33,7 +33,7 @@ fn coach() -> Coach {
 
 /// A request that simulations end, not time.
 fn request(rule: Rule, simulations: u64) -> Request {
-    Request { rule, skill: Skill::EXPERT, simulations, budget: Duration::from_mins(1), ..Request::default() }
+    Request { rule, skill: Skill::EXPERT, simulations, budget: Duration::from_secs(60), ..Request::default() }
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_no
 #[test]
 fn a_search_that_is_cancelled_ends_with_the_best_so_far() {
     let coach = coach();
-    let request = Request { budget: Duration::from_hours(1), skill: Skill::EXPERT, ..Request::default() };
+    let request = Request { budget: Duration::from_secs(3600), skill: Skill::EXPERT, ..Request::default() };
     let cancel = Arc::clone(&request.cancel);
     let advice = thread::scope(|scope| {
         let search = scope.spawn(|| coach.recommend(&Layout::opening(coach.table()), &request).unwrap());
@@ -202,7 +202,7 @@ fn a_player_without_errors_never_misses() {
     let coach = coach();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
     let request = Request { skill: Skill::PERFECT, ..request(Rule::OneCushion, u64::MAX) };
-    let until = std::time::Instant::now() + Duration::from_mins(1);
+    let until = std::time::Instant::now() + Duration::from_secs(60);
     let layout = Layout::opening(coach.table());
     let played = inning(&coach, &layout, &request, 20, until, &mut rng, &mut |_, _| {}).unwrap();
     assert_eq!((played.points, played.missed), (20, false));
@@ -338,7 +338,7 @@ fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
     let model = CueInputs::parse("0.05,0.5,22,-13.5,2.4").unwrap();
     let steep = CueInputs::parse("0,0.9,60,90,2").unwrap();
     let frozen = Table { flight: None, ..table.clone() };
-    let clock = Clock::start(Duration::from_mins(1), u64::MAX, &cancel);
+    let clock = Clock::start(Duration::from_secs(60), u64::MAX, &cancel);
     let worlds = Worlds::new(&table, &layout, Doubt::NONE);
     let task = |table, jumps| Task {
         table,

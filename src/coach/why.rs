@@ -345,7 +345,7 @@ mod tests {
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::without_policy(table.clone());
         let request =
-            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_mins(1), ..Request::default() };
+            Request { skill: Skill::CLUB, simulations: 3000, budget: Duration::from_secs(60), ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();
         let why = why(request.shooter(), request.rule, &table, &layout, &advice, 1).unwrap();
         assert_eq!(why.make_probability, advice.make_probability.map(|rate| rate.rate));

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Failure;
 use crate::{
-    printing,
+    printing::{self, VERSION},
     study::throughput::{Figure, Machine, measure},
 };
 
@@ -57,12 +57,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     .map_err(Failure::failed)?;
     written?;
     if args.json {
-        let report = BenchReport {
-            version: env!("CARGO_PKG_VERSION"),
-            machine: &machine,
-            seconds: args.seconds,
-            figures: &figures,
-        };
+        let report = BenchReport { version: VERSION, machine: &machine, seconds: args.seconds, figures: &figures };
         printing::json(&mut out, &report)?;
         writeln!(out)?;
     }

@@ -5,6 +5,7 @@ mod bench;
 mod bounded;
 mod calibrate;
 mod config;
+mod doctor;
 mod documents;
 mod drill;
 mod evaluate;
@@ -28,14 +29,15 @@ pub use failure::Failure;
 use output::tell;
 
 use crate::{
-    printing::{self, is_hidden},
-    storage::{Places, notice, refuse_large_files},
-    terminal::{Settings, TerminalError},
+    platform,
+    printing::{self, FULL_VERSION, is_hidden},
+    storage::{Player, notice},
+    terminal::{Seat, Settings, TerminalError},
 };
 
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
-#[command(version, about, long_about = None, args_conflicts_with_subcommands = true)]
+#[command(version = FULL_VERSION, about, long_about = None, args_conflicts_with_subcommands = true)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -45,6 +47,13 @@ pub struct Cli {
     /// Talk in lines instead of a screen: for screen readers, and terminals that cannot draw.
     #[arg(long)]
     plain: bool,
+    /// For a machine that players share: no training is started, the coach thinks for a second at most, and no files are read or
+    /// written but those of the player (docs/club.md).
+    #[arg(long)]
+    guest: bool,
+    /// Whose settings, practice and last session these are: letters, digits, "-" and "_". Each player has a folder of their own.
+    #[arg(long, value_name = "NAME")]
+    player: Option<Player>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -62,6 +71,7 @@ enum Command {
     Reproduce(reproduce::Args),
     Table(table::Args),
     Config(config::Args),
+    Doctor(doctor::Args),
     Completions(documents::Completions),
     Man(documents::Man),
 }
@@ -89,13 +99,28 @@ impl Cli {
         })
     }
 
-    /// The terminal program, with the user's settings.
+    /// Whose files are read and written.
+    fn seat(&self) -> Result<Seat, Failure> {
+        let player = self.player.clone().or_else(|| self.guest.then(Player::default));
+        let Some(player) = player else { return Ok(Seat::of_this_user()) };
+        Seat::of_player(&player, self.guest).map_err(Failure::failed)
+    }
+
+    /// The terminal program, with the player's settings.
     fn open(self) -> Result<(), Failure> {
-        let path = Settings::path();
-        let (settings, complaints) = Settings::load(&path);
-        let table = input::table_named(self.table.as_ref().unwrap_or(&settings.table))?;
+        let seat = self.seat()?;
+        // A table on the command line is that of whoever runs the machine.
+        let named = self.table.as_deref().map(input::table_named).transpose()?;
+        seat.take().map_err(|error| {
+            let folder = seat.places.own.display();
+            Failure::failed(format_args!("the player's folder {folder} cannot be made: {error}"))
+        })?;
+        let path = &seat.places.settings;
+        let (settings, complaints) = Settings::load(path);
+        let settings = seat.allowed(settings);
+        let table = named.map_or_else(|| input::table_named(&settings.table), Ok)?;
         if self.plain {
-            if let Some(news) = notice(&Places::of_this_user(), &path) {
+            if let Some(news) = notice(&seat.places, path) {
                 tell(format_args!("note: {news}"));
             }
             for complaint in &complaints {
@@ -103,7 +128,7 @@ impl Cli {
             }
             return crate::terminal::talk(table, &settings).map_err(failure);
         }
-        crate::terminal::run(table, &settings, &complaints).map_err(failure)
+        crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
     }
 
     /// Does what the command line asks for.
@@ -111,7 +136,7 @@ impl Cli {
     /// # Errors
     /// A [`Failure`] with its sentence and exit code.
     pub fn run(self) -> Result<(), Failure> {
-        refuse_large_files().map_err(Failure::failed)?;
+        platform::refuse_large_files().map_err(Failure::failed)?;
         match self.command {
             None => self.open(),
             Some(Command::Simulate(args)) => simulate::run(&args),
@@ -127,6 +152,7 @@ impl Cli {
             Some(Command::Reproduce(args)) => reproduce::run(&args),
             Some(Command::Table(args)) => table::run(&args),
             Some(Command::Config(args)) => config::run(&args),
+            Some(Command::Doctor(args)) => doctor::run(&args),
             Some(Command::Completions(args)) => documents::completions(&args),
             Some(Command::Man(args)) => documents::man(&args),
         }

@@ -1,23 +1,12 @@
 //! `carom reproduce`: the thesis' learning curves.
 
-use std::{
-    io::Write,
-    path::PathBuf,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
-    thread,
-};
+use std::{io::Write, path::PathBuf, sync::atomic::Ordering, thread};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use signal_hook::{
-    consts::{SIGINT, SIGTERM},
-    flag,
-};
 
 use super::{Failure, input::table_named, output::tell};
 use crate::{
+    platform::stop_when_told,
     printing,
     storage::write_atomic,
     study::reproduction::{Drawn, FIGURES, Figure, Measure, Session, SessionError, csv, picture, summary},
@@ -61,12 +50,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         threads: args.jobs.map_or_else(processors, usize::from),
         table: table_named(&args.table)?,
     };
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // The second signal ends the program at once.
-        flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
-        flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
-    }
+    let stop = stop_when_told(true).map_err(Failure::failed)?;
     let bar = progress(session.shots());
     let mut done = 0;
     let played = |shots| {

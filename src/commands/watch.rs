@@ -3,17 +3,9 @@
 use std::{
     io::{self, Write},
     path::{Path, PathBuf},
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::atomic::Ordering,
     thread,
     time::{Duration, Instant},
-};
-
-use signal_hook::{
-    consts::{SIGINT, SIGTERM},
-    flag,
 };
 
 use super::{
@@ -29,6 +21,7 @@ use crate::{
         metrics::Record,
         status::Phase,
     },
+    platform::stop_when_told,
     printing::{self, OneLine},
     terminal,
 };
@@ -73,10 +66,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Prints what the run does until it has ended.
 fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
-    }
+    let stop = stop_when_told(false).map_err(Failure::failed)?;
     let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
     let (mut before, mut over) = (Condition::Unknown, None::<Instant>);
     while !stop.load(Ordering::Relaxed) {

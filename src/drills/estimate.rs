@@ -235,7 +235,7 @@ mod tests {
                 rule,
                 skill: Skill::EXPERT,
                 simulations: 20_000,
-                budget: Duration::from_mins(1),
+                budget: Duration::from_secs(60),
                 ..Request::default()
             };
             let shot = Some(coach.recommend(&layout, &request).unwrap().cue);

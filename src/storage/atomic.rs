@@ -8,11 +8,14 @@ use std::{
 
 use tempfile::NamedTempFile;
 
+use super::confinement::may_write;
+use crate::platform;
+
 /// Begin and end of the names of files that are being written: they show what a killed process has left.
 const PARTIAL: [&str; 2] = [".carom-", ".partial"];
 
 /// Age from which a file that is being written has lost its writer: a few kilobytes do not take an hour.
-const ABANDONED: Duration = Duration::from_hours(1);
+const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// Replaces the file at `path` by `bytes`. A reader sees the old content or the new one, never a part; missing folders
 /// are made.
@@ -58,6 +61,7 @@ impl Staged {
     /// Whatever the file system reports; nothing is then left.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
         let folder = folder_of(path);
+        may_write(folder)?;
         std::fs::create_dir_all(folder)?;
         let mut file = readable_by_all(folder)?;
         // Not through the temporary file, which would add its own name to what went wrong.
@@ -72,7 +76,7 @@ impl Staged {
     /// Whatever the file system reports; what stands there is then untouched.
     pub fn publish(self) -> io::Result<()> {
         self.file.persist(&self.path)?;
-        sync_folder(&self.path)
+        platform::sync_folder(folder_of(&self.path))
     }
 
     /// Puts the file in its place if nothing stands there.
@@ -82,14 +86,8 @@ impl Staged {
     pub fn publish_new(self) -> io::Result<()> {
         // Not with the temporary file's own name in the message.
         self.file.persist_noclobber(&self.path).map_err(|error| error.error)?;
-        sync_folder(&self.path)
+        platform::sync_folder(folder_of(&self.path))
     }
-}
-
-/// Has the name of a file outlive a power cut. Folders can be opened and synced on Unix alone.
-fn sync_folder(path: &Path) -> io::Result<()> {
-    std::fs::File::open(folder_of(path))?.sync_all()?;
-    Ok(())
 }
 
 /// Removes from `folder` what a process that was killed while writing has left there. Nobody may be writing into it.
@@ -140,10 +138,11 @@ fn folder_of(path: &Path) -> &Path {
 
 /// A new file with the rights that the user's umask gives any other; a temporary file's own are the owner's alone.
 fn readable_by_all(folder: &Path) -> io::Result<NamedTempFile> {
+    may_write(folder)?;
     let [begin, end] = PARTIAL;
     let mut builder = tempfile::Builder::new();
     builder.prefix(begin).suffix(end);
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    platform::for_all_to_read(&mut builder);
     builder.tempfile_in(folder).map_err(without_its_name)
 }
 

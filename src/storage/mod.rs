@@ -1,17 +1,21 @@
 //! Files: where they live and how they are written without ever leaving half a file behind.
 
 mod atomic;
-mod limit;
+mod confinement;
 mod lock;
 mod notices;
 mod places;
+mod player;
 mod reading;
+mod room;
 
 pub use atomic::{
     Staged, create_atomic, remove_abandoned_files, remove_partial_files, replace, target_of, write_atomic,
 };
-pub use limit::refuse_large_files;
+pub use confinement::{confine, may_read};
 pub use lock::Lock;
 pub use notices::notice;
 pub use places::Places;
+pub use player::{Player, PlayerNameError};
 pub use reading::{LARGE, PRACTICE, SMALL, open, read, read_text};
+pub use room::{Room, room_in};

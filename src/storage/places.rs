@@ -1,8 +1,19 @@
 //! The folders of this user, as the platform wants them.
 
-use std::path::{Path, PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use directories::ProjectDirs;
+
+use super::Player;
+
+/// What the file of the settings is called.
+const SETTINGS: &str = "config.toml";
+
+/// The folder of the players' own, among the account's data.
+const PLAYERS: &str = "players";
 
 /// Where the program keeps what it writes.
 #[derive(Clone, Debug)]
@@ -29,25 +40,42 @@ pub struct Places {
     pub log: PathBuf,
     /// Which notices have been given.
     pub notices: PathBuf,
+    /// The file of the settings.
+    pub settings: PathBuf,
+    /// The folder of most of it.
+    pub own: PathBuf,
 }
 
 impl Places {
     /// The folders under the platform's data directory, and those of its state directory where the platform has one; where
     /// the user has no home, under the working directory.
     pub fn of_this_user() -> Self {
-        let [data, state] = ProjectDirs::from("", "", "carom").map_or_else(
-            || [PathBuf::from("carom-data"), PathBuf::from("carom-data")],
-            |dirs| [dirs.data_dir(), dirs.state_dir().unwrap_or_else(|| dirs.data_local_dir())].map(Path::to_owned),
-        );
-        Self::in_folders(&data, &state)
+        let Some(dirs) = ProjectDirs::from("", "", "carom") else {
+            let data = Path::new("carom-data");
+            return Self::in_folders(data, data, PathBuf::from("carom-config.toml"));
+        };
+        let state = dirs.state_dir().unwrap_or_else(|| dirs.data_local_dir());
+        Self::in_folders(dirs.data_dir(), state, dirs.config_dir().join(SETTINGS))
+    }
+
+    /// Those of a player of this account: a folder for each among the account's data, and the account's own runs to look at.
+    ///
+    /// # Errors
+    /// Where the account has no home.
+    pub fn of_player(player: &Player) -> io::Result<Self> {
+        let dirs = ProjectDirs::from("", "", "carom").ok_or_else(|| {
+            io::Error::new(io::ErrorKind::NotFound, "this account has no home to keep players' files in")
+        })?;
+        let account = Self::of_this_user();
+        Ok(Self { runs: account.runs, ..Self::under(&dirs.data_dir().join(PLAYERS).join(player.folder())) })
     }
 
     /// All of it in one folder.
     pub fn under(folder: &Path) -> Self {
-        Self::in_folders(folder, folder)
+        Self::in_folders(folder, folder, folder.join(SETTINGS))
     }
 
-    fn in_folders(data: &Path, state: &Path) -> Self {
+    fn in_folders(data: &Path, state: &Path, settings: PathBuf) -> Self {
         Self {
             runs: data.join("runs"),
             policies: data.join("policies"),
@@ -60,6 +88,8 @@ impl Places {
             last: state.join("last.json"),
             log: state.join("carom.log"),
             notices: state.join("notices"),
+            settings,
+            own: data.to_owned(),
         }
     }
 }

@@ -7,6 +7,8 @@ use std::{
     path::Path,
 };
 
+use super::confinement::may_read;
+
 /// Largest table, settings or other small file, bytes.
 pub const SMALL: u64 = 1 << 20;
 
@@ -48,6 +50,7 @@ pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
 /// # Errors
 /// Where it is none, or whatever the file system reports.
 pub fn open(path: &Path) -> io::Result<File> {
+    may_read(path)?;
     // Before it is opened: that alone waits where a pipe has no writer.
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::{
-    clock::CLOCK,
     precision::{Row, Study, Summary},
     reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow},
     statistics::{Share, Spread},
 };
+use crate::platform::CLOCK;
 
 /// The report for people.
 pub fn text(references: &[ReferenceRow], studies: &[Study]) -> String {

@@ -46,10 +46,13 @@ impl Capabilities {
         let set = |name: &str| variable(name).filter(|value| !value.is_empty());
         let term = set("TERM").unwrap_or_default();
         let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(&set).unwrap_or_default().to_lowercase();
-        let unicode = locale.contains("utf-8") || locale.contains("utf8");
+        // Windows Terminal names itself, and no locale.
+        let is_windows_terminal = set("WT_SESSION").is_some() && locale.is_empty();
+        let unicode = locale.contains("utf-8") || locale.contains("utf8") || is_windows_terminal;
         let depth = match chosen.0 {
             Some(depth) => depth,
             None if set("NO_COLOR").is_some() || term.starts_with("vt") => Depth::Mono,
+            None if is_windows_terminal => Depth::True,
             None => depth(&term, set("COLORTERM").as_deref().unwrap_or_default()),
         };
         let named = set("CAROM_GLYPHS").unwrap_or_default();
@@ -132,6 +135,13 @@ mod tests {
         assert_eq!(caps(&[("TERM", "xterm-kitty")]).depth, Depth::True);
         assert_eq!(caps(&[("TERM", "linux"), ("LANG", "C.UTF-8")]).glyphs, Glyphs::Half);
         assert_eq!(caps(&[("TERM", "vt100")]).depth, Depth::Mono);
+    }
+
+    #[test]
+    fn windows_terminal_is_known_by_its_name_where_no_locale_says_otherwise() {
+        let found = caps(&[("WT_SESSION", "1")]);
+        assert_eq!(found, Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true });
+        assert_eq!(caps(&[("WT_SESSION", "1"), ("LANG", "C"), ("TERM", "xterm")]).depth, Depth::Ansi);
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod host;
 mod keymap;
 mod pages;
 mod plain;
+mod seat;
 mod shot;
 mod tasks;
 mod ui;
@@ -32,7 +33,7 @@ use crate::{
 };
 
 pub use app::{
-    App, Overlay,
+    App, LEAST_SIZE, Overlay,
     bindings::{Action, Condition},
     document::document as keys_document,
     key_context::KeyContext,
@@ -59,6 +60,7 @@ pub use pages::{
     },
     training::keys::{TrainingAction, TrainingCondition, TrainingContext},
 };
+pub use seat::{LONGEST_FOR_GUESTS, Seat};
 pub use shot::{Shot, StrokeChange, film::FilmScene};
 pub use tasks::{
     PracticeWorker,
@@ -95,26 +97,29 @@ pub enum TerminalError {
     Io(#[from] io::Error),
 }
 
-/// Opens the coach on `table` as the user wants it, until the player quits. The `complaints` about the settings are shown.
+/// Opens the coach on `table` for the player at `seat` as they want it, until they quit. The `complaints` about the settings are
+/// shown.
 ///
 /// # Errors
 /// [`TerminalError`]: no terminal, or one that fails.
-pub fn run(table: Table, settings: &Settings, complaints: &[Complaint]) -> Result<(), TerminalError> {
+pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Seat) -> Result<(), TerminalError> {
     let layout = Layout::opening(&table);
     if !is_there() {
         return Err(TerminalError::NoTerminal);
     }
-    let places = Places::of_this_user();
+    let places = &seat.places;
     // A file that cannot be read is named by the drill screens.
-    let own = Store::new(&places).own_skill().unwrap_or_default();
+    let own = Store::new(places).own_skill().unwrap_or_default();
     let app = App::new(table, layout, detect(settings), seed())?
         .with_detection(detect)
+        .with_seat(&seat)
         .with_settings(settings)
         .with_last(SavedSession::load(&places.last))
         .with_own_skill(own.map(|own| own.skill))
-        .with_notice(storage::notice(&places, &Settings::path()))
-        .with_complaints(&Settings::path(), complaints);
-    Ok(host::runner::run(app, places)?)
+        .with_notice(storage::notice(places, &places.settings))
+        .with_notice(seat.warning().as_deref())
+        .with_complaints(&places.settings, complaints);
+    Ok(host::runner::run(app, seat.places)?)
 }
 
 /// The coach as a conversation in lines, on the standard input and output.
@@ -128,8 +133,8 @@ pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
     Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), printing::stdout(), prompt)?)
 }
 
-/// What the terminal can show.
-fn detect(settings: &Settings) -> Capabilities {
+/// What the terminal can show, where the user has set that or the environment lets it be guessed.
+pub fn detect(settings: &Settings) -> Capabilities {
     Capabilities::detect(|name| std::env::var(name).ok(), (settings.depth, settings.glyphs))
 }
 

@@ -72,6 +72,21 @@ fn there_is_a_manual_page_for_the_program_and_every_subcommand() {
 }
 
 #[test]
+fn packages_get_a_manual_page_for_every_subcommand_and_the_completions() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/.github/scripts/documents.sh");
+    let (program, out) = (assert_cmd::cargo::cargo_bin!("carom"), folder.path().join("documents"));
+    assert!(std::process::Command::new("bash").arg(script).arg(program).arg(&out).status().unwrap().success());
+    let help = text(&["--help"]);
+    let pages = subcommands(&help).into_iter().map(|(name, _)| format!("man/carom-{name}.1"));
+    let others = ["man/carom.1", "completions/carom.bash", "completions/_carom", "completions/carom.fish"];
+    for file in pages.chain(others.map(str::to_owned)) {
+        let bytes = std::fs::metadata(out.join(&file)).unwrap_or_else(|error| panic!("{file}: {error}")).len();
+        assert!(bytes > 100, "{file} has {bytes} bytes");
+    }
+}
+
+#[test]
 fn the_settings_that_are_shown_are_a_file_that_can_be_used_and_mistakes_are_named() {
     let home = tempfile::tempdir().unwrap();
     let config = |args: &[&str]| {

@@ -3,10 +3,12 @@
 mod accuracy;
 mod bench;
 mod calibrate;
+mod club;
 mod cluster;
 mod command_faults;
 mod commands;
 mod cue_room;
+mod doctor;
 mod documents;
 mod drills;
 mod evaluate;

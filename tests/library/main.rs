@@ -4,6 +4,7 @@ mod documents;
 mod exercises;
 mod flights;
 mod house;
+mod links;
 mod physics_properties;
 mod reference;
 mod rules;

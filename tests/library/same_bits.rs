@@ -3,52 +3,10 @@
 use std::ops::ControlFlow;
 
 use carom::{
-    physics::Impulse,
-    simulation::{All, Event, EventKind, Observer, Savings, Segment, simulate_with, watch, watch_with},
-    table::{BALLS, Layout, Table},
+    simulation::{All, Event, EventKind, Observer, Savings, Segment, watch, watch_with},
+    study::fingerprint::{TEXTBOOK, Trace, hash, shots, trace},
+    table::Table,
 };
-use glam::{DVec2, DVec3};
-use rand::{RngExt, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
-
-/// All that happens in a shot, bit by bit.
-#[derive(Default, Debug, PartialEq)]
-struct Trace {
-    bits: Vec<u64>,
-}
-
-impl Observer for Trace {
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        let (first, second) = event.kind.balls();
-        let rail = event.kind.rail().map_or(9, |rail| rail as usize);
-        let kind: u64 = event.kind.name().bytes().map(u64::from).sum();
-        let place = first * 100 + second.unwrap_or(BALLS) * 10 + rail;
-        self.bits.extend([event.time.to_bits(), kind, place as u64]);
-        ControlFlow::Continue(())
-    }
-}
-
-fn trace<S: Savings>(table: &Table, layout: &Layout, impulse: &Impulse) -> Trace {
-    let mut trace = Trace::default();
-    let end = simulate_with::<S, _>(table, layout, impulse, &mut trace);
-    for ball in end.balls {
-        trace.bits.extend([ball.position.x.to_bits(), ball.position.y.to_bits()]);
-    }
-    trace
-}
-
-/// Random shots that take nothing but sums and products to make: sines differ in the last bit from machine to machine.
-fn shots(table: &Table, seed: u64, count: usize) -> Vec<(Layout, Impulse)> {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut draw = |limit: f64| rng.random_range(-limit..limit);
-    let impulses: Vec<Impulse> = (0..count)
-        .map(|_| {
-            let velocity = DVec2::new(draw(5.0), draw(5.0));
-            Impulse::on_cloth(velocity, DVec3::new(draw(120.0), draw(120.0), draw(80.0)))
-        })
-        .collect();
-    impulses.into_iter().map(|impulse| (Layout::random(table, &mut rng), impulse)).collect()
-}
 
 /// How many shots are worth their time: those of the thesis' table end in resting contacts, which are integrated.
 const PLAYED: [(&str, usize); 2] = [("textbook", 2000), ("thesis", 300)];
@@ -171,29 +129,21 @@ fn rolling_out_the_last_ball_changes_no_bit_of_what_came_before() {
     }
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll and Vo).
-fn fnv(bits: impl IntoIterator<Item = u64>) -> u64 {
-    bits.into_iter()
-        .flat_map(u64::to_le_bytes)
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
-fn hash(name: &str) -> u64 {
-    let table = Table::preset(name).unwrap();
-    fnv(shots(&table, 2, 2000).iter().flat_map(|(layout, impulse)| trace::<All>(&table, layout, impulse).bits))
+fn hash_on(name: &str) -> u64 {
+    hash(&Table::preset(name).unwrap())
 }
 
 /// Changes when results change on purpose: take the number from the message then, and say in the commit why.
 #[test]
 fn the_textbook_table_plays_the_same_everywhere() {
-    let found = hash("textbook");
-    assert_eq!(found, hash("textbook"), "two runs differ");
-    assert_eq!(found, 0x714d_1dc1_8e09_286c, "found {found:#018x}");
+    let found = hash_on("textbook");
+    assert_eq!(found, hash_on("textbook"), "two runs differ");
+    assert_eq!(found, TEXTBOOK, "found {found:#018x}");
 }
 
 /// The same for the thesis' table, whose resting contacts choose their steps by a power function that is the platform's
 /// own: only two runs on one machine must agree.
 #[test]
 fn the_thesis_table_plays_the_same_on_every_run() {
-    assert_eq!(hash("thesis"), hash("thesis"));
+    assert_eq!(hash_on("thesis"), hash_on("thesis"));
 }

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// Longest play where no limit is given: a hundred years' worth of nobody waiting.
-const NO_LIMIT: Duration = Duration::from_hours(100 * 365 * 24);
+const NO_LIMIT: Duration = Duration::from_secs(100 * 365 * 24 * 3600);
 
 /// Turns between two lines of progress.
 const PROGRESS: u32 = 100;

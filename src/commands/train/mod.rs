@@ -8,18 +8,11 @@ mod spec;
 use std::{
     io::{self, Write},
     path::{Path, PathBuf},
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::atomic::Ordering,
     time::Duration,
 };
 
 use clap::value_parser;
-use signal_hook::{
-    consts::{SIGHUP, SIGINT, SIGTERM},
-    flag,
-};
 
 use self::progress::Progress;
 pub(super) use self::{listing::print as print_runs, progress::line};
@@ -32,6 +25,7 @@ use crate::{
         learner::StartError,
         run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
     },
+    platform::{outlive_hang_up, stop_when_told},
     printing,
 };
 
@@ -135,15 +129,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return listing::print(folder.as_deref(), args.json);
     }
     let limit = args.minutes.map(minutes).transpose()?;
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // The second signal ends the program at once: the first one waits for the turn and the measurement.
-        flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)).map_err(Failure::failed)?;
-        flag::register(signal, Arc::clone(&stop)).map_err(Failure::failed)?;
-    }
-    // A terminal that is hung up, as when an ssh connection breaks, is no reason to stop: the run can be watched and
-    // stopped from the next one.
-    flag::register(SIGHUP, Arc::new(AtomicBool::new(false))).map_err(Failure::failed)?;
+    // The first signal waits for the turn and the measurement.
+    let stop = stop_when_told(true).map_err(Failure::failed)?;
+    // The run can be watched and stopped from the next terminal.
+    outlive_hang_up().map_err(Failure::failed)?;
     let options =
         TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
     if let Some(name) = &args.resume {

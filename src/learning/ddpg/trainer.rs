@@ -16,7 +16,7 @@ use super::{
     policy::{Policy, file::Origin},
     replay::ReplayBuffer,
 };
-use crate::{game::Reward, learning::learner::Iteration, table::Table};
+use crate::{game::Reward, learning::learner::Iteration, printing::VERSION, table::Table};
 
 /// What is to be learnt, and how long.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -94,7 +94,7 @@ impl Trainer {
             seed: self.task.seed,
             shots: self.shots,
             date: date.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: VERSION.to_owned(),
             held_out_reward,
             hyperparameters: self.task.hyperparameters.clone(),
         };

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use candle_core::{Device, Tensor};
+use half::f16;
 use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -134,14 +135,22 @@ impl<'a> Reader<'a> {
         self.arrays.tensor(name).is_ok()
     }
 
-    /// An array of `f32`, its shape and values.
+    /// An array of `f32`, or of numbers half as long as those of policies that come with the program; its shape and values.
     ///
     /// # Errors
     /// [`WeightsError::Array`] or [`WeightsError::NotFinite`].
     pub fn array(&self, name: &str) -> Result<(Vec<usize>, Vec<f32>), WeightsError> {
-        let array = self.typed(name, Dtype::F32, "an array of 32-bit numbers")?;
-        let (values, _) = array.data().as_chunks::<4>();
-        let values: Vec<f32> = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        let half = self.typed(name, Dtype::F16, "");
+        let (array, values): (_, Vec<f32>) = if let Ok(array) = half {
+            let (values, _) = array.data().as_chunks::<2>();
+            let values = values.iter().map(|bytes| f16::from_le_bytes(*bytes).to_f32()).collect();
+            (array, values)
+        } else {
+            let array = self.typed(name, Dtype::F32, "an array of 32-bit numbers")?;
+            let (values, _) = array.data().as_chunks::<4>();
+            let values = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+            (array, values)
+        };
         if values.iter().all(|value| value.is_finite()) {
             Ok((array.shape().to_vec(), values))
         } else {
@@ -250,6 +259,17 @@ mod tests {
         let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
         assert_eq!(values(&read), values(&mlp));
         assert_eq!(bytes, file(&[1.0, 2.0]), "equal content gives equal files");
+    }
+
+    #[test]
+    fn numbers_half_as_long_are_read_as_what_they_are() {
+        let bytes: Vec<u8> = [1.0, -0.333, 65504.0].into_iter().flat_map(|x| f16::from_f32(x).to_le_bytes()).collect();
+        let view = TensorView::new(Dtype::F16, vec![3], &bytes).unwrap();
+        let note = HashMap::from([(NOTE.to_owned(), "1".to_owned())]);
+        let file = safetensors::serialize([("short", view)], Some(note)).unwrap();
+        let (shape, values) = Reader::new(&file).unwrap().array("short").unwrap();
+        assert_eq!((shape, values[0], values[2]), (vec![3], 1.0, 65504.0));
+        assert!((values[1] + 0.333).abs() < 1.0 / 4096.0 && values[1] != -0.333, "{}", values[1]);
     }
 
     #[test]

@@ -12,15 +12,10 @@ use crate::{
         calendar::now,
         learner::{Learner, TrainingPlan},
     },
+    printing::{SOURCE, VERSION},
     storage::{self, write_atomic},
     table::Table,
 };
-
-/// This carom.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// What `git describe` says of its source, where it was built from a checkout.
-const SOURCE: Option<&str> = option_env!("CAROM_SOURCE");
 
 /// The file's name.
 pub const FILE: &str = "config.json";

@@ -10,6 +10,7 @@ use crate::{
         evaluation::Score,
         learner::{Learner, TrainingPlan},
     },
+    printing::VERSION,
     storage::write_atomic,
 };
 
@@ -46,7 +47,7 @@ impl RunResult {
             updates: learner.updates(),
             held_out_reward: score.mean_reward,
             held_out_reach: score.best_of_k,
-            version: super::config::VERSION.to_owned(),
+            version: VERSION.to_owned(),
         }
     }
 

@@ -24,7 +24,7 @@ use crate::{
 
 /// Longest time between two checkpoints: what a power cut costs. It may depend on the clock, because nothing depends on
 /// when a checkpoint is written.
-const CHECKPOINT_INTERVAL: Duration = Duration::from_mins(1);
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
 /// Time between two looks at whether a pause is over.
 const NAP: Duration = Duration::from_millis(100);

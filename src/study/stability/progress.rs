@@ -10,7 +10,7 @@ use super::{Plan, Progress, Row, rows};
 use crate::printing;
 
 /// Time between two lines where nobody sits before them.
-const SELDOM: Duration = Duration::from_mins(1);
+const SELDOM: Duration = Duration::from_secs(60);
 
 /// Time between two on a terminal, where one replaces the other.
 const OFTEN: Duration = Duration::from_millis(200);

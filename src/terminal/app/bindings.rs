@@ -62,6 +62,8 @@ pub enum Action {
 pub enum Condition {
     /// Whatever is on the screen.
     Always,
+    /// Where a shell can take the terminal back and go on with the program later.
+    Shell,
     /// While the help is open.
     Help,
     /// Where there are other screens to go to.
@@ -146,7 +148,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
     palette_keys::OPEN,
     bind(Program, Condition::Always, &[letter('g', A::NextGlyphs)], None, "draw with sextants, half blocks or letters"),
     bind(Program, Condition::Always, &[letter('T', A::NextPalette)], None, "the next theme: dark, light, high contrast, colour-blind, mono"),
-    bind(Program, Condition::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
+    bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     bind(Program, Condition::Always, &[letter('q', A::Quit), ctrl('c', A::Quit)], Some(("quit", 1)), "quit"),
 ];
 
@@ -155,7 +157,7 @@ const PROGRAM: &[Binding<Action, Condition>] = &[
 const LEAVE: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Always, &[key(F(1), A::OpenHelp)], None, "open this help"),
     bind(Program, Condition::Always, &[key(F(6), A::OpenMessages)], None, "messages: what was refused or has failed so far"),
-    bind(Program, Condition::Always, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
+    bind(Program, Condition::Shell, &[ctrl('z', A::Suspend)], None, "back to the shell; fg continues"),
     bind(Program, Condition::Always, &[ctrl('c', A::Quit)], None, "quit"),
 ];
 

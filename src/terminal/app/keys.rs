@@ -2,11 +2,14 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-use crate::terminal::{
-    Action, App, CalibrationContext, Condition, Effect, KeyContext, PageId,
-    app::{bindings, view},
-    pages::settings::Input,
-    ui::Typed,
+use crate::{
+    platform,
+    terminal::{
+        Action, App, CalibrationContext, Condition, Effect, KeyContext, PageId,
+        app::{bindings, view},
+        pages::settings::Input,
+        ui::Typed,
+    },
 };
 
 impl App {
@@ -26,7 +29,11 @@ impl App {
             return self.update(Action::Quit);
         }
         if self.is_blind() {
-            let refuse_help = |when| (when == Condition::Help).then_some("");
+            let refuse_help = |when| match when {
+                Condition::Help => Some(""),
+                Condition::Shell => self.no_shell(),
+                _ => None,
+            };
             return match bindings::find(&self.keys().translate(key), KeyContext::Coach, refuse_help) {
                 Some(Ok(action @ (Action::Quit | Action::Suspend))) => self.update(action),
                 _ => None,
@@ -96,12 +103,21 @@ impl App {
             Condition::Tabs => self.stands_alone().then_some("carom watch has no other screens; carom has them all"),
             _ if self.help.is_some() => Some("close the help first: Esc"),
             Condition::Always => None,
+            Condition::Shell => self.no_shell(),
             Condition::Coach(when) => self.coach.disabled_reason(when),
             Condition::Training(when) => self.training.disabled_reason(when),
             Condition::Drill(when) => self.drills.disabled_reason(when),
             Condition::Settings(when) => self.settings.disabled_reason(when),
             Condition::Calibration(when) => self.calibration.disabled_reason(when),
         }
+    }
+
+    /// Why the program cannot be suspended.
+    fn no_shell(&self) -> Option<&'static str> {
+        if self.is_guest {
+            return Some("guests have no shell to go back to; q quits");
+        }
+        (!platform::CAN_SUSPEND).then_some("programs cannot be suspended here; q quits")
     }
 
     /// What is on the screen. The help is that of what lies below it.

@@ -16,7 +16,12 @@ mod state;
 mod tabs;
 mod view;
 
-use std::path::{Path, PathBuf};
+pub use view::SMALLEST as LEAST_SIZE;
+
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 use ratatui::{
     Frame,
@@ -28,8 +33,8 @@ use crate::{
     storage::Places,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
-        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, PageId, Palette, SavedSession,
-        SessionParts, Settings, SettingsPage, Subscriptions, Toasts,
+        Action, Capabilities, CoachAction, CommandPalette, Complaint, Effect, Glyphs, LONGEST_FOR_GUESTS, PageId,
+        Palette, SavedSession, Seat, SessionParts, Settings, SettingsPage, Subscriptions, Toasts,
         pages::{
             calibration::CalibrationPage,
             coach::CoachPage,
@@ -82,6 +87,8 @@ pub struct App {
     /// The same where yellow is the cue ball.
     yellow_theme: Theme,
     palette: Palette,
+    /// Whether the player is a guest of this machine.
+    is_guest: bool,
     /// Finds out what the terminal can show under some settings; without it that stays as at the start.
     detect: Option<fn(&Settings) -> Capabilities>,
 }
@@ -113,6 +120,7 @@ impl App {
             theme: Theme::new(caps.depth),
             yellow_theme: Theme::new(caps.depth).with_cue_ball(CueBall::Yellow),
             palette: Palette::default(),
+            is_guest: false,
             detect: None,
         })
     }
@@ -139,6 +147,19 @@ impl App {
         self.calibration = CalibrationPage::new(places.clone());
         self.training.places = places;
         self
+    }
+
+    /// The same program for the player who sits there.
+    #[must_use]
+    pub fn with_seat(self, seat: &Seat) -> Self {
+        let file = seat.places.settings.clone();
+        let mut app = self.with_places(seat.places.clone()).with_settings_file(file);
+        app.is_guest = seat.is_guest;
+        app.training.is_guest = seat.is_guest;
+        if seat.is_guest {
+            app.coach.think_at_most(Duration::from_millis(LONGEST_FOR_GUESTS));
+        }
+        app
     }
 
     /// The same program as the user wants it.

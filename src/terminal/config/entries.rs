@@ -10,6 +10,7 @@ use crate::{
         words::{LengthUnit, PlaceUnit, TipUnit},
     },
     game::Rule,
+    storage::may_read,
     table::PRESETS,
     terminal::{
         Depth, Glyphs, Palette, Settings,
@@ -104,7 +105,7 @@ pub const ENTRIES: &[Entry] = &[
         set: |settings, value| {
             value
                 .as_str()
-                .filter(|name| PRESETS.contains(name) || Path::new(name).is_file())?
+                .filter(|name| PRESETS.contains(name) || is_there(Path::new(name)))?
                 .clone_into(&mut settings.table);
             Some(())
         },
@@ -254,6 +255,11 @@ pub const ENTRIES: &[Entry] = &[
         },
     },
 ];
+
+/// Whether there is a file, as far as this process may know.
+fn is_there(path: &Path) -> bool {
+    may_read(path).is_ok() && path.is_file()
+}
 
 fn truths() -> Vec<String> {
     [false, true].map(|truth| truth.to_string()).to_vec()

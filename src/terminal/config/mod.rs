@@ -12,12 +12,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use directories::ProjectDirs;
-
 use crate::{
     coach::{Doubt, Skill, Units},
     game::Rule,
-    storage,
+    storage::{self, Places},
     table::{PRESETS, Table},
     terminal::{Depth, Glyphs, Keys, Palette, keymap::remap},
 };
@@ -89,8 +87,7 @@ impl Default for Settings {
 impl Settings {
     /// The file of this user; where the user has no home, one in the working directory.
     pub fn path() -> PathBuf {
-        ProjectDirs::from("", "", "carom")
-            .map_or_else(|| PathBuf::from("carom-config.toml"), |dirs| dirs.config_dir().join("config.toml"))
+        Places::of_this_user().settings
     }
 
     /// What the file says, or the defaults where there is none or a key is wrong; and what is wrong.

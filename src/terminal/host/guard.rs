@@ -8,7 +8,6 @@
 use std::{
     fs::File,
     io::{self, IsTerminal, Write},
-    os::fd::AsFd,
     panic,
     sync::atomic::{AtomicBool, Ordering},
     thread,
@@ -29,7 +28,7 @@ use ratatui::{
     layout::{Position, Rect},
 };
 
-use crate::{printing::OneLine, terminal::host::backend::AnsiBackend};
+use crate::{platform, printing::OneLine, terminal::host::backend::AnsiBackend};
 
 /// Whether the program has the terminal. A process has one, and a panic has to know: giving it back twice would move the
 /// cursor onto the report.
@@ -55,7 +54,7 @@ impl TerminalGuard {
     /// # Errors
     /// What the terminal answers.
     pub fn start(mouse: bool) -> io::Result<Self> {
-        let output = File::from(io::stdout().as_fd().try_clone_to_owned()?);
+        let output = platform::terminal_output()?;
         restore_on_panic();
         let terminal = Terminal::new(AnsiBackend::new(size))?;
         let mut session = Self { terminal, output, mouse };
@@ -129,7 +128,7 @@ impl Drop for TerminalGuard {
 
 /// Whether there is a terminal on both sides that can show pictures.
 pub fn has_terminal() -> bool {
-    let dumb = std::env::var("TERM").map_or(true, |term| term.is_empty() || term == "dumb");
+    let dumb = std::env::var("TERM").map_or(platform::NEEDS_TERM, |term| term.is_empty() || term == "dumb");
     io::stdin().is_terminal() && io::stdout().is_terminal() && !dumb
 }
 

@@ -8,6 +8,5 @@ mod log;
 mod pace;
 pub mod runner;
 mod sgr;
-mod signals;
 
 pub use self::guard::has_terminal;

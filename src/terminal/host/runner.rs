@@ -7,16 +7,15 @@ use std::{
 };
 
 use crossterm::event::Event as TerminalEvent;
-use signal_hook::consts::{SIGCONT, SIGWINCH};
-
 use tracing::{info, warn};
 
 use crate::{
-    printing::OneLine,
+    platform::{self, Signal},
+    printing::{FULL_VERSION, OneLine},
     storage::Places,
     terminal::{
         Answer, App, CoachNews, Effect, Job, Report, SavedSession, SessionParts,
-        host::{events, guard::TerminalGuard, log, pace::Pace, signals},
+        host::{events, guard::TerminalGuard, log, pace::Pace},
         tasks::{Tasks, event::Event},
     },
 };
@@ -42,7 +41,7 @@ enum Next {
 pub fn run(app: App, places: Places) -> io::Result<()> {
     // Without a log the program is as good.
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
-    info!(version = env!("CARGO_PKG_VERSION"), caps = ?app.caps(), "the screen opens");
+    info!(version = FULL_VERSION, caps = ?app.caps(), "the screen opens");
     let (to_screen, news) = events::open()?;
     let session = TerminalGuard::start(app.wants_mouse())?;
     let tasks = Tasks::new(to_screen);
@@ -58,7 +57,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     runner.tasks.finish();
     match end? {
         // The parent is to see that a signal ended the program, even where the terminal is gone already.
-        Some(signal) => signals::die(signal),
+        Some(signal) => platform::die(signal),
         None => left,
     }
 }
@@ -194,16 +193,16 @@ impl Runner {
             Event::Input(TerminalEvent::Mouse(mouse)) => self.app.mouse(mouse),
             Event::Answer(answer) => self.app.receive(answer),
             // A resize needs a picture, which follows anyway.
-            Event::Input(_) | Event::Signal(SIGWINCH) => None,
+            Event::Input(_) | Event::Signal(Signal::Resized) => None,
             Event::InputEnded => return Ok(Next::Quit),
-            Event::Signal(signal) if signals::stops(signal) => Some(Effect::Suspend),
+            Event::Signal(Signal::Stop) => Some(Effect::Suspend),
             // Somebody else may have had the terminal since.
-            Event::Signal(SIGCONT) => {
+            Event::Signal(Signal::Continued) => {
                 self.session.leave()?;
                 self.come_back()?;
                 None
             }
-            Event::Signal(signal) => return Ok(Next::Die(signal)),
+            Event::Signal(Signal::End(signal)) => return Ok(Next::Die(signal)),
             Event::Report(report) => {
                 self.tasks.taken(&report);
                 self.app.receive_report(report);
@@ -240,7 +239,7 @@ impl Runner {
     /// Gives the terminal back and stops until the shell continues the program.
     fn suspend(&mut self) -> io::Result<()> {
         self.session.leave()?;
-        signals::stop()?;
+        platform::suspend()?;
         self.come_back()
     }
 

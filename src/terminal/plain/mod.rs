@@ -337,7 +337,7 @@ mod tests {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let coach = Coach::new(table.clone()).unwrap();
-        let request = Request { simulations: 4000, budget: Duration::from_mins(1), ..Request::default() };
+        let request = Request { simulations: 4000, budget: Duration::from_secs(60), ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();
         let timed = |work: &dyn Fn()| {
             let start = Instant::now();

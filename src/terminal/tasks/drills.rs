@@ -18,7 +18,7 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum DrillTask {
     /// Read what the user has played and saved there; all that follows is written there.
-    Load(Places),
+    Load(Box<Places>),
     /// Find the stroke that is taught.
     Advise(Box<Position>),
     /// Play the next attempt of a session, and save it.

@@ -2,7 +2,10 @@
 
 use crossterm::event::Event as TerminalEvent;
 
-use crate::terminal::{Answer, CalibrationReport, DrillReport, Report, SettingsReport};
+use crate::{
+    platform::Signal,
+    terminal::{Answer, CalibrationReport, DrillReport, Report, SettingsReport},
+};
 
 /// Something that the screen has to deal with.
 #[derive(Debug)]
@@ -12,7 +15,7 @@ pub enum Event {
     /// The terminal gives no input any more.
     InputEnded,
     /// A signal.
-    Signal(i32),
+    Signal(Signal),
     /// The coach has answered.
     Answer(Answer),
     /// Something has come of what the training screen wanted.

@@ -356,7 +356,7 @@ mod tests {
         let mut tasks = Tasks::new(to_screen);
         let film = || DrillTask::Film(Box::new(bundled().swap_remove(0)));
         let home = tempfile::tempdir().unwrap();
-        tasks.practise(vec![DrillTask::Load(Places::under(home.path()))]).unwrap();
+        tasks.practise(vec![DrillTask::Load(Box::new(Places::under(home.path())))]).unwrap();
         tasks.practise((0..40).map(|_| film()).collect()).unwrap();
         tasks.practise(vec![DrillTask::KeepSkill(crate::coach::Skill::CLUB)]).unwrap();
         tasks.finish();

@@ -26,7 +26,7 @@ use crate::{
 const TELLING: Duration = Duration::from_millis(250);
 
 /// Time that a search is given where simulations are to end it.
-const NO_HURRY: Duration = Duration::from_hours(1);
+const NO_HURRY: Duration = Duration::from_secs(3600);
 
 /// Columns and rows of a map: three sub-pixels a row on the largest panels.
 const CELLS: usize = 61;

@@ -4,11 +4,10 @@ use std::{
     ffi::OsString,
     fs::File,
     io::{Read, Seek, SeekFrom},
-    os::unix::process::CommandExt,
     process::{Command, Stdio},
 };
 
-use crate::terminal::Failure;
+use crate::{platform, terminal::Failure};
 
 /// Bytes at the end of what a process says in which its last sentence is looked for.
 const LAST_BYTES: i64 = 4096;
@@ -26,7 +25,7 @@ pub fn run(arguments: &[OsString]) -> Result<(), Failure> {
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(said.try_clone()?);
         // Signals of the terminal go to a group of processes: not to this one.
-        Ok((command.process_group(0).spawn()?, said))
+        Ok((platform::own_group(&mut command).spawn()?, said))
     };
     let (mut process, said) = start().map_err(|error: std::io::Error| Failure {
         process: None,

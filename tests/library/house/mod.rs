@@ -9,7 +9,8 @@ use circles::circles;
 use imports::{Module, imports};
 
 /// The top-level modules from the ground up: each may use those before it, and none behind it.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
+    "platform",
     "printing",
     "storage",
     "statistics",

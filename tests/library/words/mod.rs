@@ -35,7 +35,7 @@ fn tried(layouts: usize, simulations: u64) -> Tried {
     for number in 0..layouts {
         let layout = Layout::random(&table, &mut rng);
         let rule = Rule::ALL[number % Rule::ALL.len()];
-        let budget = Duration::from_mins(1);
+        let budget = Duration::from_secs(60);
         let request =
             Request { rule, skill: Skill::EXPERT, doubt: Doubt::FULL, budget, simulations, ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();

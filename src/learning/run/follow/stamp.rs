@@ -6,13 +6,14 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use crate::platform;
+
 /// What tells one state of a file from the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     modified: Option<SystemTime>,
     length: u64,
-    #[cfg(unix)]
-    inode: u64,
+    identity: u64,
 }
 
 impl Stamp {
@@ -34,11 +35,6 @@ impl Stamp {
 
 impl From<&Metadata> for Stamp {
     fn from(data: &Metadata) -> Self {
-        Self {
-            modified: data.modified().ok(),
-            length: data.len(),
-            #[cfg(unix)]
-            inode: std::os::unix::fs::MetadataExt::ino(data),
-        }
+        Self { modified: data.modified().ok(), length: data.len(), identity: platform::file_identity(data) }
     }
 }

@@ -137,8 +137,9 @@ pub struct CoachPage {
     step: usize,
     /// Steps go from one quarter of a diamond to the next, whatever their size is in millimetres.
     quarters: bool,
-    /// Time that the coach may think.
+    /// Time that the coach may think, and the most that may be set.
     budget: Duration,
+    most: Duration,
     pending: Option<Pending>,
     studying: Option<Studying>,
     questions: u64,
@@ -181,6 +182,7 @@ impl CoachPage {
             step: FIRST_STEP,
             quarters: false,
             budget: Duration::from_millis(Settings::default().think_ms),
+            most: Duration::MAX,
             pending: None,
             studying: None,
             questions: 0,
@@ -231,11 +233,17 @@ impl CoachPage {
         last.practice
     }
 
+    /// Lets the coach think no longer than that, whatever is set.
+    pub fn think_at_most(&mut self, most: Duration) {
+        self.most = most;
+        self.budget = self.budget.min(most);
+    }
+
     /// Begins as the user wants it.
     pub fn take_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
         self.query = CoachQuery { rule, skill, doubt, plan, jumps, ..self.query.clone() };
-        self.budget = Duration::from_millis(settings.think_ms);
+        self.budget = Duration::from_millis(settings.think_ms).min(self.most);
         self.units = settings.units;
         self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
@@ -246,7 +254,7 @@ impl CoachPage {
     /// # Errors
     /// A sentence where the table cannot be read; everything else is taken.
     pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
-        self.budget = Duration::from_millis(settings.think_ms);
+        self.budget = Duration::from_millis(settings.think_ms).min(self.most);
         if before.units != settings.units {
             self.units = settings.units;
         }

@@ -188,7 +188,7 @@ impl DrillsPage {
 
     /// Reads what is on the disk.
     pub fn load(&self) -> DrillTask {
-        DrillTask::Load(self.places.clone())
+        DrillTask::Load(Box::new(self.places.clone()))
     }
 
     /// Goes on with a session that an earlier one of the program has left.

@@ -15,20 +15,36 @@ use crate::{
     },
 };
 
+/// Whether it is about starting a run, or about what one does.
+const fn steers(when: Condition) -> bool {
+    matches!(
+        when,
+        Condition::MayTrain
+            | Condition::MarkedCanGoOn
+            | Condition::CanGoOn
+            | Condition::AtWork
+            | Condition::Working
+            | Condition::Paused
+    )
+}
+
 impl TrainingPage {
     /// Why a binding may not be used now; `None` where it may.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
+        if self.is_guest && steers(when) {
+            return Some("guests look at runs; to start and to steer them is up to whoever runs this machine");
+        }
         let Some(watch) = &self.watch else {
             return match when {
-                Condition::Here => None,
+                Condition::Here | Condition::MayTrain => None,
                 Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet; n starts one"),
                 Condition::MarkedCanGoOn => self.refusal_of_marked(),
                 _ => Some("no run is watched"),
             };
         };
         match when {
-            Condition::Here => None,
+            Condition::Here | Condition::MayTrain => None,
             Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
             Condition::MarkedCanGoOn => self.refusal_of_marked(),
             Condition::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),

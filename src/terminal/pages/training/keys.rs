@@ -118,6 +118,8 @@ impl TrainingContext {
 pub enum TrainingCondition {
     /// On its page.
     Here,
+    /// Where runs may be started.
+    MayTrain,
     /// Where a run is marked.
     Marked,
     /// Where the marked run can go on.
@@ -154,7 +156,7 @@ const MARK: Binding<A, W> = bind(List, W::Marked, &[
 #[rustfmt::skip]
 pub const RUNS: &[Binding<A, W>] = &[
     bind(List, W::Marked, &[key(Enter, A::Choose)], Some(("watch", 1)), "watch the marked run"),
-    bind(List, W::Here, &[letter('n', A::New)], Some(("new run", 1)), "start a new run"),
+    bind(List, W::MayTrain, &[letter('n', A::New)], Some(("new run", 1)), "start a new run"),
     bind(List, W::MarkedCanGoOn, &[letter('r', A::Resume)], Some(("go on with it", 1)), "go on with a run that was interrupted"),
     MARK,
     BACK,

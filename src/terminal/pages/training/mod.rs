@@ -86,6 +86,8 @@ pub struct TrainingPage {
     pub message: Option<Message>,
     /// Whether there is nothing behind the first page.
     pub alone: bool,
+    /// Whether runs may only be looked at.
+    pub is_guest: bool,
     /// The folder of the run that was started last, and when, until it is seen to be at work or to have failed.
     launched: Option<(PathBuf, Instant)>,
     /// The pages one has come through; the last one is open.
@@ -104,6 +106,7 @@ impl TrainingPage {
             question: None,
             message: None,
             alone: false,
+            is_guest: false,
             launched: None,
             pages: Vec::new(),
         }

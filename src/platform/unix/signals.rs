@@ -6,7 +6,7 @@
 use std::{io, process};
 
 use rustix::{
-    process::{Signal, getpgrp},
+    process::{Signal as Known, getpgrp},
     termios::tcgetpgrp,
 };
 use signal_hook::{
@@ -18,8 +18,10 @@ use signal_hook::{
     low_level::emulate_default_handler,
 };
 
+use crate::platform::Signal;
+
 /// Those that a shell, a user or the system sends in the ordinary course of things. XFSZ is the whole program's: see
-/// [`crate::storage::refuse_large_files`].
+/// [`super::refuse_large_files`].
 const KNOWN: [i32; 19] = [
     SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGIO, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGTSTP, SIGTTIN,
     SIGTTOU, SIGUSR1, SIGUSR2, SIGVTALRM, SIGWINCH, SIGXCPU,
@@ -29,32 +31,48 @@ const KNOWN: [i32; 19] = [
 #[cfg(target_os = "linux")]
 const REAL_TIME: std::ops::RangeInclusive<i32> = 34..=64;
 
-/// Catches every signal that can be.
+/// Catches every signal that can be, and tells `hear` of each on a thread of its own, until that wants no more.
 ///
 /// # Errors
-/// Where the system refuses a handler for one that every system knows.
-pub fn catch() -> io::Result<Signals> {
+/// Where the system refuses a thread, or a handler for a signal that every system knows.
+pub fn listen(mut hear: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
+    let mut signals = catch()?;
+    let listener = move || {
+        for signal in signals.forever() {
+            // The system says so that another process has the terminal now.
+            if matches!(signal, SIGTTIN | SIGTTOU) && !has_the_terminal() {
+                let _ = suspend();
+                continue;
+            }
+            if !hear(meaning(signal)) {
+                break;
+            }
+        }
+    };
+    std::thread::Builder::new().name("signals".into()).spawn(listener).map(|_| ())
+}
+
+fn catch() -> io::Result<Signals> {
     let signals = Signals::new(KNOWN)?;
     #[cfg(target_os = "linux")]
-    for signal in REAL_TIME.chain([Signal::POWER.as_raw(), Signal::STKFLT.as_raw()]) {
+    for signal in REAL_TIME.chain([Known::POWER.as_raw(), Known::STKFLT.as_raw()]) {
         // Some C libraries keep a few to themselves.
         let _ = signals.add_signal(signal);
     }
     Ok(signals)
 }
 
-/// Whether a signal ends the program.
-pub const fn ends(signal: i32) -> bool {
-    !stops(signal) && !matches!(signal, SIGWINCH | SIGCONT)
-}
-
-/// Whether a signal stops the program until it is continued.
-pub const fn stops(signal: i32) -> bool {
-    matches!(signal, SIGTSTP | SIGTTIN | SIGTTOU)
+const fn meaning(signal: i32) -> Signal {
+    match signal {
+        SIGWINCH => Signal::Resized,
+        SIGCONT => Signal::Continued,
+        SIGTSTP | SIGTTIN | SIGTTOU => Signal::Stop,
+        other => Signal::End(other),
+    }
 }
 
 /// Whether the program has the terminal to itself. In the background it may not touch it, not even to give it back.
-pub fn has_the_terminal() -> bool {
+fn has_the_terminal() -> bool {
     tcgetpgrp(io::stdin()).is_ok_and(|group| group == getpgrp())
 }
 
@@ -62,7 +80,7 @@ pub fn has_the_terminal() -> bool {
 ///
 /// # Errors
 /// What the system answers.
-pub fn stop() -> io::Result<()> {
+pub fn suspend() -> io::Result<()> {
     emulate_default_handler(SIGTSTP)
 }
 
@@ -79,7 +97,8 @@ mod tests {
 
     #[test]
     fn every_signal_but_those_of_a_terminal_ends_the_program() {
-        assert!(KNOWN.into_iter().filter(|signal| !ends(*signal)).eq([SIGCONT, SIGTSTP, SIGTTIN, SIGTTOU, SIGWINCH]));
-        assert!(ends(SIGUSR1) && ends(SIGXCPU) && ends(64));
+        let others = KNOWN.into_iter().filter(|signal| meaning(*signal) != Signal::End(*signal));
+        assert!(others.eq([SIGCONT, SIGTSTP, SIGTTIN, SIGTTOU, SIGWINCH]));
+        assert_eq!([SIGUSR1, SIGXCPU, 64].map(meaning), [SIGUSR1, SIGXCPU, 64].map(Signal::End));
     }
 }

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Makes a .deb and a .rpm of the static program for each target that was built by static.sh: target/dist.
+# It needs `cargo install cargo-deb cargo-generate-rpm`.
+# Use: packages.sh [TARGET…]; by default x86_64 and aarch64 with musl.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+targets=("$@")
+[ ${#targets[@]} -gt 0 ] || targets=(x86_64-unknown-linux-musl aarch64-unknown-linux-musl)
+for target in "${targets[@]}"; do
+    cargo deb --no-build --no-strip --target "$target" --output target/dist/
+    cargo generate-rpm --target "$target" --output target/dist/
+done

@@ -1,0 +1,132 @@
+//! What is kept on this machine: folders, settings, tables, runs and practice, and what of it cannot be used.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::{
+    drills::Store,
+    learning::run::list::{Listing, runs_in},
+    storage::{self, Places, room_in},
+    table::Table,
+    terminal::{Complaint, Settings},
+};
+
+/// Room on the disk below which it counts as full, bytes: the last checkpoints of a run and a few sessions.
+const LITTLE: u64 = 50 << 20;
+
+/// A folder that the program writes into.
+#[derive(Serialize)]
+pub struct Place {
+    pub what: &'static str,
+    pub path: PathBuf,
+    /// It is made when something is kept.
+    pub exists: bool,
+    /// Why nothing can be written there; none where it can.
+    pub refusal: Option<String>,
+    /// None where the system does not tell.
+    pub free_bytes: Option<u64>,
+}
+
+impl Place {
+    fn look(what: &'static str, path: &Path) -> Self {
+        let room = room_in(path);
+        let refusal = room.refusal.map(|error| error.to_string());
+        Self { what, path: path.to_owned(), exists: room.exists, refusal, free_bytes: room.free }
+    }
+
+    /// Where nothing can be kept.
+    pub fn problem(&self) -> Option<String> {
+        let (what, path) = (self.what, self.path.display());
+        if let Some(refusal) = &self.refusal {
+            return Some(format!("nothing can be written to the folder of {what}, {path}: {refusal}"));
+        }
+        let free = self.free_bytes.filter(|free| *free < LITTLE)?;
+        Some(format!("the disk of the folder of {what}, {path}, is nearly full: {} MB are free", free / 1_000_000))
+    }
+}
+
+/// The folders, each once.
+pub fn places(places: &Places) -> Vec<Place> {
+    let folder = |file: &Path| file.parent().map(Path::to_owned).unwrap_or_default();
+    [
+        ("settings", folder(&places.settings)),
+        ("practice, tables and runs", folder(&places.player)),
+        ("the last session and the log", folder(&places.log)),
+    ]
+    .map(|(what, path)| Place::look(what, &path))
+    .into()
+}
+
+/// What was kept.
+#[derive(Serialize)]
+pub struct Kept {
+    pub settings: Found,
+    /// Table files of the user's own.
+    pub tables: Found,
+    pub runs: Found,
+    pub sessions: Found,
+    pub positions: Found,
+}
+
+/// How much there is of something, and what of it cannot be used.
+#[derive(Serialize)]
+pub struct Found {
+    pub path: PathBuf,
+    pub count: usize,
+    pub wrong: Vec<String>,
+}
+
+impl Kept {
+    /// Looks at everything.
+    pub fn find(places: &Places, settings: &Settings, complaints: &[Complaint]) -> Self {
+        let store = Store::new(places);
+        let (sessions, positions) = (store.sessions(), store.positions());
+        let mut tables = tables(&places.tables);
+        tables.wrong.extend(settings.table().err());
+        Self {
+            settings: Found {
+                path: places.settings.clone(),
+                count: usize::from(places.settings.exists()),
+                wrong: Complaint::sentences(&places.settings, complaints),
+            },
+            tables,
+            runs: runs(&places.runs),
+            sessions: Found { path: places.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
+            positions: Found { path: places.positions.clone(), count: positions.items.len(), wrong: positions.notes },
+        }
+    }
+
+    /// A sentence for each thing that is wrong.
+    pub fn problems(&self) -> impl Iterator<Item = String> {
+        let Self { settings, tables, runs, sessions, positions } = self;
+        [settings, tables, runs, sessions, positions].into_iter().flat_map(|found| found.wrong.iter().cloned())
+    }
+}
+
+/// The user's own tables.
+fn tables(folder: &Path) -> Found {
+    let mut found = Found { path: folder.to_owned(), count: 0, wrong: Vec::new() };
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let text = storage::read_text(&path, storage::SMALL).map_err(|error| error.to_string());
+        match text.and_then(|text| Table::from_toml(&text).map_err(|error| error.to_string())) {
+            Ok(_) => found.count += 1,
+            Err(error) => found.wrong.push(format!("{}: {error}", path.display())),
+        }
+    }
+    found
+}
+
+/// The user's runs.
+fn runs(folder: &Path) -> Found {
+    let listing = if folder.exists() { runs_in(folder) } else { Ok(Listing::default()) };
+    let (count, wrong) = match listing {
+        Ok(Listing { runs, unreadable }) => (runs.len(), unreadable),
+        Err(error) => (0, vec![format!("{}: {error}", folder.display())]),
+    };
+    Found { path: folder.to_owned(), count, wrong }
+}

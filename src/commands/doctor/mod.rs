@@ -1,0 +1,85 @@
+//! `carom doctor`: what this program is, what it finds on this machine, and whether it computes what it should.
+
+mod kept;
+mod screen;
+mod text;
+mod trial;
+
+use serde::Serialize;
+
+use self::{
+    kept::{Kept, Place},
+    screen::Screen,
+    trial::Trial,
+};
+use super::{Failure, output::json_line};
+use crate::{
+    printing::{self, SOURCE, TARGET, VERSION},
+    storage::Places,
+    study::throughput::Machine,
+    terminal::Settings,
+};
+
+/// Check this installation: version, folders, terminal, settings, tables, runs, and a second of computing. Changes nothing.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The program itself.
+#[derive(Serialize)]
+struct Program {
+    version: &'static str,
+    /// None where it was built without git.
+    source: Option<&'static str>,
+    target: &'static str,
+    machine: Machine,
+}
+
+/// All that is found.
+#[derive(Serialize)]
+struct Report {
+    program: Program,
+    places: Vec<Place>,
+    screen: Screen,
+    #[serde(flatten)]
+    kept: Kept,
+    self_test: Trial,
+    /// A sentence for everything that is wrong.
+    problems: Vec<String>,
+}
+
+impl Report {
+    fn of_this_machine() -> Self {
+        let places = Places::of_this_user();
+        let (settings, complaints) = Settings::load(&places.settings);
+        let mut report = Self {
+            program: Program { version: VERSION, source: SOURCE, target: TARGET, machine: Machine::this() },
+            places: kept::places(&places),
+            screen: Screen::detect(&settings),
+            kept: Kept::find(&places, &settings, &complaints),
+            self_test: Trial::run(),
+            problems: Vec::new(),
+        };
+        let Self { places, screen, kept, self_test, .. } = &report;
+        let problems = places.iter().filter_map(Place::problem).chain(screen.problem());
+        report.problems = problems.chain(kept.problems()).chain(self_test.problems()).collect();
+        report
+    }
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let report = Report::of_this_machine();
+    if args.json {
+        json_line(&report)?;
+    } else {
+        text::write(&mut printing::stdout(), &report)?;
+    }
+    match report.problems.len() {
+        0 => Ok(()),
+        1 => Err(Failure::failed("1 thing is wrong; docs/troubleshooting.md may help")),
+        count => Err(Failure::failed(format_args!("{count} things are wrong; docs/troubleshooting.md may help"))),
+    }
+}

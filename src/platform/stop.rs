@@ -1,0 +1,37 @@
+//! Long commands that are told to stop: they finish what they are at, and a second word ends them at once.
+
+use std::{
+    io,
+    sync::{Arc, atomic::AtomicBool},
+};
+
+use signal_hook::{
+    consts::{SIGINT, SIGTERM},
+    flag,
+};
+
+/// A flag that Ctrl-C and TERM set. With `at_once`, a second one ends the process, with exit code 1.
+///
+/// # Errors
+/// Where the system refuses a handler.
+pub fn stop_when_told(at_once: bool) -> io::Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        if at_once {
+            flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop))?;
+        }
+        flag::register(signal, Arc::clone(&stop))?;
+    }
+    Ok(stop)
+}
+
+/// Goes on where the terminal is hung up, as when an ssh connection breaks.
+///
+/// # Errors
+/// Where the system refuses a handler.
+#[cfg_attr(windows, allow(clippy::unnecessary_wraps, reason = "other systems can fail"))]
+pub fn outlive_hang_up() -> io::Result<()> {
+    #[cfg(unix)]
+    flag::register(signal_hook::consts::SIGHUP, Arc::new(AtomicBool::new(false)))?;
+    Ok(())
+}

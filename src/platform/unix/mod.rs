@@ -1,0 +1,21 @@
+//! Unix: Linux, where all of it is tested, and its relatives.
+
+mod clock;
+mod files;
+mod input;
+mod processes;
+mod signals;
+
+pub use self::{
+    clock::{CLOCK, thread_time},
+    files::{file_identity, for_all_to_read, free_space, refuse_large_files, sync_folder},
+    input::{Input, free_the_screen, terminal_output},
+    processes::own_group,
+    signals::{die, listen, suspend},
+};
+
+/// Whether the shell can stop the program and let it go on.
+pub const CAN_SUSPEND: bool = true;
+
+/// Whether a terminal says in `TERM` that it is one.
+pub const NEEDS_TERM: bool = true;

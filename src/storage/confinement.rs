@@ -1,0 +1,116 @@
+//! What a process that serves a guest may read and write: files in folders that are named once, and no others.
+
+use std::{
+    ffi::OsString,
+    io,
+    path::{Path, PathBuf},
+    sync::OnceLock,
+};
+
+/// The folders, as they are behind all links.
+#[derive(Debug)]
+struct Confinement {
+    written: PathBuf,
+    read: Vec<PathBuf>,
+}
+
+/// A process is confined once and stays so.
+static CONFINEMENT: OnceLock<Confinement> = OnceLock::new();
+
+/// From now on this process writes into `written` alone, and reads from there and from `read`. The second call changes nothing.
+///
+/// # Errors
+/// Whatever the file system reports of `written`, which is made where it is not there.
+pub fn confine(written: &Path, read: &[&Path]) -> io::Result<()> {
+    std::fs::create_dir_all(written)?;
+    let written = written.canonicalize()?;
+    // Folders that are not there hold nothing to be read.
+    let read = read.iter().filter_map(|folder| folder.canonicalize().ok()).collect();
+    CONFINEMENT.get_or_init(|| Confinement { written, read });
+    Ok(())
+}
+
+/// Refuses to read outside the folders.
+///
+/// # Errors
+/// A sentence where that is so.
+pub fn may_read(path: &Path) -> io::Result<()> {
+    CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.reads(path))
+}
+
+/// Refuses to write outside the folder.
+///
+/// # Errors
+/// A sentence where that is so.
+pub fn may_write(path: &Path) -> io::Result<()> {
+    CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.writes(path))
+}
+
+impl Confinement {
+    fn reads(&self, path: &Path) -> io::Result<()> {
+        let path = resolved(path);
+        if std::iter::once(&self.written).chain(&self.read).any(|folder| path.starts_with(folder)) {
+            return Ok(());
+        }
+        Err(refusal("a guest reads no files but their own"))
+    }
+
+    fn writes(&self, path: &Path) -> io::Result<()> {
+        if resolved(path).starts_with(&self.written) {
+            return Ok(());
+        }
+        Err(refusal("a guest writes no files but their own"))
+    }
+}
+
+fn refusal(sentence: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::PermissionDenied, sentence)
+}
+
+/// Where the path leads, as far as it is there; what is not there yet follows by name. A way up out of what is not there is
+/// nowhere.
+fn resolved(path: &Path) -> PathBuf {
+    let mut missing: Vec<OsString> = Vec::new();
+    let mut there = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    loop {
+        if let Ok(mut found) = there.canonicalize() {
+            found.extend(missing.iter().rev());
+            return found;
+        }
+        match (there.file_name().map(ToOwned::to_owned), there.pop()) {
+            (Some(name), true) => missing.push(name),
+            _ => return PathBuf::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_guest_gets_nowhere_else_by_names_links_or_ways_up() {
+        let house = tempfile::tempdir().unwrap();
+        let folder = |name: &str| {
+            let folder = house.path().join(name);
+            std::fs::create_dir(&folder).unwrap();
+            folder.canonicalize().unwrap()
+        };
+        let (own, runs, other) = (folder("own"), folder("runs"), folder("own-too"));
+        std::fs::write(other.join("secret"), "").unwrap();
+        let confinement = Confinement { written: own.clone(), read: vec![runs.clone()] };
+        assert!(confinement.writes(&own.join("new/file")).is_ok() && confinement.reads(&own.join("file")).is_ok());
+        assert!(confinement.reads(&runs.join("one/config.json")).is_ok());
+        assert!(confinement.writes(&runs.join("one/request")).is_err());
+        let strangers = [other.join("secret"), own.join("../own-too/secret"), own.join("new/../../own-too/secret")];
+        for path in strangers.iter().map(PathBuf::as_path).chain([Path::new("/etc/passwd"), Path::new("secret")]) {
+            assert!(confinement.reads(path).is_err() && confinement.writes(path).is_err(), "{}", path.display());
+        }
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(&other, own.join("link")).unwrap();
+            assert!(confinement.reads(&own.join("link/secret")).is_err());
+            assert!(confinement.writes(&own.join("link/new")).is_err());
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Several players of one account: a folder for each, which nobody else's name leads into.
+
+use std::{fmt, str::FromStr};
+
+/// Longest name, letters.
+const LONGEST: usize = 32;
+
+/// A player of a shared account, by a name that is safe as that of a folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Player(String);
+
+/// A name that no player may have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "\"{0}\" is no name of a player; accepted are 1 to {LONGEST} letters a to z and A to Z, digits, \"-\" and \"_\", beginning \
+     with a letter or a digit"
+)]
+pub struct PlayerNameError(String);
+
+impl Player {
+    /// The name.
+    pub fn name(&self) -> &str {
+        &self.0
+    }
+
+    /// What the player's folder is called: without capitals, which some file systems do not tell apart.
+    pub fn folder(&self) -> String {
+        self.0.to_ascii_lowercase()
+    }
+}
+
+impl Default for Player {
+    /// A guest who gives no name.
+    fn default() -> Self {
+        Self("guest".to_owned())
+    }
+}
+
+impl FromStr for Player {
+    type Err = PlayerNameError;
+
+    fn from_str(name: &str) -> Result<Self, PlayerNameError> {
+        let is_letter = |letter: u8| letter.is_ascii_alphanumeric() || matches!(letter, b'-' | b'_');
+        let is_name = name.len() <= LONGEST
+            && name.bytes().all(is_letter)
+            && name.bytes().next().is_some_and(|letter| letter.is_ascii_alphanumeric());
+        if is_name { Ok(Self(name.to_owned())) } else { Err(PlayerNameError(name.to_owned())) }
+    }
+}
+
+impl fmt::Display for Player {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hostile_name_is_refused_with_what_would_be_accepted() {
+        for name in [
+            "",
+            ".",
+            "..",
+            "../anna",
+            "a/b",
+            "a\\b",
+            "-rf",
+            "_",
+            ".hidden",
+            "a b",
+            "a\0",
+            "\u{1b}[2J",
+            "Anna\n",
+            "\u{fc}",
+        ] {
+            let said = name.parse::<Player>().unwrap_err().to_string();
+            assert!(said.contains("accepted are"), "{said}");
+        }
+        assert!("a".repeat(33).parse::<Player>().is_err() && "a".repeat(32).parse::<Player>().is_ok());
+        assert_eq!("Anna-2_b".parse::<Player>().unwrap().folder(), "anna-2_b");
+    }
+}

@@ -1,0 +1,233 @@
+//! A club's machine as `docs/club.md` sets it up, with a real sshd on the loopback address. It needs root, `sshd` and `ssh`:
+//!
+//! `cargo test --profile quick --test binary club:: -- --ignored --nocapture`
+
+use std::{
+    fs,
+    net::{TcpListener, TcpStream},
+    os::unix::fs::PermissionsExt,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
+
+use assert_cmd::cargo::cargo_bin;
+use portable_pty::CommandBuilder;
+
+use crate::{
+    program::Kept,
+    terminal::{OPENING, PATIENCE, REST, Session},
+};
+
+/// Players at once.
+const PLAYERS: usize = 20;
+
+/// Most memory of a player after a recommendation, bytes, with what they share counted in shares.
+const MEMORY: u64 = 25 << 20;
+
+/// A sshd with the page's script and configuration, in a folder of its own.
+struct Club {
+    folder: tempfile::TempDir,
+    port: u16,
+    _sshd: Kept,
+}
+
+impl Club {
+    fn open(players: &[String]) -> Self {
+        // sshd runs no command that others could have written: not below a folder for everybody.
+        let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir_all("/run/sshd").unwrap();
+        fs::create_dir(path("keys")).unwrap();
+        for name in players.iter().map(String::as_str).chain(["host", "stranger"]) {
+            let made =
+                Command::new("ssh-keygen").args(["-q", "-t", "ed25519", "-N", "", "-f"]).arg(path(name)).status();
+            assert!(made.unwrap().success());
+        }
+        for name in players {
+            fs::copy(path(&format!("{name}.pub")), path("keys").join(name)).unwrap();
+        }
+        // What is no player's name is no key.
+        fs::copy(path("stranger.pub"), path("keys").join("a b")).unwrap();
+        let page = include_str!("../../docs/club.md");
+        let script = page.split("```sh\n").find(|block| block.starts_with("#!/bin/sh")).unwrap();
+        let script = script.split("```").next().unwrap().replace("/etc/carom/keys", path("keys").to_str().unwrap());
+        let script = script.replace("/usr/local/bin/carom", cargo_bin!("carom").to_str().unwrap());
+        fs::write(path("carom-keys"), script).unwrap();
+        fs::set_permissions(path("carom-keys"), PermissionsExt::from_mode(0o755)).unwrap();
+        let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+        let block = page.split("```\nMatch User carom\n").nth(1).unwrap().split("```").next().unwrap();
+        let rules = block.replace("/usr/local/sbin/carom-keys", path("carom-keys").to_str().unwrap());
+        let rules = rules.replace("CommandUser nobody", "CommandUser root");
+        let places: String = ["DATA", "CONFIG", "STATE"]
+            .map(|name| format!(" XDG_{name}_HOME={}", path("home").join(name).display()))
+            .concat();
+        let config = format!(
+            "Port {port}\nListenAddress 127.0.0.1\nHostKey {}\nPidFile none\nUsePAM no\nPermitRootLogin yes\nStrictModes no\n\
+             MaxStartups 100\nSetEnv{places} LANG=C.UTF-8\nMatch User root\n{rules}",
+            path("host").display()
+        );
+        fs::write(path("sshd_config"), config).unwrap();
+        let log = fs::File::create(path("log")).unwrap();
+        let sshd = Command::new("/usr/sbin/sshd").args(["-D", "-e", "-f"]).arg(path("sshd_config")).stderr(log).spawn();
+        let sshd = Kept(sshd.unwrap());
+        let start = Instant::now();
+        while TcpStream::connect(("127.0.0.1", port)).is_err() {
+            assert!(start.elapsed() < PATIENCE, "{}", fs::read_to_string(path("log")).unwrap());
+            thread::sleep(Duration::from_millis(50));
+        }
+        Self { folder, port, _sshd: sshd }
+    }
+
+    /// What follows `ssh` for somebody with this key.
+    fn arguments(&self, key: &str) -> Vec<String> {
+        let mut arguments: Vec<String> = ["-F", "none", "-p", &self.port.to_string(), "-i"].map(str::to_owned).into();
+        arguments.push(self.folder.path().join(key).display().to_string());
+        for option in ["StrictHostKeyChecking=no", "UserKnownHostsFile=/dev/null", "BatchMode=yes", "LogLevel=ERROR"] {
+            arguments.extend(["-o".to_owned(), option.to_owned()]);
+        }
+        arguments
+    }
+
+    /// A player at a terminal, who asks for `order` instead of the coach.
+    fn player(&self, key: &str, order: &str) -> Session {
+        let mut command = CommandBuilder::new("ssh");
+        command.args(self.arguments(key)).args(["-tt", "root@127.0.0.1"]);
+        if !order.is_empty() {
+            command.arg(order);
+        }
+        Session::start_command(command, 80, 24)
+    }
+
+    fn players_folder(&self) -> PathBuf {
+        self.folder.path().join("home/DATA/carom/players")
+    }
+}
+
+trait Arguments {
+    fn args<S: AsRef<std::ffi::OsStr>>(&mut self, all: impl IntoIterator<Item = S>) -> &mut Self;
+}
+
+impl Arguments for CommandBuilder {
+    fn args<S: AsRef<std::ffi::OsStr>>(&mut self, all: impl IntoIterator<Item = S>) -> &mut Self {
+        all.into_iter().for_each(|one| self.arg(one));
+        self
+    }
+}
+
+/// The process that serves a player.
+fn process(name: &str) -> Option<u32> {
+    let is_it = |id: &u32| {
+        let words = fs::read(format!("/proc/{id}/cmdline")).unwrap_or_default();
+        let words: Vec<&[u8]> = words.split(|byte| *byte == 0).collect();
+        words.first().is_some_and(|program| program.ends_with(b"carom")) && words.contains(&name.as_bytes())
+    };
+    fs::read_dir("/proc").unwrap().filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok()).find(is_it)
+}
+
+/// A line of `/proc/PID/smaps_rollup`, bytes.
+fn memory(process: u32, what: &str) -> u64 {
+    let text = fs::read_to_string(format!("/proc/{process}/smaps_rollup")).unwrap();
+    let line = text.lines().find_map(|line| line.strip_prefix(what)).unwrap();
+    line.trim().trim_end_matches(" kB").parse::<u64>().unwrap() * 1024
+}
+
+/// Ticks of the processor that a process has had.
+fn ticks(process: u32) -> u64 {
+    let text = fs::read_to_string(format!("/proc/{process}/stat")).unwrap();
+    let fields: Vec<&str> = text.rsplit(')').next().unwrap().split_whitespace().collect();
+    fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap()
+}
+
+#[test]
+#[ignore = "needs root and sshd; its command stands above"]
+fn twenty_players_share_a_machine_over_ssh() {
+    let names: Vec<String> = (1..=PLAYERS).map(|number| format!("player-{number}")).collect();
+    let club = Club::open(&names);
+    // Whatever else they ask for, they get the coach.
+    let mut sessions: Vec<Session> = names.iter().map(|name| club.player(name, "cat /etc/passwd")).collect();
+    for session in &mut sessions {
+        session.wait_for(OPENING);
+        assert!(!session.screen().contents().contains("root:"));
+    }
+    // All think at once.
+    let start = Instant::now();
+    sessions.iter_mut().for_each(|session| session.send("\r"));
+    let mut waited = Vec::new();
+    for session in &mut sessions {
+        session.wait_for_advice();
+        waited.push(start.elapsed().as_secs_f64());
+    }
+    eprintln!(
+        "advice for all of {PLAYERS}: the first after {:.1} s, the last after {:.1} s",
+        waited[0],
+        waited[PLAYERS - 1]
+    );
+    for session in &mut sessions {
+        session.settle(Duration::from_secs(2));
+    }
+    let processes: Vec<u32> = names.iter().map(|name| process(name).unwrap()).collect();
+    let shares: Vec<u64> = processes.iter().map(|id| memory(*id, "Pss:")).collect();
+    let resident: Vec<u64> = processes.iter().map(|id| memory(*id, "Rss:")).collect();
+    let largest = |bytes: &[u64]| *bytes.iter().max().unwrap() as f64 / 1e6;
+    eprintln!("memory of a player: {:.1} MB shared-aware, {:.1} MB resident", largest(&shares), largest(&resident));
+    let before: Vec<u64> = processes.iter().map(|id| ticks(*id)).collect();
+    thread::sleep(Duration::from_secs(3));
+    let used: u64 = processes.iter().map(|id| ticks(*id)).sum::<u64>() - before.iter().sum::<u64>();
+    eprintln!("at rest: {used} ticks of the processor in 3 s for all together");
+    assert_eq!(used, 0);
+    assert!(shares.iter().all(|bytes| *bytes <= MEMORY), "{shares:?}");
+
+    // One crashes, one floods: the others go on.
+    assert!(Command::new("kill").args(["-KILL", &processes[0].to_string()]).status().unwrap().success());
+    sessions[1].send(&"jk".repeat(50_000));
+    let start = Instant::now();
+    sessions[2].press("r");
+    eprintln!("a key of another player is answered after {} ms meanwhile", start.elapsed().as_millis());
+    assert!(start.elapsed() < Duration::from_secs(2));
+    sessions[2].send("q");
+    assert_eq!(sessions[2].ends_within(PATIENCE).exit_code(), 0);
+
+    // Each has a folder of their own, and nobody else has any.
+    let folders = fs::read_dir(club.players_folder()).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut folders: Vec<String> = folders.map(|name| name.into_string().unwrap()).collect();
+    folders.sort();
+    let mut wanted = names.clone();
+    wanted.sort();
+    assert_eq!(folders, wanted);
+    assert!(club.players_folder().join("player-3/last.json").exists());
+}
+
+#[test]
+#[ignore = "needs root and sshd; its command stands above"]
+fn keys_without_a_player_get_nothing_and_players_get_no_more_than_the_coach() {
+    let club = Club::open(&["anna".to_owned()]);
+    let ssh = |key: &str, more: &[&str]| {
+        let mut command = Command::new("ssh");
+        command.args(club.arguments(key)).arg("root@127.0.0.1").args(more).stdin(Stdio::null());
+        command.output().unwrap()
+    };
+    let refused = ssh("stranger", &[]);
+    assert!(!refused.status.success() && String::from_utf8_lossy(&refused.stderr).contains("Permission denied"));
+    let blind = ssh("anna", &["sh"]);
+    assert_eq!(blind.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&blind.stderr).contains("this is no terminal"), "{blind:?}");
+    assert!(!String::from_utf8_lossy(&ssh("anna", &["-s", "sftp"]).stdout).contains("sftp"));
+    let mut session = club.player("anna", "");
+    session.wait_for(OPENING);
+    session.send("\x1a");
+    session.wait_for("guests have no shell");
+    session.settle(REST);
+    session.send("q");
+    assert_eq!(session.ends_within(PATIENCE).exit_code(), 0);
+    assert!(is_below(&club.players_folder().join("anna"), &club.folder.path().join("home")));
+}
+
+/// Whether all files below `home` are below `folder`.
+fn is_below(folder: &Path, home: &Path) -> bool {
+    fs::read_dir(home).unwrap().all(|entry| {
+        let path = entry.unwrap().path();
+        if path.is_dir() { is_below(folder, &path) } else { path.starts_with(folder) }
+    })
+}
