@@ -2,7 +2,7 @@
 //!
 //! The rooms, from the ground up; each may use those above it, never those below: [`printing`] what goes out, [`storage`] files,
 //! [`statistics`] fits, [`table`] what is played on, [`physics`] formulas, [`simulation`] when things happen, [`game`] what
-//! counts, [`learning`] agents, [`coach`] recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`]
+//! counts, [`player`] who plays, [`learning`] agents, [`coach`] recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`]
 //! the program measuring itself, [`terminal`] screens, [`commands`] the command line.
 
 // What may not be used stands in clippy.toml.
@@ -15,6 +15,7 @@ pub mod drills;
 pub mod game;
 pub mod learning;
 pub mod physics;
+pub mod player;
 pub mod printing;
 pub mod simulation;
 pub mod statistics;

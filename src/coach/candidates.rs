@@ -8,11 +8,11 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Skill,
-    errors::{Errors, normal},
     leaps::{STEEPEST, within_limit},
 };
 use crate::{
     physics::{CueInputs, squirt},
+    player::errors::{Errors, normal},
     table::{Layout, Table},
 };
 
