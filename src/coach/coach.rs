@@ -88,9 +88,9 @@ impl Coach {
         &self.table
     }
 
-    /// The policy's own shot under `rule`, unchecked; `None` where there is no policy.
-    pub fn policy_shot(&self, layout: &Layout, rule: Rule) -> Option<CueInputs> {
-        self.policy(rule).map(|policy| policy.propose(&self.table, layout))
+    /// The policy's own shot under `rule` for a player of this skill, unchecked; `None` where there is no policy.
+    pub fn policy_shot(&self, layout: &Layout, rule: Rule, skill: &Skill) -> Option<CueInputs> {
+        self.policy(rule).map(|policy| policy.propose(&self.table, layout, skill))
     }
 
     /// Looks for the shot that the player makes most often, or with [`Request::plan`] the one after which the next is
@@ -128,7 +128,7 @@ impl Coach {
             patience: CONTACT_STEPS,
         };
         let policy = self.policy(request.rule);
-        let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout));
+        let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
         let found = Attempt::new(task).run(&strokes, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {

@@ -4,9 +4,10 @@ use serde_json::Value;
 
 use super::{
     agent::Ddpg,
+    context::{CONTEXT_FEATURES, Inputs},
+    features::STATE_FEATURES,
     hyperparameters::Hyperparameters,
     networks::Networks,
-    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
     policy::score,
     snapshot,
     trainer::{Task, Trainer},
@@ -18,6 +19,7 @@ use crate::{
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
+    player::Skill,
     table::{Layout, Table},
 };
 
@@ -35,6 +37,11 @@ pub const AGENT: Agent = Agent {
             let reason =
                 "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
             return Err(refuse(&reason));
+        }
+        if of_points && hyperparameters.context {
+            return Err(refuse(
+                &"hindsight and demonstrations know nothing of drawn tables and errors: use them without context",
+            ));
         }
         Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
     },
@@ -90,7 +97,7 @@ impl Learner for Trainer {
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
         let policy = self.policy(0.0, "")?;
-        Ok(layouts.iter().map(|layout| policy.propose(self.table(), layout)).collect())
+        Ok(layouts.iter().map(|layout| policy.propose(self.table(), layout, &Skill::PERFECT)).collect())
     }
 
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
@@ -104,10 +111,17 @@ impl Learner for Trainer {
     /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
-        let own = &self.agent.online;
-        let network = |name: &str, inputs, own: &[usize]| {
+        let (own, inputs) = (&self.agent.online, self.task.hyperparameters.inputs());
+        let blind = Inputs { context: false, ..inputs };
+        let network = |name: &str, count: fn(Inputs) -> usize, own: &[usize]| {
             let name = format!("{prefix}{name}");
-            let network = weights.network(&name, inputs)?;
+            let network = match weights.network(&name, count(inputs)) {
+                // What it has learnt without a context holds under any, until it learns better.
+                Err(_) if inputs.context => {
+                    weights.network(&name, count(blind))?.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?
+                }
+                network => network?,
+            };
             if network.sizes() == own {
                 return Ok(network);
             }
@@ -117,8 +131,8 @@ impl Learner for Trainer {
             Err(WeightsError::Array { name, expected })
         };
         let adopted = Networks {
-            actor: network("actor", ACTOR_INPUTS, own.actor.sizes())?,
-            critic: network("critic", CRITIC_INPUTS, own.critic.sizes())?,
+            actor: network("actor", Inputs::actor, own.actor.sizes())?,
+            critic: network("critic", Inputs::critic, own.critic.sizes())?,
         };
         self.agent = Ddpg::starting_from(adopted, self.agent.hyper.clone())?;
         Ok(())

@@ -109,6 +109,23 @@ impl Mlp {
         Ok(Self::from_parameters(&self.sizes, parameters)?.with(self.operations))
     }
 
+    /// This network with `count` more inputs, which come after its first `after` ones and change nothing: their weights are
+    /// nought.
+    ///
+    /// # Errors
+    /// Where it has not so many inputs.
+    pub fn with_more_inputs(self, after: usize, count: usize) -> Result<Self> {
+        let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
+        let mut sizes = self.sizes;
+        if after > sizes[0] {
+            bail!("{} inputs have no place after {after}", sizes[0]);
+        }
+        let at = after * sizes[1];
+        parameters.splice(at..at, std::iter::repeat_n(0.0, count * sizes[1]));
+        sizes[0] += count;
+        Ok(Self::from_parameters(&sizes, parameters)?.with(self.operations))
+    }
+
     /// Layer sizes, inputs first.
     pub fn sizes(&self) -> &[usize] {
         &self.sizes

@@ -8,12 +8,7 @@ use super::Policy;
 use crate::{
     game::{Reward, Rule},
     learning::{
-        ddpg::{
-            features::FEATURE_VERSION,
-            hyperparameters::Hyperparameters,
-            networks::Networks,
-            observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
-        },
+        ddpg::{hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage::{self, write_atomic},
@@ -39,7 +34,7 @@ pub struct Origin {
     pub reward: Reward,
     /// What its actions mean ([`ActionSpace::meaning`](crate::learning::ddpg::action::ActionSpace::meaning)).
     pub actions: String,
-    /// Version of the input features ([`FEATURE_VERSION`]).
+    /// Version of the input features ([`Inputs::version`](crate::learning::ddpg::context::Inputs::version)).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,
@@ -122,8 +117,9 @@ impl Policy {
             let error = || PolicyError::Version { origin: name.to_owned(), what, found: found.clone(), expected };
             if same { Ok(()) } else { Err(error()) }
         };
-        let space = origin.hyperparameters.actions;
-        version("features", &origin.features, FEATURE_VERSION)?;
+        let inputs = origin.hyperparameters.inputs();
+        let space = inputs.space;
+        version("features", &origin.features, inputs.version())?;
         version("actions", &origin.actions, space.meaning())?;
         let network = |name, inputs, outputs: &dyn Fn(usize) -> bool, expected: &str| {
             let network = reader.network(name, inputs)?;
@@ -132,11 +128,15 @@ impl Policy {
             if outputs(last) { Ok(network) } else { Err(wrong()) }
         };
         let heads = |outputs: usize| outputs.is_multiple_of(space.actions());
-        let actor =
-            network("actor", ACTOR_INPUTS, &heads, "a network with as many outputs a head as its actions have numbers")
-                .map_err(content)?;
+        let actor = network(
+            "actor",
+            inputs.actor(),
+            &heads,
+            "a network with as many outputs a head as its actions have numbers",
+        )
+        .map_err(content)?;
         let one = |outputs| outputs == 1;
-        let critic = network("critic", CRITIC_INPUTS, &one, "a network with one output").map_err(content)?;
+        let critic = network("critic", inputs.critic(), &one, "a network with one output").map_err(content)?;
         Ok(Self { networks: Networks { actor, critic }, origin })
     }
 
@@ -161,7 +161,7 @@ impl Policy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Layout;
+    use crate::{player::Skill, table::Layout};
     use candle_core::{Device, Tensor};
 
     fn bundled() -> Policy {
@@ -194,7 +194,10 @@ mod tests {
         let path = folder.path().join("policy.safetensors");
         policy.save(&path).unwrap();
         let layout = Layout::opening(&table);
-        assert_eq!(Policy::load(&path).unwrap().proposals(&table, &layout), policy.proposals(&table, &layout));
+        assert_eq!(
+            Policy::load(&path).unwrap().proposals(&table, &layout, &Skill::PERFECT),
+            policy.proposals(&table, &layout, &Skill::PERFECT)
+        );
 
         let bytes = std::fs::read(&path).unwrap();
         std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
