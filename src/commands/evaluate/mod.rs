@@ -10,10 +10,12 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::Serialize;
 
+mod drawn_tables;
 mod robustness;
 mod self_play;
 
-use self::robustness::Robustness;
+use self::drawn_tables::DrawnTables;
+use self::robustness::{Robustness, Said};
 use super::{
     Failure,
     input::{note_doubts, table_named},
@@ -21,10 +23,10 @@ use super::{
     recommend::coach_for,
 };
 use crate::{
-    coach::{Doubt, Request, Skill},
+    coach::{Coach, Doubt, Request, Skill},
     game::{Reward, Rule, scores},
     learning::{
-        Policy, PolicyError,
+        Policy, Proposal,
         evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
     },
     physics::{CueInputs, has_room},
@@ -49,9 +51,13 @@ pub struct Args {
     /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
-    /// Play the networks' own shot: one pass, no simulator call.
+    /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.
     #[arg(long)]
     policy_only: bool,
+    /// With --policy-only, play every layout on a table of its own, drawn from what tables in clubs differ by from --table. The
+    /// networks are told its constants, if they take them; with --skill it is as well known as "match".
+    #[arg(long, requires = "policy_only")]
+    drawn_tables: bool,
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
@@ -125,6 +131,12 @@ struct EvaluationReport {
     /// Of the recommender.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
+    /// What the networks say of their shots, where no skill is given.
+    #[serde(flatten)]
+    said: Option<Said>,
+    /// What each shot earned.
+    #[serde(skip)]
+    rewards: Vec<f64>,
     /// How often the player of the skill makes the shots.
     #[serde(skip_serializing_if = "Option::is_none")]
     robustness: Option<Robustness>,
@@ -139,20 +151,28 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // The player and what it is measured by are all that differs.
     let report = if let Some(shots) = args.random_search {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(args.seed);
-        measure(args, &table, "random search", rule_reward, &mut |layout| {
-            random_search(&table, layout, args.rule, shots, &mut rng)
+        measure(args, &table, "random search", rule_reward, &mut |table, layout| {
+            random_search(table, layout, args.rule, shots, &mut rng)
         })
     } else if args.policy_only {
         let reward = args.reward.unwrap_or(rule_reward);
-        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
+        let skill = args.skill.unwrap_or(Skill::PERFECT);
+        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default(), &skill)?;
         note_doubts(&policy, &table, reward.rule());
-        measure(args, &table, POLICY, reward, &mut |layout| policy.propose(&table, layout))
+        let mut said = Vec::new();
+        let mut report = measure(args, &table, POLICY, reward, &mut |table, layout| {
+            let Proposal { cue, success } = policy.proposals(table, layout, &skill)[0];
+            said.push(Some(success));
+            cue
+        });
+        report.take_note_of(&said);
+        report
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
         let request = request(args, args.skill.unwrap_or(Skill::PERFECT));
         let mut simulations = 0;
         let mut claimed = Vec::new();
-        let mut report = measure(args, &table, "recommender", rule_reward, &mut |layout| {
+        let mut report = measure(args, &table, "recommender", rule_reward, &mut |_, layout| {
             coach.recommend(layout, &request).map_or(NO_SHOT, |advice| {
                 simulations += advice.simulations;
                 claimed.push(advice.make_probability.map(|chance| chance.rate));
@@ -173,6 +193,18 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         print(&mut printing::stdout(), &report, args.layouts)?;
     }
     Ok(())
+}
+
+impl EvaluationReport {
+    /// Takes note of what was said of every shot beforehand: of the player's attempts, or else of the shot itself where that is
+    /// a point or none.
+    fn take_note_of(&mut self, said: &[Option<f64>]) {
+        match &mut self.robustness {
+            Some(robustness) => robustness.claim(said),
+            None if self.success.is_some() => self.said = Some(Said::new(said, &self.rewards)),
+            None => {}
+        }
+    }
 }
 
 /// What the recommender is asked for.
@@ -215,18 +247,22 @@ fn measure(
     table: &Table,
     name: &'static str,
     reward: Reward,
-    player: &mut dyn FnMut(&Layout) -> CueInputs,
+    player: &mut dyn FnMut(&Table, &Layout) -> CueInputs,
 ) -> EvaluationReport {
     let (mut total, mut successes, mut hard, mut seconds, mut slowest) = (0.0, 0, 0, 0.0, 0.0_f64);
-    let mut chances = Vec::new();
+    let (mut chances, mut rewards) = (Vec::new(), Vec::new());
+    let mut drawn = args.drawn_tables.then(|| DrawnTables::around(table, args.seed));
     for layout in held_out_layouts(table, args.layouts as usize, args.seed) {
+        let own = drawn.as_mut().map(DrawnTables::draw);
+        let table = own.as_ref().unwrap_or(table);
         let start = Instant::now();
-        let cue = player(&layout);
+        let cue = player(table, &layout);
         let taken = start.elapsed().as_secs_f64();
         seconds += taken;
         slowest = slowest.max(taken);
         let earned = reward.of(table, &layout, &cue);
         total += earned;
+        rewards.push(earned);
         successes += usize::from(earned >= 1.0);
         hard += usize::from(cue.speed > HARD);
         if let Some(skill) = args.skill {
@@ -246,6 +282,8 @@ fn measure(
         slowest_ms: 1e3 * slowest,
         hard_share: hard as f64 / count as f64,
         simulations_per_layout: None,
+        said: None,
+        rewards,
         robustness: args.skill.map(|skill| Robustness::new(skill, args.doubt, chances)),
     }
 }
@@ -273,23 +311,23 @@ fn print(out: &mut impl Write, report: &EvaluationReport, layouts: u32) -> std::
         None => writeln!(out)?,
     }
     writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
+    report.said.as_ref().map_or(Ok(()), |said| writeln!(out, "{said}"))?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
-/// The bundled policy for `rule` on `table`, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
-    let policy = if name == "bundled" {
-        Policy::bundled(table, rule).ok_or_else(|| {
-            Failure::wrong_input(format_args!(
-                "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
-                 `carom train`",
-                table.name
-            ))
-        })?
-    } else {
-        policy_called(name)
-    };
-    policy.map_err(|error: PolicyError| Failure::failed(error))
+/// The policy that the coach asks for this player under `rule` on `table`, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule, skill: &Skill) -> Result<Policy, Failure> {
+    if name != "bundled" {
+        return policy_called(name).map_err(Failure::failed);
+    }
+    let coach = Coach::new(table.clone()).map_err(Failure::failed)?;
+    coach.policy(rule, skill).cloned().ok_or_else(|| {
+        Failure::wrong_input(format_args!(
+            "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+             `carom train`",
+            table.name
+        ))
+    })
 }
 
 #[cfg(test)]

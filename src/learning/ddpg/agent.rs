@@ -161,6 +161,24 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
     use std::sync::Arc;
 
+    #[test]
+    fn a_saturated_actor_comes_back_where_that_costs_something() {
+        let outputs = |penalty: f64| {
+            let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::Full);
+            agent.hyper.saturation_penalty = penalty;
+            let bias = vec![5.0; agent.hyper.heads * ActionSpace::Full.actions()];
+            agent.online.actor = agent.online.actor.duplicate().unwrap().with_output_bias(&bias).unwrap();
+            agent = Ddpg::starting_from(agent.online, agent.hyper).unwrap();
+            for _ in 0..40 {
+                agent.update(&observed, &actions, &successes, 1.0).unwrap();
+            }
+            let outputs = agent.online.actor.forward(observed.states()).unwrap();
+            outputs.mean_all().unwrap().to_scalar::<f32>().unwrap()
+        };
+        let [free, held] = [0.0, 0.1].map(outputs);
+        assert!(held < free - 0.1, "{held} against {free}");
+    }
+
     /// An agent with an opinion, and a batch for it.
     fn agent_and_batch(space: ActionSpace) -> (Ddpg, ObservationBatch, Vec<Action>, Vec<f32>) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);

@@ -142,7 +142,10 @@ impl Learner for Trainer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::trainer::tests::small_task;
+    use crate::{
+        game::Rule,
+        learning::{Policy, ddpg::trainer::tests::small_task, evaluation::held_out_layouts},
+    };
 
     #[test]
     fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {
@@ -172,6 +175,43 @@ mod tests {
                 "{refused}"
             );
         }
+    }
+
+    #[test]
+    fn with_a_context_an_agent_begins_with_what_was_learnt_without() {
+        let table = Table::default();
+        let old = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
+        let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22").unwrap().unwrap();
+        let mut task = old_trainer(&old).task;
+        task.hyperparameters.context = true;
+        let mut pupil = Trainer::new(task, table.clone()).unwrap();
+        pupil.load_weights(&Reader::new(&file).unwrap()).unwrap();
+        let told = pupil.policy(0.0, "").unwrap();
+        assert!(told.has_context() && !old.has_context());
+        for layout in held_out_layouts(&table, 5, 1) {
+            for skill in [Skill::PERFECT, Skill::CLUB] {
+                let [old, told] = [&old, &told].map(|policy| policy.proposals(&table, &layout, &skill)[0]);
+                assert!((old.cue.phi - told.cue.phi).abs() < 1e-4 && (old.success - told.success).abs() < 1e-4);
+            }
+        }
+        // Once it has learnt, it makes a difference who plays.
+        for _ in 0..30 {
+            pupil.iterate().unwrap();
+        }
+        let told = pupil.policy(0.0, "").unwrap();
+        let layout = held_out_layouts(&table, 1, 1)[0];
+        let [perfect, beginner] =
+            [Skill::PERFECT, Skill::BEGINNER].map(|skill| told.proposals(&table, &layout, &skill));
+        assert_ne!(perfect, beginner);
+    }
+
+    /// A trainer that has the networks of `policy`.
+    fn old_trainer(policy: &Policy) -> Trainer {
+        let hyperparameters = policy.origin().hyperparameters.clone();
+        let task = Task { reward: policy.origin().reward, seed: 1, shots: 1000, hyperparameters };
+        let mut trainer = Trainer::new(task, Table::default()).unwrap();
+        trainer.agent = Ddpg::starting_from(policy.networks.duplicate().unwrap(), trainer.agent.hyper.clone()).unwrap();
+        trainer
     }
 
     #[test]

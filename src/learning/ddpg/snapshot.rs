@@ -155,19 +155,24 @@ mod tests {
 
     #[test]
     fn a_run_that_goes_on_is_bit_for_bit_the_run_that_never_stopped() {
-        let mut whole = Trainer::new(small_task(), Table::default()).unwrap();
-        let mut parts = Trainer::new(small_task(), Table::default()).unwrap();
-        for _ in 0..5 {
-            whole.iterate().unwrap();
-            parts.iterate().unwrap();
+        let mut with_context = small_task();
+        with_context.hyperparameters.context = true;
+        with_context.hyperparameters.ranking = 0.5;
+        with_context.hyperparameters.saturation_penalty = 0.01;
+        for task in [small_task(), with_context] {
+            let [mut whole, mut parts] = [0; 2].map(|_| Trainer::new(task.clone(), Table::default()).unwrap());
+            for _ in 0..5 {
+                whole.iterate().unwrap();
+                parts.iterate().unwrap();
+            }
+            let bytes_of_parts = bytes(&parts);
+            let reader = Reader::new(&bytes_of_parts).unwrap();
+            let mut parts = read(&reader, reader.note().unwrap()).unwrap();
+            for _ in 0..5 {
+                assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
+            }
+            assert_eq!(bytes(&whole), bytes(&parts));
         }
-        let bytes_of_parts = bytes(&parts);
-        let reader = Reader::new(&bytes_of_parts).unwrap();
-        let mut parts = read(&reader, reader.note().unwrap()).unwrap();
-        for _ in 0..5 {
-            assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
-        }
-        assert_eq!(bytes(&whole), bytes(&parts));
     }
 
     #[test]

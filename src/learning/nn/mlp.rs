@@ -212,6 +212,18 @@ mod tests {
     }
 
     #[test]
+    fn more_inputs_change_nothing_until_their_weights_are_learnt() {
+        let (mlp, inputs) = network_and_inputs();
+        let wide = mlp.duplicate().unwrap().with_more_inputs(2, 4).unwrap();
+        assert_eq!(wide.sizes(), [9, 33, 17, 3]);
+        let others = Tensor::ones((11, 4), DType::F32, &Device::Cpu).unwrap();
+        let [before, after] = [(0, 2), (2, 3)].map(|(start, count)| inputs.narrow(1, start, count).unwrap());
+        let joined = Tensor::cat(&[&before, &others, &after], 1).unwrap();
+        assert!(largest_difference(&mlp.forward(&inputs).unwrap(), &wide.forward(&joined).unwrap()) < 1e-6);
+        assert!(mlp.with_more_inputs(6, 1).is_err());
+    }
+
+    #[test]
     fn gradients_agree_with_finite_differences() {
         let (mlp, inputs) = network_and_inputs();
         let loss = |inputs: &Tensor| mlp.forward(inputs).unwrap().sqr().unwrap().sum_all().unwrap();

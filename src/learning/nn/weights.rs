@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use candle_core::{Device, Tensor};
+use candle_core::{CpuStorage, DType, Device, Storage, Tensor};
 use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -59,18 +59,53 @@ impl Writer {
         self.arrays.push((name.into(), Dtype::F64, shape.to_vec(), bytes));
     }
 
+    /// Adds an array with half the digits: 16 bits a value.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    fn add_half(&mut self, name: String, shape: &[usize], values: &[f32]) -> Result<(), WeightsError> {
+        let half = Tensor::from_slice(values, shape, &Device::Cpu)?.to_dtype(DType::F16)?;
+        let (storage, _) = half.storage_and_layout();
+        let Storage::Cpu(CpuStorage::F16(values)) = &*storage else {
+            return Err(WeightsError::Array { name, expected: "on the processor".to_owned() });
+        };
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        self.arrays.push((name, Dtype::F16, shape.to_vec(), bytes));
+        Ok(())
+    }
+
     /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on.
     ///
     /// # Errors
     /// Whatever candle reports.
     pub fn add_network(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        self.add_layers(name, network, |writer, name, shape, values| {
+            writer.add(name, shape, values);
+            Ok(())
+        })
+    }
+
+    /// The same with half the digits, for networks that are done with learning.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn add_network_half(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        self.add_layers(name, network, Self::add_half)
+    }
+
+    fn add_layers(
+        &mut self,
+        name: &str,
+        network: &Mlp,
+        add: impl Fn(&mut Self, String, &[usize], &[f32]) -> Result<(), WeightsError>,
+    ) -> Result<(), WeightsError> {
         let parameters: Vec<f32> = network.parameters().to_vec1()?;
         let mut rest = parameters.as_slice();
         for (layer, pair) in network.sizes().windows(2).enumerate() {
             let (weight, after) = rest.split_at(pair[0] * pair[1]);
             let (bias, after) = after.split_at(pair[1]);
-            self.add(format!("{name}.{layer}.weight"), pair, weight);
-            self.add(format!("{name}.{layer}.bias"), &pair[1..], bias);
+            add(self, format!("{name}.{layer}.weight"), pair, weight)?;
+            add(self, format!("{name}.{layer}.bias"), &pair[1..], bias)?;
             rest = after;
         }
         Ok(())
@@ -134,14 +169,21 @@ impl<'a> Reader<'a> {
         self.arrays.tensor(name).is_ok()
     }
 
-    /// An array of `f32`, its shape and values.
+    /// An array of `f32`, or of half as many digits, its shape and values.
     ///
     /// # Errors
     /// [`WeightsError::Array`] or [`WeightsError::NotFinite`].
     pub fn array(&self, name: &str) -> Result<(Vec<usize>, Vec<f32>), WeightsError> {
-        let array = self.typed(name, Dtype::F32, "an array of 32-bit numbers")?;
-        let (values, _) = array.data().as_chunks::<4>();
-        let values: Vec<f32> = values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+        let array = self
+            .typed(name, Dtype::F32, "an array of 32-bit numbers")
+            .or_else(|error| self.typed(name, Dtype::F16, "").map_err(|_| error))?;
+        let values: Vec<f32> = if array.dtype() == Dtype::F16 {
+            let half = Tensor::from_raw_buffer(array.data(), DType::F16, array.shape(), &Device::Cpu)?;
+            half.to_dtype(DType::F32)?.flatten_all()?.to_vec1()?
+        } else {
+            let (values, _) = array.data().as_chunks::<4>();
+            values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect()
+        };
         if values.iter().all(|value| value.is_finite()) {
             Ok((array.shape().to_vec(), values))
         } else {
@@ -250,6 +292,24 @@ mod tests {
         let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
         assert_eq!(values(&read), values(&mlp));
         assert_eq!(bytes, file(&[1.0, 2.0]), "equal content gives equal files");
+    }
+
+    #[test]
+    fn half_the_digits_take_half_the_room_and_come_back_to_three_places() {
+        let mlp = Mlp::random(&[30, 40, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
+        let file = |mlp: &Mlp| {
+            let mut writer = Writer::default();
+            writer.add_network_half("actor", mlp).unwrap();
+            writer.finish(&"a note").unwrap()
+        };
+        let bytes = file(&mlp);
+        assert!(bytes.len() < 2 * mlp.parameters().elem_count() + 700, "{} bytes", bytes.len());
+        let read = Reader::new(&bytes).unwrap().network("actor", 30).unwrap();
+        let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
+        assert!(
+            values(&read).iter().zip(values(&mlp)).all(|(read, own)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7)
+        );
+        assert_eq!(file(&read), bytes, "what has been rounded once is rounded no further");
     }
 
     #[test]

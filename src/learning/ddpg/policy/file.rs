@@ -8,7 +8,7 @@ use super::Policy;
 use crate::{
     game::{Reward, Rule},
     learning::{
-        ddpg::{hyperparameters::Hyperparameters, networks::Networks},
+        ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage::{self, write_atomic},
@@ -24,6 +24,9 @@ const BUNDLED: [(&str, Reward, &[u8]); 6] = [
     ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
     ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
 ];
+
+/// Those with a context: what was rewarded, and the file.
+const WITH_CONTEXT: [(Reward, &[u8]); 0] = [];
 
 /// Where a policy comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,6 +100,16 @@ impl Policy {
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
     }
 
+    /// The policy with a context that comes with the program for `rule`, if there is one and it knows tables like this one.
+    ///
+    /// # Errors
+    /// Where the bundled file is damaged, which a test rules out.
+    pub fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
+        let reward = Reward::for_rule(rule);
+        let (_, bytes) = WITH_CONTEXT.iter().find(|(what, _)| *what == reward).filter(|_| knows(table))?;
+        Some(Self::from_bytes(bytes, &format!("the bundled policy with a context for {rule}")))
+    }
+
     /// Reads a policy from a file.
     ///
     /// # Errors
@@ -148,11 +161,12 @@ impl Policy {
         write_atomic(path, &self.to_bytes().map_err(std::io::Error::other)?)
     }
 
-    /// The bytes of the file that [`Policy::save`] writes.
+    /// The bytes of the file that [`Policy::save`] writes, with half the digits of the weights: success does not depend on the
+    /// others.
     pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
-            writer.add_network(name, network)?;
+            writer.add_network_half(name, network)?;
         }
         writer.finish(&self.origin)
     }

@@ -12,6 +12,7 @@ use self::file::Origin;
 pub use self::score::score;
 use crate::{
     learning::ddpg::{
+        context::knows,
         first_contact::{cue_inputs, playable},
         networks::Networks,
         observation::{OBSERVATIONS, Observation},
@@ -47,6 +48,16 @@ impl Policy {
     /// Where this policy comes from.
     pub const fn origin(&self) -> &Origin {
         &self.origin
+    }
+
+    /// Whether it is told the table's constants and the player's errors, and its probabilities are those of this player there.
+    pub const fn has_context(&self) -> bool {
+        self.origin.hyperparameters.context
+    }
+
+    /// Whether it has practised on tables like this one.
+    pub fn knows(&self, table: &Table) -> bool {
+        if self.has_context() { knows(table) } else { self.origin.table == table.name }
     }
 
     /// The stroke that the critic likes best for a player of this skill; only one with a context asks whose it is.
