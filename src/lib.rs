@@ -2,7 +2,8 @@
 //!
 //! The rooms, from the ground up; each may use those above it, never those below: [`platform`] what operating systems do
 //! each in its own way, [`printing`] what goes out, [`storage`] files, [`statistics`] fits, [`table`] what is played on,
-//! [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`learning`] agents, [`coach`]
+//! [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`player`] who plays,
+//! [`learning`] agents, [`coach`]
 //! recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`] the program measuring itself,
 //! [`terminal`] screens, [`commands`] the command line.
 
@@ -17,6 +18,7 @@ pub mod game;
 pub mod learning;
 pub mod physics;
 pub mod platform;
+pub mod player;
 pub mod printing;
 pub mod simulation;
 pub mod statistics;

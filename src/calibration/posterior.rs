@@ -12,10 +12,7 @@ use super::{
     forward::{Hand, STROKE},
     robust::weight,
 };
-use crate::{
-    learning::normal_pair,
-    statistics::{cholesky, dot, inverse, solve, undo},
-};
+use crate::statistics::{cholesky, dot, inverse, normal_pair, solve, undo};
 
 /// Width of the differences in standard deviations: that of a quadrature that is exact for polynomials of the fifth degree.
 const WIDTH: f64 = 1.732_050_807_568_877_2;

@@ -12,7 +12,7 @@ use super::{
     protocol::{PROTOCOL, Quantity, Test},
 };
 use crate::{
-    learning::normal_pair,
+    statistics::normal_pair,
     table::{DoubtError, Table, TableDoubt, TableSampler},
 };
 

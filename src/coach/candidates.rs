@@ -9,10 +9,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Skill,
     elevated::{STEEPEST, within_limit},
-    errors::{Errors, normal},
 };
 use crate::{
     physics::{CueInputs, squirt},
+    player::errors::{Errors, normal},
     table::{Layout, Table},
 };
 

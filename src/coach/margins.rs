@@ -3,87 +3,18 @@
 use serde::Serialize;
 
 use super::{
-    Doubt,
-    draws::{Draws, World, Worlds, aimed},
+    Doubt, Input,
+    draws::{Draws, World, Worlds},
     parallel,
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
     platform,
+    player::aimed,
     simulation::{Event, Observer, StepBudget, watch},
     table::{Layout, Table},
 };
-
-/// One of the five cue inputs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Input {
-    /// The tip's place to the side, mm.
-    #[serde(rename = "a")]
-    Side,
-    /// The tip's height, mm.
-    #[serde(rename = "b")]
-    Height,
-    /// The cue's elevation, degrees.
-    #[serde(rename = "theta")]
-    Elevation,
-    /// The direction, degrees.
-    #[serde(rename = "phi")]
-    Direction,
-    /// The speed, m/s.
-    #[serde(rename = "V")]
-    Speed,
-}
-
-impl Input {
-    /// All five.
-    pub const ALL: [Self; 5] = [Self::Side, Self::Height, Self::Elevation, Self::Direction, Self::Speed];
-
-    /// The thesis' letter.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Side => "a",
-            Self::Height => "b",
-            Self::Elevation => "theta",
-            Self::Direction => "phi",
-            Self::Speed => "V",
-        }
-    }
-
-    /// The unit in which people speak of it.
-    pub const fn unit(self) -> &'static str {
-        match self {
-            Self::Side | Self::Height => "mm",
-            Self::Elevation | Self::Direction => "degrees",
-            Self::Speed => "m/s",
-        }
-    }
-
-    /// How far the nearest miss is looked for, and in what steps, in that unit. The steps are a fifth of an expert's
-    /// standard error or less.
-    const fn scan(self) -> (f64, f64) {
-        match self {
-            Self::Side | Self::Height => (15.0, 0.1),
-            Self::Elevation => (15.0, 0.02),
-            Self::Direction => (5.0, 0.02),
-            Self::Speed => (3.0, 0.015),
-        }
-    }
-
-    /// The stroke with this input changed by so many of its units.
-    #[must_use]
-    pub fn shifted(self, table: &Table, cue: &CueInputs, by: f64) -> CueInputs {
-        let mut cue = *cue;
-        match self {
-            Self::Side => cue.a += 1e-3 * by / table.radius,
-            Self::Height => cue.b += 1e-3 * by / table.radius,
-            Self::Elevation => cue.theta += by.to_radians(),
-            Self::Direction => cue.phi += by.to_radians(),
-            Self::Speed => cue.speed += by,
-        }
-        cue
-    }
-}
 
 /// How far one input may be off while the others are as meant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -241,6 +172,17 @@ impl<'a> Sensitivity<'a> {
 }
 
 impl Input {
+    /// How far the nearest miss is looked for, and in what steps, in that unit. The steps are a fifth of an expert's
+    /// standard error or less.
+    const fn scan(self) -> (f64, f64) {
+        match self {
+            Self::Side | Self::Height => (15.0, 0.1),
+            Self::Elevation => (15.0, 0.02),
+            Self::Direction => (5.0, 0.02),
+            Self::Speed => (3.0, 0.015),
+        }
+    }
+
     /// Whether it is one whose end is the tip slipping off, which is a miss like any other.
     const fn is_tip(self) -> bool {
         matches!(self, Self::Side | Self::Height)

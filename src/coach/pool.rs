@@ -4,11 +4,10 @@ use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED, towards},
     draws::{Draws, Worlds},
-    errors::Errors,
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
-use crate::physics::CueInputs;
+use crate::{physics::CueInputs, player::errors::Errors};
 
 /// One in four of the errors is this many times as large. Of shots that hardly ever miss, these tell apart the one that
 /// forgives more.

@@ -10,13 +10,16 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     Coach, Doubt, Request,
     clock::Clock,
-    draws::{Draw, World, Worlds, misplaced},
-    errors::{self, Errors},
+    draws::{Draw, World, Worlds},
     next::end_of,
     trial::{ENDLESS, Task},
 };
 use crate::{
     physics::CueInputs,
+    player::{
+        errors::{self, Errors},
+        misplaced,
+    },
     table::{Layout, LayoutError, Table},
 };
 

@@ -263,7 +263,7 @@ fn strokes_without_room(layouts: usize) -> (usize, usize) {
             seed: number as u64,
             ..request(Rule::ALL[number / 9 % 3], if number % 10 == 9 { 0 } else { 1_500 })
         };
-        let mut named: Vec<CueInputs> = coach.policy_shot(layout, request.rule).into_iter().collect();
+        let mut named: Vec<CueInputs> = coach.policy_shot(layout, request.rule, &request.skill).into_iter().collect();
         let advice = coach.recommend_and_tell(layout, &request, |news| named.push(news.cue)).unwrap();
         named.push(advice.cue);
         named.extend(advice.alternatives.iter().map(|shot| shot.cue));

@@ -6,13 +6,13 @@ use super::{
     Skill,
     candidates::{MAX_ELEVATION, steepest},
     clock::Clock,
-    draws::{Draw, World, Worlds, aimed},
+    draws::{Draw, World, Worlds},
     elevated::{is_jump_or_masse, makes_jump_or_masse},
-    errors::Errors,
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike, with_room},
+    player::{aimed, errors::Errors},
     simulation::{Event, EventKind, Observer, StepBudget, watch},
     table::{Layout, Table},
 };

@@ -39,7 +39,7 @@ pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
     if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
         tell(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
     }
-    if *trained_on != table.name {
+    if !policy.knows(table) {
         tell(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
     }
 }

@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
-    coach::{Verdict, errors},
+    coach::Verdict,
     game::{Point, Rule, Tally},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
+    player::errors,
     simulation::{Event, Observer, Recording, simulate},
     table::{BALLS, Layout, Table},
 };

@@ -10,11 +10,9 @@ pub mod ddpg;
 pub mod evaluation;
 pub mod learner;
 pub mod nn;
-mod normal;
 pub mod run;
 pub mod settings;
 pub mod thesis;
 
 pub use calendar::{moment, timestamp};
 pub use ddpg::policy::{self, Policy, Proposal, file::PolicyError};
-pub use normal::normal_pair;

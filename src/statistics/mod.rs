@@ -5,5 +5,5 @@ mod normal;
 mod symmetric;
 
 pub use least_squares::{Fit, Minimum, Problem, fit, minimize, solve};
-pub use normal::quantile;
+pub use normal::{normal_pair, quantile};
 pub use symmetric::{cholesky, dot, inverse, undo};

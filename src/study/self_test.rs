@@ -7,6 +7,7 @@ use super::fingerprint::{SHOTS, TEXTBOOK, hash};
 use crate::{
     game::{Rule, scores},
     learning::{Policy, PolicyError, evaluation::held_out_layouts},
+    player::Skill,
     table::{PRESETS, Table, TableError},
 };
 
@@ -87,7 +88,7 @@ pub fn networks() -> Result<Vec<NetworkTest>, SelfTestError> {
 
 fn network(table: &Table, rule: Rule, policy: &Policy) -> NetworkTest {
     let layouts = held_out_layouts(table, LAYOUTS, SEED);
-    let makes = |layout: &&_| scores(rule, table, layout, &policy.propose(table, layout));
+    let makes = |layout: &&_| scores(rule, table, layout, &policy.propose(table, layout, &Skill::PERFECT));
     let points = layouts.iter().filter(makes).count();
     let least = if table.name == "thesis" && rule == Rule::ThreeCushion { LEAST_OF_THESIS } else { LEAST };
     let is_right = points as f64 >= least * LAYOUTS as f64;

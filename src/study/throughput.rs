@@ -115,7 +115,7 @@ pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figu
     let request = Request::default();
     let advise = |layout: &Layout| coach.recommend(layout, &request).is_ok();
     note("recommendations", None, coach.table(), 1, rate(time, &layouts, advise));
-    let decide = |layout: &Layout| coach.policy_shot(layout, request.rule);
+    let decide = |layout: &Layout| coach.policy_shot(layout, request.rule, &request.skill);
     note("network decisions", None, coach.table(), 1, rate(time, &layouts, decide));
     for (operations, how) in OPERATIONS {
         for update in THESIS_UPDATES {
@@ -224,7 +224,7 @@ fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candl
         Hyperparameters { critic_learning_rate: 1e-6, actor_learning_rate: 1e-6, ..Hyperparameters::default() };
     let (rows, space) = (settings.batch, settings.actions);
     let observations = (0..rows).map(|row| Observation::new(&Layout::random(table, &mut rng), row % 4)).collect();
-    let observed = ObservationBatch::new(&Arc::new(table.clone()), space, observations)?;
+    let observed = ObservationBatch::on(&Arc::new(table.clone()), space, observations)?;
     let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
     let successes: Vec<f32> = (0..rows).map(|_| f32::from(u8::from(rng.random_bool(0.1)))).collect();
     let mut agent = Ddpg::new(settings, &mut rng)?.with(operations);

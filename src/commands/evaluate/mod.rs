@@ -1,5 +1,6 @@
 //! `carom evaluate`: measure the recommender or a policy on held-out layouts.
 
+mod drawn_tables;
 mod order;
 mod robustness;
 mod self_play;
@@ -18,9 +19,9 @@ use super::{
     recommend::coach_for,
 };
 use crate::{
-    coach::{Doubt, Request, Skill},
+    coach::{Coach, Doubt, Request, Skill},
     game::{Reward, Rule},
-    learning::{Policy, PolicyError, evaluation::EVALUATION_SEED},
+    learning::{Policy, evaluation::EVALUATION_SEED},
     printing,
     table::Table,
 };
@@ -42,9 +43,13 @@ pub struct Args {
     /// The policy: "bundled", the path of a file that `carom train` wrote, or the name under which one was kept.
     #[arg(long, value_name = "FILE", default_value = "bundled")]
     policy: String,
-    /// Play the networks' own shot: one pass, no simulator call.
+    /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.
     #[arg(long)]
     policy_only: bool,
+    /// With --policy-only, play every layout on a table of its own, drawn from what tables in clubs differ by from --table. The
+    /// networks are told its constants, if they take them; with --skill it is as well known as "match".
+    #[arg(long, requires = "policy_only")]
+    drawn_tables: bool,
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
@@ -95,7 +100,7 @@ pub struct Args {
     shard: Option<Shard>,
     /// Measure nothing; report what the files of all parts hold together.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = [
-        "layouts", "seed", "table", "policy", "policy_only", "rule", "reward", "random_search", "skill", "doubt", "choose_doubt",
+        "layouts", "seed", "table", "policy", "policy_only", "drawn_tables", "rule", "reward", "random_search", "skill", "doubt", "choose_doubt",
         "self_play", "most_points", "minutes", "plan", "no_jumps", "budget_ms", "simulations", "shard",
     ])]
     merge: Vec<PathBuf>,
@@ -132,7 +137,8 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
     let player = if let Some(shots) = args.random_search {
         Player::RandomSearch(shots)
     } else if args.policy_only {
-        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
+        let policy =
+            policy_named(&args.policy, &table, reward.rule().unwrap_or_default(), &skill.unwrap_or(Skill::PERFECT))?;
         note_doubts(&policy, &table, reward.rule());
         Player::Policy(policy)
     } else {
@@ -147,6 +153,7 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
         is_yes_or_no: reward == Reward::R1 || reward.rule().is_some(),
         seed: args.seed,
         layouts: args.layouts,
+        drawn_tables: args.drawn_tables,
         skill,
         doubt: args.doubt,
         choose_doubt: args.choose_doubt,
@@ -179,20 +186,19 @@ fn request(args: &Args, skill: Skill) -> Request {
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
 }
 
-/// The bundled policy for `rule` on `table`, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
-    let policy = if name == "bundled" {
-        Policy::bundled(table, rule).ok_or_else(|| {
-            Failure::wrong_input(format_args!(
-                "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
-                 `carom train`",
-                table.name
-            ))
-        })?
-    } else {
-        policy_called(name)
-    };
-    policy.map_err(|error: PolicyError| Failure::failed(error))
+/// The policy that the coach asks for this player under `rule` on `table`, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule, skill: &Skill) -> Result<Policy, Failure> {
+    if name != "bundled" {
+        return policy_called(name).map_err(Failure::failed);
+    }
+    let coach = Coach::new(table.clone()).map_err(Failure::failed)?;
+    coach.policy(rule, skill).cloned().ok_or_else(|| {
+        Failure::wrong_input(format_args!(
+            "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+             `carom train`",
+            table.name
+        ))
+    })
 }
 
 #[cfg(test)]
@@ -204,7 +210,17 @@ mod tests {
         assert!(table_named("snooker").unwrap_err().to_string().contains("snooker"));
         let mut own = Table::preset("thesis").unwrap();
         own.name = "cellar".to_owned();
-        assert!(policy_named("bundled", &own, Rule::OneCushion).unwrap_err().to_string().contains("cellar"));
-        assert!(policy_named("no/such/file", &own, Rule::OneCushion).unwrap_err().to_string().contains("no/such/file"));
+        assert!(
+            policy_named("bundled", &own, Rule::OneCushion, &Skill::PERFECT)
+                .unwrap_err()
+                .to_string()
+                .contains("cellar")
+        );
+        assert!(
+            policy_named("no/such/file", &own, Rule::OneCushion, &Skill::PERFECT)
+                .unwrap_err()
+                .to_string()
+                .contains("no/such/file")
+        );
     }
 }

@@ -19,6 +19,8 @@ pub struct Order {
     /// The policy, of players that have one.
     pub policy: Option<String>,
     pub table: Table,
+    /// Whether every layout has a table of its own, drawn around that one.
+    pub drawn_tables: bool,
     /// The reward or the rule.
     pub measure: String,
     /// Whether that is yes or no.

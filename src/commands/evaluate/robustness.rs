@@ -9,7 +9,7 @@ use crate::{
     coach::{Doubt, Shooter, Skill, make_probability},
     game::Rule,
     physics::CueInputs,
-    table::Layout,
+    table::{Layout, Table},
 };
 
 /// Independent attempts at each shot.
@@ -27,20 +27,55 @@ pub struct Robustness {
     make_probability: f64,
     /// Its 95 % interval, from the spread between layouts.
     make_interval: [f64; 2],
-    /// Mean of what the recommender itself said, where it said anything.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    claimed: Option<f64>,
     /// Make probability that a tenth of the layouts stay below.
     worst_tenth: f64,
-    /// What was said and what was made, by tenths of what was said; only those with a layout.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    tenths: Vec<Tenth>,
+    /// What was said beforehand, where anything was.
+    #[serde(flatten)]
+    said: Option<Said>,
     /// On each layout.
     #[serde(skip)]
     chances: Vec<f64>,
 }
 
-/// The layouts of which the recommender said about the same.
+/// What the recommender or the networks said of their shots, against what came of them.
+#[derive(Debug, Serialize)]
+pub struct Said {
+    /// The mean of what was said; where no shot was found, that is a miss.
+    claimed: f64,
+    /// What was said and what was made, by tenths of what was said; only those with a layout.
+    tenths: Vec<Tenth>,
+}
+
+impl Said {
+    /// From what was said and made on every layout.
+    pub fn new(claimed: &[Option<f64>], made: &[f64]) -> Self {
+        let tenth = |said: f64| ((10.0 * said) as usize).min(9);
+        let tenths = (0..10).filter_map(|which| {
+            let said = claimed.iter().map(|said| said.unwrap_or(0.0)).zip(made);
+            let among: Vec<_> = said.filter(|(said, _)| tenth(*said) == which).collect();
+            let mean = |sum: f64| sum / among.len() as f64;
+            (!among.is_empty()).then(|| Tenth {
+                layouts: among.len(),
+                claimed: mean(among.iter().map(|(said, _)| said).sum()),
+                made: mean(among.iter().map(|(_, made)| **made).sum()),
+            })
+        });
+        let all: f64 = claimed.iter().flatten().sum();
+        Self { claimed: all / claimed.len().max(1) as f64, tenths: tenths.collect() }
+    }
+}
+
+impl fmt::Display for Said {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "said beforehand: {:.2} %", 100.0 * self.claimed)?;
+        for Tenth { layouts, claimed, made } in &self.tenths {
+            write!(formatter, "\nsaid {:.1} %, made {:.1} % ({layouts} layouts)", 100.0 * claimed, 100.0 * made)?;
+        }
+        Ok(())
+    }
+}
+
+/// The layouts of which about the same was said.
 #[derive(Debug, Serialize)]
 struct Tenth {
     layouts: usize,
@@ -49,10 +84,10 @@ struct Tenth {
 }
 
 /// The make probability of a shot.
-pub fn chance(order: &Order, rule: Rule, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
+pub fn chance(order: &Order, rule: Rule, table: &Table, layout: &Layout, skill: Skill, cue: &CueInputs) -> f64 {
     // Another stream than the recommender's, which has this seed too.
     let shooter = Shooter { skill, doubt: order.doubt };
-    make_probability(shooter, rule, &order.table, layout, cue, ATTEMPTS, !order.seed).rate
+    make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !order.seed).rate
 }
 
 impl Robustness {
@@ -69,30 +104,15 @@ impl Robustness {
             doubt,
             make_probability: mean,
             make_interval: [(mean - spread).max(0.0), (mean + spread).min(1.0)],
-            claimed: None,
             worst_tenth: sorted.get(sorted.len() / 10).copied().unwrap_or(0.0),
-            tenths: Vec::new(),
+            said: None,
             chances,
         }
     }
 
-    /// Takes note of what the recommender said of its shots; where it found none, that is a miss.
+    /// Takes note of what was said of the shots beforehand.
     pub fn claim(&mut self, claimed: &[Option<f64>]) {
-        let said: f64 = claimed.iter().flatten().sum();
-        self.claimed = Some(said / claimed.len().max(1) as f64);
-        let tenth = |said: f64| ((10.0 * said) as usize).min(9);
-        self.tenths = (0..10)
-            .filter_map(|which| {
-                let said = claimed.iter().map(|said| said.unwrap_or(0.0)).zip(&self.chances);
-                let among: Vec<_> = said.filter(|(said, _)| tenth(*said) == which).collect();
-                let mean = |sum: f64| sum / among.len() as f64;
-                (!among.is_empty()).then(|| Tenth {
-                    layouts: among.len(),
-                    claimed: mean(among.iter().map(|(said, _)| said).sum()),
-                    made: mean(among.iter().map(|(_, made)| **made).sum()),
-                })
-            })
-            .collect();
+        self.said = Some(Said::new(claimed, &self.chances));
     }
 }
 
@@ -108,13 +128,20 @@ impl fmt::Display for Robustness {
             100.0 * self.make_probability,
             100.0 * self.worst_tenth
         )?;
-        match self.claimed {
-            Some(claimed) => write!(formatter, "; the recommender says {:.2} %", 100.0 * claimed)?,
-            None => return Ok(()),
-        }
-        for Tenth { layouts, claimed, made } in &self.tenths {
-            write!(formatter, "\nsaid {:.1} %, made {:.1} % ({layouts} layouts)", 100.0 * claimed, 100.0 * made)?;
-        }
-        Ok(())
+        self.said.as_ref().map_or(Ok(()), |said| write!(formatter, "\n{said}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_said_is_set_against_what_was_made_by_tenths() {
+        let said = Said::new(&[Some(0.05), Some(0.93), Some(0.97), None, Some(1.0)], &[0.0, 1.0, 0.5, 1.0, 1.0]);
+        let tenths: Vec<_> = said.tenths.iter().map(|tenth| (tenth.layouts, tenth.made)).collect();
+        assert_eq!(tenths, [(2, 0.5), (3, 2.5 / 3.0)], "a layout without a shot is one of which nothing was said");
+        assert!((said.claimed - 2.95 / 5.0).abs() < 1e-12);
+        assert!(said.to_string().starts_with("said beforehand: 59.00 %"), "{said}");
     }
 }

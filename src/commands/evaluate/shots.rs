@@ -7,14 +7,15 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    drawn_tables::DrawnTables,
     order::{Order, Shard},
-    robustness::{self, Robustness},
+    robustness::{self, Robustness, Said},
 };
 use crate::{
-    coach::{Coach, Request},
+    coach::{Coach, Request, Skill},
     game::{Reward, Rule, scores},
     learning::{
-        Policy,
+        Policy, Proposal,
         evaluation::{SuccessRate, held_out_layouts},
     },
     physics::{CueInputs, has_room},
@@ -79,25 +80,28 @@ pub struct ShotRecord {
 pub fn measure(order: &Order, shard: Shard, player: &Player, rule: Rule, reward: Reward) -> Vec<ShotRecord> {
     let layouts = held_out_layouts(&order.table, order.layouts as usize, order.seed);
     let mine = (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index));
+    let drawn = order.drawn_tables.then(|| DrawnTables::around(&order.table, order.seed));
     mine.map(|(index, layout)| {
+        let own = drawn.as_ref().map(|tables| tables.of(index));
+        let table = own.as_ref().unwrap_or(&order.table);
         let start = Instant::now();
-        let decision = decide(order, player, rule, layout, index);
+        let decision = decide(order, player, rule, table, layout, index);
         let seconds = start.elapsed().as_secs_f64();
         let cue = decision.cue;
         ShotRecord {
             layout: index,
-            earned: reward.of(&order.table, layout, &cue),
+            earned: reward.of(table, layout, &cue),
             speed: cue.speed,
             seconds,
             simulations: decision.simulations,
             claimed: decision.claimed,
-            chance: order.skill.map(|skill| robustness::chance(order, rule, layout, skill, &cue)),
+            chance: order.skill.map(|skill| robustness::chance(order, rule, table, layout, skill, &cue)),
         }
     })
     .collect()
 }
 
-fn decide(order: &Order, player: &Player, rule: Rule, layout: &Layout, index: u32) -> Decision {
+fn decide(order: &Order, player: &Player, rule: Rule, table: &Table, layout: &Layout, index: u32) -> Decision {
     let shot = |cue| Decision { cue, simulations: None, claimed: None };
     match player {
         Player::Recommender(coach, request) => {
@@ -107,11 +111,15 @@ fn decide(order: &Order, player: &Player, rule: Rule, layout: &Layout, index: u3
                 claimed: advice.make_probability.map(|chance| chance.rate),
             })
         }
-        Player::Policy(policy) => shot(policy.propose(&order.table, layout)),
+        Player::Policy(policy) => {
+            let skill = order.skill.unwrap_or(Skill::PERFECT);
+            let Proposal { cue, success } = policy.proposals(table, layout, &skill)[0];
+            Decision { cue, simulations: None, claimed: Some(success) }
+        }
         Player::RandomSearch(shots) => {
             // Numbers of its own for each layout: parts find what the whole finds.
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(order.seed ^ (u64::from(index) << 32));
-            shot(random_search(&order.table, layout, rule, *shots, &mut rng))
+            shot(random_search(table, layout, rule, *shots, &mut rng))
         }
     }
 }
@@ -152,6 +160,9 @@ struct EvaluationReport<'a> {
     /// Of players that search.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
+    /// What the networks say of their shots, where no skill is given.
+    #[serde(flatten)]
+    said: Option<Said>,
     /// How often the player of the skill makes the shots.
     #[serde(skip_serializing_if = "Option::is_none")]
     robustness: Option<Robustness>,
@@ -175,10 +186,14 @@ fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> 
     let seconds: f64 = records.iter().map(|record| record.seconds).sum();
     let chances: Option<Vec<f64>> = records.iter().map(|record| record.chance).collect();
     let is_searching = records.iter().any(|record| record.simulations.is_some());
+    let has_said = is_searching || records.iter().any(|record| record.claimed.is_some());
+    let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
+    let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
+    // Of the player's attempts, or else of the shot itself where that is a point or none.
+    let said = order.player == "policy" && order.skill.is_none() && order.is_yes_or_no;
     let robustness = order.skill.zip(chances).map(|(skill, chances)| {
         let mut robustness = Robustness::new(skill, order.doubt, chances);
-        if is_searching {
-            let claimed: Vec<_> = records.iter().map(|record| record.claimed).collect();
+        if has_said {
             robustness.claim(&claimed);
         }
         robustness
@@ -196,6 +211,7 @@ fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> 
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
         hard_share: mean(&|record| f64::from(record.speed > HARD)),
         simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
+        said: said.then(|| Said::new(&claimed, &earned)),
         robustness,
     }
 }
@@ -223,6 +239,7 @@ fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usiz
         None => writeln!(out)?,
     }
     writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
+    report.said.as_ref().map_or(Ok(()), |said| writeln!(out, "{said}"))?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
@@ -240,6 +257,7 @@ mod tests {
             is_yes_or_no: true,
             seed: 4,
             layouts,
+            drawn_tables: false,
             skill: None,
             doubt: Doubt::FULL,
             choose_doubt: None,

@@ -26,7 +26,7 @@ use super::{
 use crate::{
     coach::{Coach, Doubt, Kind, Recommendation, Request, Risk, Shooter, Skill, Source, systems::Guide},
     game::Rule,
-    learning::evaluation::SuccessRate,
+    learning::{Proposal, evaluation::SuccessRate},
     physics::{CueInputs, strike},
     printing,
     simulation::ShotError,
@@ -227,13 +227,15 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     if args.policy_only {
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
-        let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
+        let policy = coach.policy(rule, &args.skill).ok_or_else(|| no_policy(coach.table()))?;
         note_doubts(policy, coach.table(), Some(rule));
-        let cue = policy.propose(coach.table(), layout);
+        let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
+        // Others speak of the shot as it is meant, whoever plays it.
+        let told = policy.has_context().then_some(success);
         return Ok(RecommendAnswer {
             cue,
             solved: None,
-            chance: Chance::default(),
+            chance: Chance { make_probability: told, make_interval: None },
             risk: None,
             next_probability: None,
             source: Source::Policy,
@@ -338,7 +340,11 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     match answer.solved {
         Some(true) => writeln!(out, "a point by simulation: {}", words(&answer.sort, &answer.chance, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
-        None => writeln!(out, "the networks' own shot, not simulated")?,
+        None => writeln!(
+            out,
+            "the networks' own shot, not simulated{}",
+            told_chance(answer.chance.make_probability, args.skill)
+        )?,
     }
     if let Some(system) = &answer.system {
         writeln!(out, "{system}")?;
@@ -359,6 +365,13 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         writeln!(out, "or {a:.3},{b:.3},{theta:.3},{phi},{speed:.3}: {pattern}{}", words(sort, chance, args))?;
     }
     writeln!(out, "source: {}, {} simulations in {:.1} ms", answer.source, answer.simulations, answer.elapsed_ms)
+}
+
+/// How often the networks think that the player makes their shot, where they do.
+fn told_chance(told: Option<f64>, skill: Skill) -> String {
+    told.map_or_else(String::new, |told| {
+        format!("; they say that a player of skill \"{skill}\" makes it {:.0} % of the time", 100.0 * told)
+    })
 }
 
 /// What sort of shot, and how often the player makes it.

@@ -19,6 +19,9 @@ use crate::learning::nn::{
     mlp::Operations,
 };
 
+/// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
+const SATURATED: f64 = 2.0;
+
 /// What an update reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UpdateStats {
@@ -121,13 +124,19 @@ impl Ddpg {
     }
 
     /// What the actor climbs, from every head's own action (the deterministic policy gradient): the mean of the critic's
-    /// probability and of a share of its logit; beside it the mean probability.
+    /// probability and of a share of its logit, less what saturated outputs cost; beside it the mean probability.
     fn actor_goal(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
         let Networks { actor, critic } = &self.online;
-        let actions = actor.forward(observed.states())?.tanh()?.reshape(((), observed.space().actions()))?;
+        let outputs = actor.forward(observed.states())?;
+        let actions = outputs.tanh()?.reshape(((), observed.space().actions()))?;
         let logits = critic.forward_frozen(&observed.with_actions(&actions)?)?;
         let probability = sigmoid(&logits)?.mean_all()?;
-        Ok(((&probability + (logits.mean_all()? * self.hyper.logit_weight)?)?, probability))
+        let goal = (&probability + (logits.mean_all()? * self.hyper.logit_weight)?)?;
+        if self.hyper.saturation_penalty == 0.0 {
+            return Ok((goal, probability));
+        }
+        let beyond = (outputs.abs()? - SATURATED)?.relu()?.sqr()?.mean_all()?;
+        Ok(((goal - (beyond * self.hyper.saturation_penalty)?)?, probability))
     }
 }
 
@@ -152,6 +161,24 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
     use std::sync::Arc;
 
+    #[test]
+    fn a_saturated_actor_comes_back_where_that_costs_something() {
+        let outputs = |penalty: f64| {
+            let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::Full);
+            agent.hyper.saturation_penalty = penalty;
+            let bias = vec![5.0; agent.hyper.heads * ActionSpace::Full.actions()];
+            agent.online.actor = agent.online.actor.duplicate().unwrap().with_output_bias(&bias).unwrap();
+            agent = Ddpg::starting_from(agent.online, agent.hyper).unwrap();
+            for _ in 0..40 {
+                agent.update(&observed, &actions, &successes, 1.0).unwrap();
+            }
+            let outputs = agent.online.actor.forward(observed.states()).unwrap();
+            outputs.mean_all().unwrap().to_scalar::<f32>().unwrap()
+        };
+        let [free, held] = [0.0, 0.1].map(outputs);
+        assert!(held < free - 0.1, "{held} against {free}");
+    }
+
     /// An agent with an opinion, and a batch for it.
     fn agent_and_batch(space: ActionSpace) -> (Ddpg, ObservationBatch, Vec<Action>, Vec<f32>) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);
@@ -173,7 +200,7 @@ mod tests {
             (0..20).map(|index| Observation::new(&Layout::random(&table, &mut rng), index % 4)).collect();
         let actions = (0..20).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
         let successes = (0..20).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
-        (agent, ObservationBatch::new(&table, space, observations).unwrap(), actions, successes)
+        (agent, ObservationBatch::on(&table, space, observations).unwrap(), actions, successes)
     }
 
     /// The slope of `goal` along its own gradient is the gradient's length; moving the parameters shows it, as well as 32-bit
@@ -239,7 +266,7 @@ mod tests {
         let observed = |rng: &mut Xoshiro256PlusPlus| {
             let observations =
                 (0..128).map(|index| Observation::new(&Layout::random(&table, rng), index % 4)).collect();
-            ObservationBatch::new(&table, space, observations).unwrap()
+            ObservationBatch::on(&table, space, observations).unwrap()
         };
         for _ in 0..400 {
             let observed = observed(&mut rng);

@@ -8,6 +8,7 @@ use super::{
     first_contact::playable,
     observation::{OBSERVATIONS, Observation},
     replay::Transition,
+    venues::Conditions,
 };
 use crate::{
     game::Reward,
@@ -32,7 +33,7 @@ pub fn demonstrate(
         action[..space.actions()].fill_with(|| rng.random_range(-1.0..=1.0));
         let cue = playable(table, layout, &observation, action).ok()?;
         let earned = reward.within(table, layout, &cue, patience);
-        (earned >= 1.0).then_some(Transition { observation, action, success: 1.0 })
+        (earned >= 1.0).then_some(Transition { observation, conditions: Conditions::default(), action, success: 1.0 })
     })
 }
 

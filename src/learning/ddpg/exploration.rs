@@ -4,7 +4,7 @@ use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
 use super::action::{Action, ActionSpace};
-use crate::learning::normal_pair;
+use crate::statistics::normal_pair;
 
 /// How far the agent strays from its own choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

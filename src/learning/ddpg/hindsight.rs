@@ -6,7 +6,9 @@ use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
 use glam::DVec2;
 use rand::{Rng, RngExt};
 
-use super::{action::Action, first_contact::playable, observation::Observation, replay::Transition};
+use super::{
+    action::Action, first_contact::playable, observation::Observation, replay::Transition, venues::Conditions,
+};
 use crate::{
     game::Reward,
     physics::strike,
@@ -46,7 +48,7 @@ pub fn relabel(
     // The moved ball may be in the cue's way.
     let is_same = playable(table, &moved, &observation, action) == Ok(cue);
     let success = is_same && reward.within(table, &moved, &cue, patience) >= 1.0;
-    success.then_some(Transition { observation, action, success: 1.0 })
+    success.then_some(Transition { observation, conditions: Conditions::default(), action, success: 1.0 })
 }
 
 /// Keeps the cue ball's way after it has met its first ball.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{action::ActionSpace, exploration::Exploration};
+use super::{action::ActionSpace, context::Inputs, exploration::Exploration};
 use crate::learning::{
     nn::adam::AdamConfig,
     settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
@@ -14,6 +14,9 @@ use crate::learning::{
 pub struct Hyperparameters {
     /// What the agent chooses: the thesis' phi and V, or all five cue inputs.
     pub actions: ActionSpace,
+    /// Whether it is told the table's constants and the player's errors, and practises on drawn tables with drawn errors. Its
+    /// critic then tells how often this player makes a stroke on this table.
+    pub context: bool,
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
@@ -38,6 +41,9 @@ pub struct Hyperparameters {
     /// Share of them that are played near the critic's favourite among all heads in all observations of a layout; the others
     /// near any head's action in any observation.
     pub critic_chooses: f64,
+    /// Share of them that are the averaged networks' own best proposals for a layout, several of each, played as they are: these
+    /// are the shots between which they will have to choose.
+    pub ranking: f64,
     /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
     /// left behind.
     pub replay: usize,
@@ -50,6 +56,9 @@ pub struct Hyperparameters {
     /// Weight of the logit beside the probability in what the actor climbs: without it there is no slope where the
     /// critic is certain of a miss.
     pub logit_weight: f64,
+    /// Weight of the mean square by which the actor's outputs lie beyond 2, where the squashing is flat: an actor that has always
+    /// struck as hard as it could never learns that another player must not.
+    pub saturation_penalty: f64,
     /// How far the behaviour strays from the actor's proposals.
     pub exploration: Exploration,
 }
@@ -58,6 +67,7 @@ impl Default for Hyperparameters {
     fn default() -> Self {
         Self {
             actions: ActionSpace::Full,
+            context: false,
             heads: 6,
             actor_layers: vec![256, 256, 256],
             critic_layers: vec![320, 320, 320],
@@ -69,16 +79,23 @@ impl Default for Hyperparameters {
             actor_batch: 96,
             shots_per_update: 192,
             critic_chooses: 0.3,
+            ranking: 0.0,
             replay: 1 << 17,
             hindsight: 0.0,
             demonstrations: 0.0,
             logit_weight: 0.02,
+            saturation_penalty: 0.0,
             exploration: Exploration::default(),
         }
     }
 }
 
 impl Hyperparameters {
+    /// What the networks' input is made of.
+    pub const fn inputs(&self) -> Inputs {
+        Inputs { space: self.actions, context: self.context }
+    }
+
     /// The critic's optimiser at the start of a run.
     pub const fn critic_adam(&self) -> AdamConfig {
         AdamConfig { learning_rate: self.critic_learning_rate, gradient_clip: self.gradient_clip }
@@ -106,9 +123,11 @@ impl Hyperparameters {
         check_positive("gradient_clip", self.gradient_clip)?;
         check_share("target_rate", self.target_rate)?;
         check_share("critic_chooses", self.critic_chooses)?;
+        check_share("ranking", self.ranking)?;
         check_share("hindsight", self.hindsight)?;
         check_share("demonstrations", self.demonstrations)?;
         check_share("logit_weight", self.logit_weight)?;
+        check_share("saturation_penalty", self.saturation_penalty)?;
         check_share("exploration.uniform", self.exploration.uniform)?;
         self.exploration.noise.iter().try_for_each(|scale| check_share("exploration.noise", f64::from(*scale)))
     }

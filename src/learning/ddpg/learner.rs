@@ -4,9 +4,10 @@ use serde_json::Value;
 
 use super::{
     agent::Ddpg,
+    context::{CONTEXT_FEATURES, Inputs},
+    features::STATE_FEATURES,
     hyperparameters::Hyperparameters,
     networks::Networks,
-    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
     policy::score,
     snapshot,
     trainer::{Task, Trainer},
@@ -18,6 +19,7 @@ use crate::{
         nn::weights::{Reader, WeightsError, Writer},
     },
     physics::CueInputs,
+    player::Skill,
     table::{Layout, Table},
 };
 
@@ -35,6 +37,11 @@ pub const AGENT: Agent = Agent {
             let reason =
                 "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
             return Err(refuse(&reason));
+        }
+        if of_points && hyperparameters.context {
+            return Err(refuse(
+                &"hindsight and demonstrations know nothing of drawn tables and errors: use them without context",
+            ));
         }
         Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
     },
@@ -90,7 +97,7 @@ impl Learner for Trainer {
 
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
         let policy = self.policy(0.0, "")?;
-        Ok(layouts.iter().map(|layout| policy.propose(self.table(), layout)).collect())
+        Ok(layouts.iter().map(|layout| policy.propose(self.table(), layout, &Skill::PERFECT)).collect())
     }
 
     fn policy(&self, held_out_reward: f64, date: &str) -> Result<Option<Vec<u8>>, WeightsError> {
@@ -104,10 +111,17 @@ impl Learner for Trainer {
     /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
-        let own = &self.agent.online;
-        let network = |name: &str, inputs, own: &[usize]| {
+        let (own, inputs) = (&self.agent.online, self.task.hyperparameters.inputs());
+        let blind = Inputs { context: false, ..inputs };
+        let network = |name: &str, count: fn(Inputs) -> usize, own: &[usize]| {
             let name = format!("{prefix}{name}");
-            let network = weights.network(&name, inputs)?;
+            let network = match weights.network(&name, count(inputs)) {
+                // What it has learnt without a context holds under any, until it learns better.
+                Err(_) if inputs.context => {
+                    weights.network(&name, count(blind))?.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?
+                }
+                network => network?,
+            };
             if network.sizes() == own {
                 return Ok(network);
             }
@@ -117,8 +131,8 @@ impl Learner for Trainer {
             Err(WeightsError::Array { name, expected })
         };
         let adopted = Networks {
-            actor: network("actor", ACTOR_INPUTS, own.actor.sizes())?,
-            critic: network("critic", CRITIC_INPUTS, own.critic.sizes())?,
+            actor: network("actor", Inputs::actor, own.actor.sizes())?,
+            critic: network("critic", Inputs::critic, own.critic.sizes())?,
         };
         self.agent = Ddpg::starting_from(adopted, self.agent.hyper.clone())?;
         Ok(())
@@ -128,7 +142,10 @@ impl Learner for Trainer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::trainer::tests::small_task;
+    use crate::{
+        game::Rule,
+        learning::{Policy, ddpg::trainer::tests::small_task, evaluation::held_out_layouts},
+    };
 
     #[test]
     fn weights_are_taken_from_checkpoints_and_policies_and_other_sizes_are_refused() {
@@ -158,6 +175,43 @@ mod tests {
                 "{refused}"
             );
         }
+    }
+
+    #[test]
+    fn with_a_context_an_agent_begins_with_what_was_learnt_without() {
+        let table = Table::default();
+        let old = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
+        let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22").unwrap().unwrap();
+        let mut task = old_trainer(&old).task;
+        task.hyperparameters.context = true;
+        let mut pupil = Trainer::new(task, table.clone()).unwrap();
+        pupil.load_weights(&Reader::new(&file).unwrap()).unwrap();
+        let told = pupil.policy(0.0, "").unwrap();
+        assert!(told.has_context() && !old.has_context());
+        for layout in held_out_layouts(&table, 5, 1) {
+            for skill in [Skill::PERFECT, Skill::CLUB] {
+                let [old, told] = [&old, &told].map(|policy| policy.proposals(&table, &layout, &skill)[0]);
+                assert!((old.cue.phi - told.cue.phi).abs() < 1e-4 && (old.success - told.success).abs() < 1e-4);
+            }
+        }
+        // Once it has learnt, it makes a difference who plays.
+        for _ in 0..30 {
+            pupil.iterate().unwrap();
+        }
+        let told = pupil.policy(0.0, "").unwrap();
+        let layout = held_out_layouts(&table, 1, 1)[0];
+        let [perfect, beginner] =
+            [Skill::PERFECT, Skill::BEGINNER].map(|skill| told.proposals(&table, &layout, &skill));
+        assert_ne!(perfect, beginner);
+    }
+
+    /// A trainer that has the networks of `policy`.
+    fn old_trainer(policy: &Policy) -> Trainer {
+        let hyperparameters = policy.origin().hyperparameters.clone();
+        let task = Task { reward: policy.origin().reward, seed: 1, shots: 1000, hyperparameters };
+        let mut trainer = Trainer::new(task, Table::default()).unwrap();
+        trainer.agent = Ddpg::starting_from(policy.networks.duplicate().unwrap(), trainer.agent.hyper.clone()).unwrap();
+        trainer
     }
 
     #[test]

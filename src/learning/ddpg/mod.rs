@@ -6,6 +6,7 @@
 
 pub mod action;
 pub mod agent;
+pub mod context;
 pub mod demonstrations;
 mod dual;
 pub mod exploration;
@@ -22,3 +23,4 @@ pub mod replay;
 mod rollout;
 pub mod snapshot;
 pub mod trainer;
+pub mod venues;

@@ -6,7 +6,7 @@ use rand::Rng;
 use super::{
     action::{Action, aim_at},
     hyperparameters::Hyperparameters,
-    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS, ObservationBatch, actions_in},
+    observation_batch::{ObservationBatch, actions_in},
 };
 use crate::learning::nn::mlp::{Mlp, Operations};
 
@@ -37,8 +37,8 @@ impl Networks {
             start.extend_from_slice(&[aim_at(offset).atanh(), 0.0, tip[0], tip[1], 0.0][..outputs]);
         }
         let sizes = |inputs, hidden: &[usize], outputs| [&[inputs], hidden, &[outputs]].concat();
-        let actor_sizes = sizes(ACTOR_INPUTS, &hyper.actor_layers, hyper.heads * outputs);
-        let critic_sizes = sizes(CRITIC_INPUTS, &hyper.critic_layers, 1);
+        let actor_sizes = sizes(hyper.inputs().actor(), &hyper.actor_layers, hyper.heads * outputs);
+        let critic_sizes = sizes(hyper.inputs().critic(), &hyper.critic_layers, 1);
         Ok(Self {
             actor: Mlp::random(&actor_sizes, rng)?.with_output_bias(&start)?,
             critic: Mlp::random(&critic_sizes, rng)?,

@@ -6,8 +6,9 @@ use candle_core::{CpuStorage, CustomOp1, Device, Layout, Result, Shape, Tensor, 
 
 use super::{
     action::{ACTIONS, Action, ActionSpace},
+    context::{Inputs, push_context},
     dual::Dual,
-    features::{ACTION_FEATURES, STATE_FEATURES, push_action_features, push_state_features},
+    features::{ACTION_FEATURES, push_action_features, push_state_features},
     observation::Observation,
 };
 use crate::{
@@ -15,11 +16,16 @@ use crate::{
     table::Table,
 };
 
-/// Inputs of the actor.
-pub const ACTOR_INPUTS: usize = STATE_FEATURES;
-
-/// Inputs of the critic.
-pub const CRITIC_INPUTS: usize = STATE_FEATURES + ACTION_FEATURES;
+/// An observation, and what the agent is told besides.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// The observation.
+    pub observation: Observation,
+    /// The table.
+    pub table: Arc<Table>,
+    /// The player's errors as a multiple of an expert's; they count for networks with a context.
+    pub errors: f64,
+}
 
 /// Actions as the rows of a tensor, the unused numbers left out.
 ///
@@ -46,27 +52,42 @@ fn padded(used: &[f32]) -> Action {
     action
 }
 
-/// Views on one table with their state features.
+/// Observations with what the actor is told of them.
 #[derive(Clone, Debug)]
 pub struct ObservationBatch {
-    table: Arc<Table>,
-    space: ActionSpace,
+    inputs: Inputs,
+    tables: Arc<[Arc<Table>]>,
     observations: Arc<[Observation]>,
     states: Tensor,
 }
 
 impl ObservationBatch {
-    /// A batch of observations for actions in `space`.
+    /// A batch for networks with these inputs.
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn new(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
-        let mut features = Vec::with_capacity(observations.len() * STATE_FEATURES);
-        for observation in &observations {
+    pub fn new(inputs: Inputs, seen: &[Seen]) -> Result<Self> {
+        let mut features = Vec::with_capacity(seen.len() * inputs.actor());
+        for Seen { observation, table, errors } in seen {
             push_state_features(table, observation, &mut features);
+            if inputs.context {
+                push_context(table, observation.mirror, *errors, &mut features);
+            }
         }
-        let states = Tensor::from_vec(features, (observations.len(), STATE_FEATURES), &Device::Cpu)?;
-        Ok(Self { table: Arc::clone(table), space, observations: observations.into(), states })
+        let states = Tensor::from_vec(features, (seen.len(), inputs.actor()), &Device::Cpu)?;
+        let tables = seen.iter().map(|seen| Arc::clone(&seen.table)).collect();
+        let observations = seen.iter().map(|seen| seen.observation).collect();
+        Ok(Self { inputs, tables, observations, states })
+    }
+
+    /// A batch of observations on one table for networks without a context and actions in `space`.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn on(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
+        let seen = |observation| Seen { observation, table: Arc::clone(table), errors: 0.0 };
+        let seen: Vec<Seen> = observations.into_iter().map(seen).collect();
+        Self::new(Inputs { space, context: false }, &seen)
     }
 
     /// The observations.
@@ -76,7 +97,7 @@ impl ObservationBatch {
 
     /// What the actions mean.
     pub const fn space(&self) -> ActionSpace {
-        self.space
+        self.inputs.space
     }
 
     /// The actor's input, a row for each observation.
@@ -92,8 +113,8 @@ impl ObservationBatch {
         let count = count.min(self.observations.len());
         let states = self.states.narrow(0, 0, count)?;
         Ok(Self {
-            table: Arc::clone(&self.table),
-            space: self.space,
+            inputs: self.inputs,
+            tables: self.tables[..count].into(),
             observations: self.observations[..count].into(),
             states,
         })
@@ -124,7 +145,8 @@ impl CustomOp1 for Join {
 
     fn cpu_fwd(&self, storage: &CpuStorage, layout: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, columns) = layout.shape().dims2()?;
-        let (observations, space) = (self.observed.observations.len(), self.observed.space);
+        let (observations, inputs) = (self.observed.observations.len(), self.observed.inputs);
+        let (space, state) = (inputs.space, inputs.actor());
         if columns != space.actions() || observations == 0 || rows % observations != 0 {
             bail!(
                 "{rows} actions of {columns} numbers do not fit {observations} observations of {} numbers",
@@ -133,7 +155,7 @@ impl CustomOp1 for Join {
         }
         let (state_storage, state_layout) = self.observed.states.storage_and_layout();
         let states = stored_values(&state_storage, state_layout)?;
-        let mut out = Vec::with_capacity(rows * CRITIC_INPUTS);
+        let mut out = Vec::with_capacity(rows * inputs.critic());
         let mut slopes = Vec::with_capacity(if self.differentiate { rows * ACTION_FEATURES } else { 0 });
         let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES);
         let actions = values(storage, layout)?.chunks_exact(columns);
@@ -141,31 +163,31 @@ impl CustomOp1 for Join {
             let observation = row / (rows / observations);
             features.clear();
             push_action_features(
-                &self.observed.table,
+                &self.observed.tables[observation],
                 &self.observed.observations[observation],
                 padded(action),
                 &mut features,
             );
-            out.extend_from_slice(&states[observation * STATE_FEATURES..][..STATE_FEATURES]);
+            out.extend_from_slice(&states[observation * state..][..state]);
             out.extend(features.iter().map(|feature| feature.value as f32));
             if self.differentiate {
                 slopes.extend(features.iter().map(|feature| feature.slope.map(|slope| slope as f32)));
             }
         }
         self.slopes.get_or_init(|| slopes);
-        Ok((CpuStorage::F32(out), Shape::from((rows, CRITIC_INPUTS))))
+        Ok((CpuStorage::F32(out), Shape::from((rows, inputs.critic()))))
     }
 
     fn bwd(&self, _actions: &Tensor, _inputs: &Tensor, gradient: &Tensor) -> Result<Option<Tensor>> {
         let Some(slopes) = self.slopes.get() else { bail!("the forward pass of this operation is missing") };
         let (storage, layout) = gradient.storage_and_layout();
         let gradient = stored_values(&storage, layout)?;
-        let space = self.observed.space;
-        let (used, rows) = (space.actions(), slopes.len() / ACTION_FEATURES);
+        let inputs = self.observed.inputs;
+        let (used, rows) = (inputs.space.actions(), slopes.len() / ACTION_FEATURES);
         let mut out: Vec<f32> = Vec::with_capacity(rows * used);
-        for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(CRITIC_INPUTS)) {
+        for (slopes, row) in slopes.chunks_exact(ACTION_FEATURES).zip(gradient.chunks_exact(inputs.critic())) {
             let mut sum = [0.0; ACTIONS];
-            for (slope, error) in slopes.iter().zip(&row[STATE_FEATURES..]) {
+            for (slope, error) in slopes.iter().zip(&row[inputs.actor()..]) {
                 for (sum, slope) in sum.iter_mut().zip(slope) {
                     *sum += slope * error;
                 }
@@ -189,7 +211,7 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(10);
         let layout = crate::table::Layout::random(&table, &mut rng);
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let observed = ObservationBatch::new(&table, space, Observation::all(&layout)[..2].to_vec()).unwrap();
+            let observed = ObservationBatch::on(&table, space, Observation::all(&layout)[..2].to_vec()).unwrap();
             let values: Vec<Action> =
                 (1..5).map(|row| padded(&[0.1 * row as f32; ACTIONS][..space.actions()])).collect();
             let actions = Var::from_tensor(&action_rows(space, &values).unwrap()).unwrap();
@@ -198,8 +220,8 @@ mod tests {
             let rows: Vec<Vec<f32>> = inputs.to_vec2().unwrap();
             let states: Vec<Vec<f32>> = observed.states().to_vec2().unwrap();
             for (row, input) in rows.iter().enumerate() {
-                assert_eq!(input.len(), CRITIC_INPUTS);
-                assert_eq!(input[..STATE_FEATURES], states[row / 2]);
+                assert_eq!(input.len(), observed.inputs.critic());
+                assert_eq!(input[..observed.inputs.actor()], states[row / 2]);
             }
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();

@@ -2,13 +2,15 @@
 
 use rand::{Rng, RngExt};
 
-use super::{action::Action, observation::Observation};
+use super::{action::Action, observation::Observation, venues::Conditions};
 
 /// One shot: what was seen, what was done, what it earned. A shot is a whole episode, so there is no next state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
     /// The layout as the agent saw it.
     pub observation: Observation,
+    /// Under which conditions it was played.
+    pub conditions: Conditions,
     /// What it did.
     pub action: Action,
     /// What that earned, as a share of the most that there is to earn.
@@ -90,7 +92,12 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert!(buffer.sample(5, &mut rng).is_empty());
         for success in 0..5u8 {
-            buffer.push(Transition { observation, action: [0.0; 5], success: f32::from(success) });
+            buffer.push(Transition {
+                observation,
+                conditions: Conditions::default(),
+                action: [0.0; 5],
+                success: f32::from(success),
+            });
         }
         assert_eq!(buffer.len(), 3);
         let mut seen: Vec<f32> = buffer.sample(100, &mut rng).iter().map(|transition| transition.success).collect();

@@ -1,4 +1,5 @@
-//! Rollout, the shots of one iteration: near the agent's choices, a search's solutions, and misses seen in hindsight.
+//! Rollout, the shots of one iteration: near the agent's choices, its best proposals as they are, a search's solutions, and
+//! misses seen in hindsight.
 
 use candle_core::Result;
 use rand::RngExt;
@@ -6,92 +7,142 @@ use rand::RngExt;
 use super::{
     action::Action,
     demonstrations::demonstrate,
-    first_contact::playable,
     hindsight::relabel,
     hyperparameters::Hyperparameters,
+    networks::Networks,
     observation::{OBSERVATIONS, Observation},
     observation_batch::ObservationBatch,
     replay::Transition,
     trainer::Trainer,
+    venues::Conditions,
 };
 use crate::{learning::evaluation::CONTACT_STEPS, table::Layout};
 
+/// Proposals of a layout that are played where the critic learns to rank them: the best of the 24 that six heads give. Among the
+/// others it hardly ever chooses wrongly.
+const RANKED: usize = 8;
+
+/// A layout, and the conditions under which it is played.
+type Scene = (Layout, Conditions);
+
 impl Trainer {
-    /// Plays the shots of one turn, each on a fresh layout, and returns their mean reward.
+    /// Plays the shots of one turn, each on a fresh layout but for those that are ranked, and returns their mean reward.
     pub(super) fn play(&mut self) -> Result<f64> {
-        let Hyperparameters { shots_per_update, critic_chooses, demonstrations, .. } = self.task.hyperparameters;
-        let layouts: Vec<_> = (0..shots_per_update).map(|_| Layout::random(&self.table, &mut self.rng)).collect();
+        let Hyperparameters { shots_per_update, critic_chooses, demonstrations, ranking, .. } =
+            self.task.hyperparameters;
         let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
-        let (shown, own) = layouts.split_at(part(demonstrations, shots_per_update));
+        let ranked = part(ranking, shots_per_update) / RANKED;
+        let scenes: Vec<Scene> = (0..shots_per_update - ranked * RANKED + ranked).map(|_| self.scene()).collect();
+        let (ranked, scenes) = scenes.split_at(ranked);
+        let (shown, own) = scenes.split_at(part(demonstrations, scenes.len()));
         self.add_demonstrations(shown);
         let (chosen, any) = own.split_at(part(critic_chooses, own.len()));
-        let total = self.play_near_best(chosen)? + self.play_any(any)?;
-        self.shots += layouts.len() as u64;
-        Ok(total / own.len().max(1) as f64)
+        let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_any(any)?;
+        let played = own.len() + ranked.len() * RANKED;
+        self.shots += (shown.len() + played) as u64;
+        Ok(total / played.max(1) as f64)
+    }
+
+    /// A fresh layout and its conditions.
+    fn scene(&mut self) -> Scene {
+        let conditions = self.venues.draw(&mut self.rng);
+        (Layout::random(self.venues.table(conditions), &mut self.rng), conditions)
     }
 
     /// Remembers an expert's shot on each layout for which there is one.
-    fn add_demonstrations(&mut self, layouts: &[Layout]) {
+    fn add_demonstrations(&mut self, scenes: &[Scene]) {
         let (reward, space) = (self.task.reward, self.space());
-        for layout in layouts {
+        for (layout, _) in scenes {
             if let Some(shot) = demonstrate(&self.table, reward, space, layout, CONTACT_STEPS, &mut self.rng) {
                 self.replay.push(shot);
             }
         }
     }
 
-    /// Plays near the critic's favourite on every layout: there it must learn where it is wrong. Returns the rewards'
-    /// sum.
-    fn play_near_best(&mut self, layouts: &[Layout]) -> Result<f64> {
-        if layouts.is_empty() {
+    /// What networks propose on every layout from every side, with the critic's logits, an observation's heads one after the
+    /// other.
+    fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<(ObservationBatch, Vec<Action>, Vec<f32>)> {
+        let sides = scenes.iter().flat_map(|(layout, conditions)| {
+            Observation::all(layout).map(|observation| self.venues.seen(observation, *conditions))
+        });
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &sides.collect::<Vec<_>>())?;
+        let (actions, logits) = networks.judge(&observed)?;
+        Ok((observed, actions, logits))
+    }
+
+    /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
+    fn play_ranked(&mut self, scenes: &[Scene]) -> Result<f64> {
+        if scenes.is_empty() {
             return Ok(0.0);
         }
-        let observed =
-            ObservationBatch::new(&self.table, self.space(), layouts.iter().flat_map(Observation::all).collect())?;
-        let (actions, logits) = self.agent.online().judge(&observed)?;
+        let (observed, actions, logits) = self.judged(self.agent.target(), scenes)?;
         let heads = actions.len() / observed.observations().len();
         let mut total = 0.0;
-        for (index, layout) in layouts.iter().enumerate() {
+        for (index, scene) in scenes.iter().enumerate() {
+            let mut rows: Vec<usize> = (index * OBSERVATIONS * heads..(index + 1) * OBSERVATIONS * heads).collect();
+            rows.sort_by(|a, b| logits[*b].total_cmp(&logits[*a]));
+            for row in rows.into_iter().cycle().take(RANKED) {
+                total += self.rollout(scene, observed.observations()[row / heads], actions[row]);
+            }
+        }
+        Ok(total)
+    }
+
+    /// Plays near the critic's favourite on every layout: there it must learn where it is wrong. Returns the rewards'
+    /// sum.
+    fn play_near_best(&mut self, scenes: &[Scene]) -> Result<f64> {
+        if scenes.is_empty() {
+            return Ok(0.0);
+        }
+        let (observed, actions, logits) = self.judged(self.agent.online(), scenes)?;
+        let heads = actions.len() / observed.observations().len();
+        let mut total = 0.0;
+        for (index, scene) in scenes.iter().enumerate() {
             let rows = index * OBSERVATIONS * heads..(index + 1) * OBSERVATIONS * heads;
             let best = rows.max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap_or(0);
-            total += self.rollout(layout, observed.observations()[best / heads], actions[best]);
+            total += self.stray(scene, observed.observations()[best / heads], actions[best]);
         }
         Ok(total)
     }
 
     /// Plays near any head's choice in any observation of every layout. Returns the rewards' sum.
-    fn play_any(&mut self, layouts: &[Layout]) -> Result<f64> {
-        if layouts.is_empty() {
+    fn play_any(&mut self, scenes: &[Scene]) -> Result<f64> {
+        if scenes.is_empty() {
             return Ok(0.0);
         }
-        let observations =
-            layouts.iter().map(|layout| Observation::new(layout, self.rng.random_range(0..OBSERVATIONS))).collect();
-        let observed = ObservationBatch::new(&self.table, self.space(), observations)?;
+        let seen = scenes.iter().map(|(layout, conditions)| {
+            self.venues.seen(Observation::new(layout, self.rng.random_range(0..OBSERVATIONS)), *conditions)
+        });
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen.collect::<Vec<_>>())?;
         let actions = self.agent.online().actions(&observed)?;
-        let heads = actions.len() / layouts.len();
+        let heads = actions.len() / scenes.len();
         let mut total = 0.0;
-        for (index, layout) in layouts.iter().enumerate() {
+        for (index, scene) in scenes.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.rollout(layout, observed.observations()[index], choice);
+            total += self.stray(scene, observed.observations()[index], choice);
         }
         Ok(total)
     }
 
     /// Plays and remembers one shot near `choice`; returns its reward.
-    fn rollout(&mut self, layout: &Layout, observation: Observation, choice: Action) -> f64 {
+    fn stray(&mut self, scene: &Scene, observation: Observation, choice: Action) -> f64 {
         let action = self.task.hyperparameters.exploration.stray(self.space(), choice, &mut self.rng);
-        // Where the cue has no room there is no stroke, and nothing is earned.
-        let reward = playable(&self.table, layout, &observation, action)
-            .map_or(0.0, |cue| self.task.reward.within(&self.table, layout, &cue, CONTACT_STEPS));
-        let success = (reward / self.task.reward.highest()) as f32;
-        self.replay.push(Transition { observation, action, success });
+        self.rollout(scene, observation, action)
+    }
+
+    /// Plays and remembers one shot; returns its reward.
+    fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
+        let (reward, conditions) = (self.task.reward, *conditions);
+        let earned = self.venues.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
+        let success = (earned / reward.highest()) as f32;
+        self.replay.push(Transition { observation, conditions, action, success });
         let hindsight = self.task.hyperparameters.hindsight;
         if hindsight > 0.0 && success < 1.0 && self.rng.random_bool(hindsight) {
             let shot = (layout, &observation, action);
-            if let Some(point) = relabel(&self.table, self.task.reward, shot, CONTACT_STEPS, &mut self.rng) {
+            if let Some(point) = relabel(&self.table, reward, shot, CONTACT_STEPS, &mut self.rng) {
                 self.replay.push(point);
             }
         }
-        reward
+        earned
     }
 }

@@ -1,6 +1,8 @@
 //! A trainer as a file: everything that the next turn depends on, so that a run that goes on is the run that never
 //! stopped.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
@@ -9,12 +11,11 @@ use serde_json::Value;
 use super::{
     action::ACTIONS,
     agent::Ddpg,
-    features::FEATURE_VERSION,
     networks::Networks,
     observation::Observation,
-    observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
     replay::{ReplayBuffer, Transition},
     trainer::{Task, Trainer},
+    venues::{Conditions, Venues},
 };
 use crate::{
     learning::{
@@ -61,10 +62,16 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     writer.add_f64("replay.views", &[held.len(), OBSERVATION_NUMBERS], &observations);
     writer.add("replay.actions", &[held.len(), ACTIONS], &actions);
     writer.add("replay.successes", &[held.len()], &successes);
+    let inputs = trainer.task.hyperparameters.inputs();
+    if inputs.context {
+        let conditions: Vec<f32> =
+            held.iter().flat_map(|held| [held.conditions.venue as f32, held.conditions.errors]).collect();
+        writer.add("replay.conditions", &[held.len(), 2], &conditions);
+    }
     note_of(&TrainerState {
         task: trainer.task.clone(),
         table: Table::clone(&trainer.table),
-        features: FEATURE_VERSION.to_owned(),
+        features: inputs.version().to_owned(),
         actions: trainer.task.hyperparameters.actions.meaning().to_owned(),
         shots: trainer.shots,
         updates: trainer.updates,
@@ -81,13 +88,14 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
 /// Where they do not fit or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
-    if note.features != FEATURE_VERSION || note.actions != note.task.hyperparameters.actions.meaning() {
+    let inputs = note.task.hyperparameters.inputs();
+    if note.features != inputs.version() || note.actions != note.task.hyperparameters.actions.meaning() {
         return Err(WeightsError::Foreign);
     }
     let networks = |name: &str| -> Result<Networks, WeightsError> {
         Ok(Networks {
-            actor: reader.network(&format!("{name}.actor"), ACTOR_INPUTS)?,
-            critic: reader.network(&format!("{name}.critic"), CRITIC_INPUTS)?,
+            actor: reader.network(&format!("{name}.actor"), inputs.actor())?,
+            critic: reader.network(&format!("{name}.critic"), inputs.critic())?,
         })
     };
     let (online, target) = (networks("online")?, networks("target")?);
@@ -99,9 +107,12 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         online,
         target,
     };
-    let replay = ReplayBuffer::restore(note.task.hyperparameters.replay, transitions(reader)?, note.replay_next);
+    let replay =
+        ReplayBuffer::restore(note.task.hyperparameters.replay, transitions(reader, inputs.context)?, note.replay_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
-    Ok(Trainer { task, table: table.into(), agent, replay, rng, shots, updates })
+    let table = Arc::new(table);
+    let venues = Venues::new(&table, inputs, task.seed);
+    Ok(Trainer { task, table, venues, agent, replay, rng, shots, updates })
 }
 
 fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
@@ -109,20 +120,24 @@ fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
     [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
 }
 
-fn transitions(reader: &Reader<'_>) -> Result<Vec<Transition>, WeightsError> {
+fn transitions(reader: &Reader<'_>, context: bool) -> Result<Vec<Transition>, WeightsError> {
     let observations = reader.array_f64("replay.views")?;
     let ((_, actions), (_, successes)) = (reader.array("replay.actions")?, reader.array("replay.successes")?);
     let (observations, actions) = (observations.as_chunks::<OBSERVATION_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
-    if observations.len() != successes.len() || actions.len() != successes.len() {
+    // Without a context all shots have the same conditions.
+    let conditions = if context { reader.array("replay.conditions")?.1 } else { vec![0.0; 2 * successes.len()] };
+    let conditions = conditions.as_chunks::<2>().0;
+    if [observations.len(), actions.len(), conditions.len()] != [successes.len(); 3] {
         let expected = format!("{} shots", successes.len());
         return Err(WeightsError::Array { name: "replay.views".to_owned(), expected });
     }
-    let shots = observations.iter().zip(actions).zip(successes);
+    let shots = observations.iter().zip(actions).zip(conditions).zip(successes);
     Ok(shots
-        .map(|((v, action), success)| {
+        .map(|(((v, action), [venue, errors]), success)| {
             let pair = |index: usize| DVec2::new(v[index], v[index + 1]);
             let observation = Observation { cue: pair(0), first: pair(2), second: pair(4), mirror: pair(6) };
-            Transition { observation, action: *action, success }
+            let conditions = Conditions { venue: *venue as u32, errors: *errors };
+            Transition { observation, conditions, action: *action, success }
         })
         .collect())
 }
@@ -140,19 +155,24 @@ mod tests {
 
     #[test]
     fn a_run_that_goes_on_is_bit_for_bit_the_run_that_never_stopped() {
-        let mut whole = Trainer::new(small_task(), Table::default()).unwrap();
-        let mut parts = Trainer::new(small_task(), Table::default()).unwrap();
-        for _ in 0..5 {
-            whole.iterate().unwrap();
-            parts.iterate().unwrap();
+        let mut with_context = small_task();
+        with_context.hyperparameters.context = true;
+        with_context.hyperparameters.ranking = 0.5;
+        with_context.hyperparameters.saturation_penalty = 0.01;
+        for task in [small_task(), with_context] {
+            let [mut whole, mut parts] = [0; 2].map(|_| Trainer::new(task.clone(), Table::default()).unwrap());
+            for _ in 0..5 {
+                whole.iterate().unwrap();
+                parts.iterate().unwrap();
+            }
+            let bytes_of_parts = bytes(&parts);
+            let reader = Reader::new(&bytes_of_parts).unwrap();
+            let mut parts = read(&reader, reader.note().unwrap()).unwrap();
+            for _ in 0..5 {
+                assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
+            }
+            assert_eq!(bytes(&whole), bytes(&parts));
         }
-        let bytes_of_parts = bytes(&parts);
-        let reader = Reader::new(&bytes_of_parts).unwrap();
-        let mut parts = read(&reader, reader.note().unwrap()).unwrap();
-        for _ in 0..5 {
-            assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
-        }
-        assert_eq!(bytes(&whole), bytes(&parts));
     }
 
     #[test]

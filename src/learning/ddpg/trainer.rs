@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 use super::{
     action::ActionSpace,
     agent::Ddpg,
-    features::FEATURE_VERSION,
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
     policy::{Policy, file::Origin},
-    replay::ReplayBuffer,
+    replay::{ReplayBuffer, Transition},
+    venues::Venues,
 };
 use crate::{game::Reward, learning::learner::Iteration, printing::VERSION, table::Table};
 
@@ -36,6 +36,7 @@ pub struct Task {
 pub struct Trainer {
     pub(super) task: Task,
     pub(super) table: Arc<Table>,
+    pub(super) venues: Venues,
     pub(super) agent: Ddpg,
     pub(super) replay: ReplayBuffer,
     pub(super) rng: Xoshiro256PlusPlus,
@@ -52,7 +53,9 @@ impl Trainer {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.seed);
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;
         let replay = ReplayBuffer::new(task.hyperparameters.replay);
-        Ok(Self { task, table: Arc::new(table), agent, replay, rng, shots: 0, updates: 0 })
+        let table = Arc::new(table);
+        let venues = Venues::new(&table, task.hyperparameters.inputs(), task.seed);
+        Ok(Self { task, table, venues, agent, replay, rng, shots: 0, updates: 0 })
     }
 
     /// Shots played so far.
@@ -90,7 +93,7 @@ impl Trainer {
             table: self.table.name.clone(),
             reward: self.task.reward,
             actions: self.task.hyperparameters.actions.meaning().to_owned(),
-            features: FEATURE_VERSION.to_owned(),
+            features: self.task.hyperparameters.inputs().version().to_owned(),
             seed: self.task.seed,
             shots: self.shots,
             date: date.to_owned(),
@@ -117,11 +120,9 @@ impl Trainer {
             return Ok(Iteration { mean_reward, ..Iteration::default() });
         }
         let batch = self.replay.sample(self.task.hyperparameters.batch, &mut self.rng);
-        let observed = ObservationBatch::new(
-            &self.table,
-            self.space(),
-            batch.iter().map(|transition| transition.observation).collect(),
-        )?;
+        let seen = |transition: &Transition| self.venues.seen(transition.observation, transition.conditions);
+        let seen: Vec<_> = batch.iter().map(seen).collect();
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen)?;
         let actions: Vec<_> = batch.iter().map(|transition| transition.action).collect();
         let successes: Vec<_> = batch.iter().map(|transition| transition.success).collect();
         let losses = self.agent.update(&observed, &actions, &successes, lr_factor)?;
@@ -172,6 +173,17 @@ pub(in crate::learning) mod tests {
         };
         assert_eq!(weights(5), weights(5));
         assert_ne!(weights(5), weights(6));
+    }
+
+    #[test]
+    fn shots_count_alike_however_they_are_chosen() {
+        for (ranking, critic_chooses) in [(0.0, 0.3), (0.5, 0.5), (1.0, 0.0), (0.4, 1.0)] {
+            let mut task = small_task();
+            task.hyperparameters = Hyperparameters { ranking, critic_chooses, ..task.hyperparameters };
+            let mut trainer = Trainer::new(task, Table::default()).unwrap();
+            trainer.iterate().unwrap();
+            assert_eq!((trainer.shots(), trainer.replay.len()), (16, 16), "ranking {ranking}");
+        }
     }
 
     #[test]

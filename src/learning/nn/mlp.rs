@@ -107,6 +107,23 @@ impl Mlp {
         Ok(Self::from_parameters(&self.sizes, parameters)?.with(self.operations))
     }
 
+    /// This network with `count` more inputs, which come after its first `after` ones and change nothing: their weights are
+    /// nought.
+    ///
+    /// # Errors
+    /// Where it has not so many inputs.
+    pub fn with_more_inputs(self, after: usize, count: usize) -> Result<Self> {
+        let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
+        let mut sizes = self.sizes;
+        if after > sizes[0] {
+            bail!("{} inputs have no place after {after}", sizes[0]);
+        }
+        let at = after * sizes[1];
+        parameters.splice(at..at, std::iter::repeat_n(0.0, count * sizes[1]));
+        sizes[0] += count;
+        Ok(Self::from_parameters(&sizes, parameters)?.with(self.operations))
+    }
+
     /// Layer sizes, inputs first.
     pub fn sizes(&self) -> &[usize] {
         &self.sizes
@@ -190,6 +207,18 @@ mod tests {
         for variable in [mlp.parameters(), &inputs] {
             assert!(largest_difference(fused.get(variable).unwrap(), plain.get(variable).unwrap()) < 1e-5);
         }
+    }
+
+    #[test]
+    fn more_inputs_change_nothing_until_their_weights_are_learnt() {
+        let (mlp, inputs) = network_and_inputs();
+        let wide = mlp.duplicate().unwrap().with_more_inputs(2, 4).unwrap();
+        assert_eq!(wide.sizes(), [9, 33, 17, 3]);
+        let others = Tensor::ones((11, 4), DType::F32, &Device::Cpu).unwrap();
+        let [before, after] = [(0, 2), (2, 3)].map(|(start, count)| inputs.narrow(1, start, count).unwrap());
+        let joined = Tensor::cat(&[&before, &others, &after], 1).unwrap();
+        assert!(largest_difference(&mlp.forward(&inputs).unwrap(), &wide.forward(&joined).unwrap()) < 1e-6);
+        assert!(mlp.with_more_inputs(6, 1).is_err());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use rand::Rng;
 use serde::{Deserialize, Serialize};
 
 use super::environment::{ACTIONS, Action};
-use crate::learning::normal_pair;
+use crate::statistics::normal_pair;
 
 /// The probability of a random action, which falls in a straight line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

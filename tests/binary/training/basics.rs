@@ -33,6 +33,11 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     let report: Value = serde_json::from_str(&measured.out).unwrap();
     assert_eq!(report["success"]["layouts"], 100);
 
+    let drawn = done(here, "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json");
+    let drawn: Value = serde_json::from_str(&drawn.out).unwrap();
+    assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
+    assert_ne!(drawn["claimed"], report["claimed"], "other tables, other strokes");
+
     let again = carom(here, &format!("{SHORT} --run one"));
     assert_eq!(again.code, Some(2));
     assert!(again.err.contains("--resume"), "{}", again.err);

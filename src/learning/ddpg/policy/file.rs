@@ -8,12 +8,7 @@ use super::Policy;
 use crate::{
     game::{Reward, Rule},
     learning::{
-        ddpg::{
-            features::FEATURE_VERSION,
-            hyperparameters::Hyperparameters,
-            networks::Networks,
-            observation_batch::{ACTOR_INPUTS, CRITIC_INPUTS},
-        },
+        ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage::{self, write_atomic},
@@ -30,6 +25,9 @@ const BUNDLED: [(&str, Reward, &[u8]); 6] = [
     ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
 ];
 
+/// Those with a context: what was rewarded, and the file.
+const WITH_CONTEXT: [(Reward, &[u8]); 0] = [];
+
 /// Where a policy comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
@@ -39,7 +37,7 @@ pub struct Origin {
     pub reward: Reward,
     /// What its actions mean ([`ActionSpace::meaning`](crate::learning::ddpg::action::ActionSpace::meaning)).
     pub actions: String,
-    /// Version of the input features ([`FEATURE_VERSION`]).
+    /// Version of the input features ([`Inputs::version`](crate::learning::ddpg::context::Inputs::version)).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,
@@ -102,6 +100,16 @@ impl Policy {
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
     }
 
+    /// The policy with a context that comes with the program for `rule`, if there is one and it knows tables like this one.
+    ///
+    /// # Errors
+    /// Where the bundled file is damaged, which a test rules out.
+    pub fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
+        let reward = Reward::for_rule(rule);
+        let (_, bytes) = WITH_CONTEXT.iter().find(|(what, _)| *what == reward).filter(|_| knows(table))?;
+        Some(Self::from_bytes(bytes, &format!("the bundled policy with a context for {rule}")))
+    }
+
     /// Reads a policy from a file.
     ///
     /// # Errors
@@ -122,8 +130,9 @@ impl Policy {
             let error = || PolicyError::Version { origin: name.to_owned(), what, found: found.clone(), expected };
             if same { Ok(()) } else { Err(error()) }
         };
-        let space = origin.hyperparameters.actions;
-        version("features", &origin.features, FEATURE_VERSION)?;
+        let inputs = origin.hyperparameters.inputs();
+        let space = inputs.space;
+        version("features", &origin.features, inputs.version())?;
         version("actions", &origin.actions, space.meaning())?;
         let network = |name, inputs, outputs: &dyn Fn(usize) -> bool, expected: &str| {
             let network = reader.network(name, inputs)?;
@@ -132,11 +141,15 @@ impl Policy {
             if outputs(last) { Ok(network) } else { Err(wrong()) }
         };
         let heads = |outputs: usize| outputs.is_multiple_of(space.actions());
-        let actor =
-            network("actor", ACTOR_INPUTS, &heads, "a network with as many outputs a head as its actions have numbers")
-                .map_err(content)?;
+        let actor = network(
+            "actor",
+            inputs.actor(),
+            &heads,
+            "a network with as many outputs a head as its actions have numbers",
+        )
+        .map_err(content)?;
         let one = |outputs| outputs == 1;
-        let critic = network("critic", CRITIC_INPUTS, &one, "a network with one output").map_err(content)?;
+        let critic = network("critic", inputs.critic(), &one, "a network with one output").map_err(content)?;
         Ok(Self { networks: Networks { actor, critic }, origin })
     }
 
@@ -148,11 +161,12 @@ impl Policy {
         write_atomic(path, &self.to_bytes().map_err(std::io::Error::other)?)
     }
 
-    /// The bytes of the file that [`Policy::save`] writes.
+    /// The bytes of the file that [`Policy::save`] writes, with half the digits of the weights: success does not depend on the
+    /// others.
     pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
-            writer.add_network(name, network)?;
+            writer.add_network_half(name, network)?;
         }
         writer.finish(&self.origin)
     }
@@ -161,7 +175,7 @@ impl Policy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Layout;
+    use crate::{player::Skill, table::Layout};
     use candle_core::{Device, Tensor};
 
     fn bundled() -> Policy {
@@ -194,7 +208,10 @@ mod tests {
         let path = folder.path().join("policy.safetensors");
         policy.save(&path).unwrap();
         let layout = Layout::opening(&table);
-        assert_eq!(Policy::load(&path).unwrap().proposals(&table, &layout), policy.proposals(&table, &layout));
+        assert_eq!(
+            Policy::load(&path).unwrap().proposals(&table, &layout, &Skill::PERFECT),
+            policy.proposals(&table, &layout, &Skill::PERFECT)
+        );
 
         let bytes = std::fs::read(&path).unwrap();
         std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();

@@ -12,12 +12,14 @@ use self::file::Origin;
 pub use self::score::score;
 use crate::{
     learning::ddpg::{
+        context::knows,
         first_contact::{cue_inputs, playable},
         networks::Networks,
         observation::{OBSERVATIONS, Observation},
-        observation_batch::ObservationBatch,
+        observation_batch::{ObservationBatch, Seen},
     },
     physics::CueInputs,
+    player::Skill,
     table::{Layout, Table},
 };
 
@@ -48,12 +50,22 @@ impl Policy {
         &self.origin
     }
 
-    /// The stroke that the critic likes best.
+    /// Whether it is told the table's constants and the player's errors, and its probabilities are those of this player there.
+    pub const fn has_context(&self) -> bool {
+        self.origin.hyperparameters.context
+    }
+
+    /// Whether it has practised on tables like this one.
+    pub fn knows(&self, table: &Table) -> bool {
+        if self.has_context() { knows(table) } else { self.origin.table == table.name }
+    }
+
+    /// The stroke that the critic likes best for a player of this skill; only one with a context asks whose it is.
     ///
     /// # Panics
     /// Never: the networks' sizes are checked when they are loaded, and candle refuses nothing else.
-    pub fn propose(&self, table: &Table, layout: &Layout) -> CueInputs {
-        self.proposals(table, layout)[0].cue
+    pub fn propose(&self, table: &Table, layout: &Layout, skill: &Skill) -> CueInputs {
+        self.proposals(table, layout, skill)[0].cue
     }
 
     /// Every head's stroke for either object ball on either side, the critic's favourite first. There is at least one. The
@@ -61,8 +73,8 @@ impl Policy {
     ///
     /// # Panics
     /// Never, as [`Policy::propose`].
-    pub fn proposals(&self, table: &Table, layout: &Layout) -> Vec<Proposal> {
-        let mut all = self.proposals_for(table, std::slice::from_ref(layout));
+    pub fn proposals(&self, table: &Table, layout: &Layout, skill: &Skill) -> Vec<Proposal> {
+        let mut all = self.proposals_for(table, std::slice::from_ref(layout), skill);
         all.pop().expect("a layout has proposals")
     }
 
@@ -70,17 +82,18 @@ impl Policy {
     ///
     /// # Panics
     /// Never, as [`Policy::propose`].
-    pub fn proposals_for(&self, table: &Table, layouts: &[Layout]) -> Vec<Vec<Proposal>> {
-        self.judge(table, layouts).expect("the sizes of the networks were checked when they were loaded")
+    pub fn proposals_for(&self, table: &Table, layouts: &[Layout], skill: &Skill) -> Vec<Vec<Proposal>> {
+        self.judge(table, layouts, skill.scale()).expect("the sizes of the networks were checked when they were loaded")
     }
 
-    fn judge(&self, table: &Table, layouts: &[Layout]) -> Result<Vec<Vec<Proposal>>> {
+    fn judge(&self, table: &Table, layouts: &[Layout], errors: f64) -> Result<Vec<Vec<Proposal>>> {
         if layouts.is_empty() {
             return Ok(Vec::new());
         }
-        let observations = layouts.iter().flat_map(Observation::all).collect();
-        let observed =
-            ObservationBatch::new(&Arc::new(table.clone()), self.origin.hyperparameters.actions, observations)?;
+        let known = Arc::new(table.clone());
+        let seen = |observation| Seen { observation, table: Arc::clone(&known), errors };
+        let seen: Vec<Seen> = layouts.iter().flat_map(Observation::all).map(seen).collect();
+        let observed = ObservationBatch::new(self.origin.hyperparameters.inputs(), &seen)?;
         let (actions, logits) = self.networks.judge(&observed)?;
         let heads = actions.len() / observed.observations().len();
         let mut proposals = actions.iter().zip(&logits).enumerate().map(|(row, (action, logit))| {
@@ -124,10 +137,10 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
         let layouts: Vec<_> = (0..20).map(|_| Layout::random(&table, &mut rng)).collect();
         let policy = bundled();
-        for (layout, together) in layouts.iter().zip(policy.proposals_for(&table, &layouts)) {
-            let proposals = policy.proposals(&table, layout);
+        for (layout, together) in layouts.iter().zip(policy.proposals_for(&table, &layouts, &Skill::PERFECT)) {
+            let proposals = policy.proposals(&table, layout, &Skill::PERFECT);
             assert_eq!(proposals, together, "a layout's proposals do not depend on its neighbours");
-            assert_eq!(proposals[0].cue, policy.propose(&table, layout));
+            assert_eq!(proposals[0].cue, policy.propose(&table, layout, &Skill::PERFECT));
             assert!(proposals.is_sorted_by(|a, b| a.success >= b.success));
             for proposal in proposals {
                 proposal.cue.validate().unwrap();
@@ -140,7 +153,10 @@ mod tests {
         let table = Table::default();
         let layouts = held_out_layouts(&table, 1_000, 77);
         let (policy, rule) = (bundled(), Reward::R3);
-        let mean = layouts.iter().map(|layout| rule.of(&table, layout, &policy.propose(&table, layout))).sum::<f64>();
+        let mean = layouts
+            .iter()
+            .map(|layout| rule.of(&table, layout, &policy.propose(&table, layout, &Skill::PERFECT)))
+            .sum::<f64>();
         assert!(mean > 0.9 * layouts.len() as f64, "{mean} points on {} layouts", layouts.len());
     }
 
@@ -149,7 +165,7 @@ mod tests {
         let policy = bundled();
         let table = Table::default();
         for layout in [[DVec2::NAN; 3], [DVec2::ZERO; 3], [DVec2::INFINITY; 3]] {
-            let proposals = policy.proposals(&table, &Layout::new(layout));
+            let proposals = policy.proposals(&table, &Layout::new(layout), &Skill::PERFECT);
             assert!(proposals.iter().all(|proposal| proposal.success >= 0.0));
         }
     }
@@ -159,7 +175,8 @@ mod tests {
         let (policy, table) = (bundled(), Table::default());
         let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(12));
         let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
-        let (cue, other) = (policy.propose(&table, &layout), policy.propose(&table, &mirrored));
+        let (cue, other) =
+            (policy.propose(&table, &layout, &Skill::PERFECT), policy.propose(&table, &mirrored, &Skill::PERFECT));
         assert!((cue.phi + other.phi).abs() < 1e-9 && cue.speed == other.speed);
     }
 }

@@ -4,6 +4,7 @@ use super::{Policy, Proposal};
 use crate::{
     game::Reward,
     learning::evaluation::{CONTACT_STEPS, Score},
+    player::Skill,
     table::{Layout, Table},
 };
 
@@ -12,7 +13,7 @@ pub fn score(policy: &Policy, table: &Table, reward: Reward, layouts: &[Layout])
     let (mut total, mut reached) = (0.0, 0usize);
     // Small batches stay in the processor's cache.
     for layouts in layouts.chunks(64) {
-        for (layout, proposals) in layouts.iter().zip(policy.proposals_for(table, layouts)) {
+        for (layout, proposals) in layouts.iter().zip(policy.proposals_for(table, layouts, &Skill::PERFECT)) {
             let first = reward.of(table, layout, &proposals[0].cue);
             total += first;
             let made = |earned: f64| earned >= 1.0;

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::{learning::normal_pair, statistics::quantile};
+use crate::statistics::{normal_pair, quantile};
 
 /// Errors in a, b, theta, phi and V, in units of the player's standard errors.
 pub type Errors = [f64; 5];

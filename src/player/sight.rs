@@ -1,0 +1,81 @@
+//! What a player makes of a layout that is not quite where it is said to be: he sees the balls, and aims at them.
+
+use crate::{
+    physics::{CueInputs, squirt},
+    table::{Layout, Table},
+};
+
+/// A layout that may be meant by `layout` where every coordinate is off by a standard deviation of `placing` m. A ball that
+/// would overlap another or a cushion is moved less far.
+pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl FnMut() -> f64) -> Layout {
+    let mut moved = *layout;
+    if placing == 0.0 {
+        return moved;
+    }
+    for ball in 0..moved.balls.len() {
+        let off = glam::DVec2::new(normal(), normal()) * placing;
+        let start = moved.balls[ball];
+        for share in [1.0, 0.5, 0.25, 0.0] {
+            moved.balls[ball] = start + share * off;
+            if share == 0.0 || moved.validate(table).is_ok() {
+                break;
+            }
+        }
+    }
+    moved
+}
+
+/// The stroke that a player makes of `cue` who sees the balls where they really lie: turned so that its first ball is met
+/// as full as it is meant, or the same point of a cushion is aimed at where the stroke meets no ball.
+pub fn aimed(table: &Table, meant: &Layout, real: &Layout, cue: &CueInputs) -> CueInputs {
+    let [start, real_start] = [meant.balls[0], real.balls[0]];
+    let along = glam::DVec2::from_angle(cue.phi + squirt(table, cue.a));
+    let ahead = |ball: &usize| {
+        let apart = meant.balls[*ball] - start;
+        let distance = apart.dot(along);
+        (distance > 0.0 && along.perp_dot(apart).abs() < 2.0 * table.radius).then_some(distance)
+    };
+    let first = [1, 2].into_iter().filter_map(|ball| Some((ball, ahead(&ball)?))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let (target, real_target) = if let Some((ball, _)) = first {
+        (meant.balls[ball], real.balls[ball])
+    } else {
+        let reach = table.reach();
+        let until = |place: f64, speed: f64, most: f64| {
+            if speed == 0.0 { f64::MAX } else { (most.copysign(speed) - place) / speed }
+        };
+        let point = start + along * until(start.x, along.x, reach.x).min(until(start.y, along.y, reach.y));
+        (point, point)
+    };
+    let [was, is] = [target - start, real_target - real_start];
+    // A ball that lies at the very point that is aimed at has no direction to it.
+    if was.length_squared() < 1e-12 || is.length_squared() < 1e-12 {
+        return *cue;
+    }
+    CueInputs { phi: cue.phi + was.angle_to(is), ..*cue }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn a_player_aims_at_the_ball_where_it_lies_and_at_the_point_of_the_cushion_where_it_is() {
+        let (table, meant) =
+            (Table::default(), Layout::new([DVec2::new(-0.8, 0.1), DVec2::new(0.4, 0.3), DVec2::new(0.9, -0.5)]));
+        let mut real = meant;
+        real.balls[0] += DVec2::new(0.003, -0.004);
+        real.balls[1] += DVec2::new(-0.002, 0.005);
+        let towards = |layout: &Layout, ball: usize| (layout.balls[ball] - layout.balls[0]).to_angle();
+        let cue = |phi| CueInputs { a: 0.2, b: 0.1, theta: 0.0, phi: phi - squirt(&table, 0.2), speed: 2.0 };
+        let half = cue(towards(&meant, 1) + 0.03);
+        let turned = aimed(&table, &meant, &real, &half);
+        assert!((turned.phi - half.phi - (towards(&real, 1) - towards(&meant, 1))).abs() < 1e-12);
+        // Straight up: from another place the same point needs another direction.
+        let up = cue(std::f64::consts::FRAC_PI_2);
+        let turned = aimed(&table, &meant, &real, &up);
+        let point = DVec2::new(-0.8, table.half_width());
+        assert!((turned.phi - up.phi - (point - meant.balls[0]).angle_to(point - real.balls[0])).abs() < 1e-12);
+        assert_eq!(aimed(&table, &meant, &meant, &up), up);
+    }
+}
