@@ -1,0 +1,88 @@
+//! Forces that are not unique: a ball that stands in a corner and is pushed there is held by cushions and cloth together, and
+//! any share of the two obeys all laws.
+//!
+//! A solver may come upon the edge of what is possible: a friction at its limit that has nothing to hold, or a contact that pushes
+//! next to nothing, which the friction of another takes up. Forces that are followed from there leave the laws at once. So
+//! such a friction is allowed only part of its limit, and such a contact does not push, if the others can do the rest: the forces
+//! then last for a while.
+
+use super::{
+    problem::{Limit, Place, Problem},
+    solve::{Side, Solution, solve_near},
+};
+
+/// Shares of their limits that frictions are allowed, the first with which all laws hold.
+const SHARES: [f64; 3] = [0.5, 0.9, 0.99];
+
+/// Pushes below this share of the largest force are next to nothing.
+const NEXT_TO_NOTHING: f64 = 1e-6;
+
+/// Rounds in which further forces come to their edges, since others do less.
+const ROUNDS: usize = 6;
+
+/// The rates that an unknown resists, m/s².
+pub fn rates(problem: &Problem, solution: &Solution, index: usize) -> [f64; 2] {
+    let accelerations = problem.accelerations(&solution.sizes);
+    let unknown = &problem.unknowns[index];
+    std::array::from_fn(|axis| {
+        let row = unknown.first + axis;
+        if axis < unknown.count { problem.rates[row].dot(&accelerations) + problem.bias[row] } else { 0.0 }
+    })
+}
+
+/// Whether an unknown is at an edge of what it may be though no rate is above `none`, m/s².
+fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -> bool {
+    let unknown = &problem.unknowns[index];
+    match (solution.sides[index], unknown.place) {
+        (Side::Holds, Place::Normal(_)) => {
+            let largest = solution.sizes.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            solution.sizes[unknown.first] < NEXT_TO_NOTHING * largest
+        }
+        (Side::Limited(_), _) => rates(problem, solution, index).iter().all(|rate| rate.abs() <= none),
+        _ => false,
+    }
+}
+
+/// Forces away from the edges, where nothing slips or closes faster than at the rate `none`, m/s²; `None` if none are at
+/// an edge, or no others obey all laws.
+pub fn with_margin(problem: &Problem, solution: &Solution, none: f64) -> Option<Solution> {
+    if !(0..problem.unknowns.len()).any(|index| is_at_edge(problem, solution, index, none)) {
+        return None;
+    }
+    SHARES.into_iter().find_map(|share| with_share(problem, solution, none, share))
+}
+
+fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64) -> Option<Solution> {
+    let (mut eased, mut found) = (problem.clone(), solution.clone());
+    let mut spared = vec![false; problem.unknowns.len()];
+    for _ in 0..ROUNDS {
+        let mut more = false;
+        for (index, spared) in spared.iter_mut().enumerate().filter(|(_, spared)| !**spared) {
+            if is_at_edge(&eased, &found, index, none) {
+                (*spared, more) = (true, true);
+                let unknown = &mut eased.unknowns[index];
+                match &mut unknown.limit {
+                    limit if matches!(unknown.place, Place::Normal(_)) => *limit = Limit::Fixed(0.0),
+                    Limit::Fixed(limit) | Limit::Coulomb(limit, _) => *limit *= share,
+                }
+            }
+        }
+        if !more {
+            for (side, _) in
+                found.sides.iter_mut().zip(&spared).filter(|(side, spared)| **spared && **side != Side::Absent)
+            {
+                *side = Side::Holds;
+            }
+            return Some(found);
+        }
+        found = solve_near(&eased, &found.sizes);
+        let holds = |index: usize| match problem.unknowns[index].place {
+            Place::Normal(_) => rates(&eased, &found, index)[0] >= -none,
+            _ => rates(&eased, &found, index).iter().all(|rate| rate.abs() <= none),
+        };
+        if !found.converged || !(0..spared.len()).all(|index| !spared[index] || holds(index)) {
+            return None;
+        }
+    }
+    None
+}
