@@ -17,6 +17,9 @@ const SHARES: [f64; 3] = [0.5, 0.9, 0.99];
 /// Pushes below this share of the largest force are next to nothing.
 const NEXT_TO_NOTHING: f64 = 1e-6;
 
+/// What may be left of such a push as a share of it, if the others take it up.
+const LEFT: f64 = 1e-3;
+
 /// Rounds in which further forces come to their edges, since others do less.
 const ROUNDS: usize = 6;
 
@@ -43,7 +46,7 @@ fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -
     }
 }
 
-/// Forces away from the edges, where nothing slips or closes faster than at the rate `none`, m/s²; `None` if none are at
+/// Forces away from the edges, where nothing slips faster than at the rate `none`, m/s²; `None` if none are at
 /// an edge, or no others obey all laws.
 pub fn with_margin(problem: &Problem, solution: &Solution, none: f64) -> Option<Solution> {
     if !(0..problem.unknowns.len()).any(|index| is_at_edge(problem, solution, index, none)) {
@@ -77,7 +80,9 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64) -> 
         }
         found = solve_near(&eased, &found.sizes);
         let holds = |index: usize| match problem.unknowns[index].place {
-            Place::Normal(_) => rates(&eased, &found, index)[0] >= -none,
+            Place::Normal(_) => {
+                rates(&eased, &found, index)[0] >= -LEFT * solution.sizes[problem.unknowns[index].first].abs()
+            }
             _ => rates(&eased, &found, index).iter().all(|rate| rate.abs() <= none),
         };
         if !found.converged || !(0..spared.len()).all(|index| !spared[index] || holds(index)) {
