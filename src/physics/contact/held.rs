@@ -327,6 +327,17 @@ impl Held {
         })
     }
 
+    /// Takes the friction of contacts that slip away where they pull; tells whether there are any.
+    fn smooth_what_pulls(&mut self) -> bool {
+        let mut any = false;
+        for (joint, sizes) in self.joints[..self.contacts].iter_mut().zip(&self.sizes) {
+            if sizes[0] < 0.0 && joint.slip_friction != DVec2::ZERO {
+                (joint.slip_friction, any) = (DVec2::ZERO, true);
+            }
+        }
+        any
+    }
+
     /// The force in a contact.
     fn force(&self, index: usize) -> Triple {
         let [normal, along, up] = self.sizes[index];
@@ -432,7 +443,12 @@ pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts:
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     let before = system.to_stop(&speeds);
-    if let Some([_, stopped]) = system.solve(&speeds, false)
+    // What would have to pull takes rounding out, and has nothing to rub with.
+    let mut stopped = system.solve(&speeds, false);
+    while stopped.is_some() && system.smooth_what_pulls() {
+        stopped = system.solve(&speeds, false);
+    }
+    if let Some([_, stopped]) = stopped
         && stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before
     {
         for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
