@@ -464,3 +464,6 @@ pub fn stop_by_impulses(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

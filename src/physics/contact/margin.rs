@@ -91,3 +91,34 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64) -> 
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use crate::{
+        physics::{ActiveSet, BallState, Contact, Contacts, resolve},
+        table::Table,
+    };
+
+    /// A ball stands in a corner, and another one, which slips on it, pushes it there: cloth and cushions share the push.
+    #[test]
+    fn a_ball_that_is_pushed_into_a_corner_is_held_with_something_to_spare() {
+        let table = Table::preset("textbook").unwrap();
+        let corner = DVec2::new(table.half_length(), -table.half_width());
+        let apart = 2.0 * table.radius * DVec2::new(-0.034_822, 0.999_394).normalize();
+        let mut balls = [corner + apart, corner, DVec2::ZERO].map(BallState::at_rest);
+        balls[0].velocity = DVec2::new(-0.0313, -0.001_09);
+        balls[0].spin = DVec3::new(29.64, -0.28, 13.58);
+        balls[1].spin.z = -0.7;
+        let mut contacts = Contacts::NONE;
+        contacts.push(Contact::with_cushion(1, DVec2::NEG_X));
+        contacts.push(Contact::with_cushion(1, DVec2::Y));
+        contacts.push(Contact::of_balls(0, 1));
+        let set = ActiveSet::of(&table, &balls, contacts.as_slice(), 1e-10);
+        let resolved = resolve(&table, &balls, &contacts, &set, 1e-11, None).unwrap();
+        assert!(resolved.converged && !resolved.shared);
+        assert!(resolved.forces.slack > 1e-3 * table.gravity, "{}", resolved.forces.slack);
+        assert!(resolved.forces.linear[1].length() < 1e-10);
+    }
+}
