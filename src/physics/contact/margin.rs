@@ -33,11 +33,16 @@ pub fn rates(problem: &Problem, solution: &Solution, index: usize) -> [f64; 2] {
     })
 }
 
+/// Whether there are several contacts; their normal forces come first. A single one's push nothing else takes up.
+fn are_several(problem: &Problem) -> bool {
+    problem.unknowns.get(1).is_some_and(|unknown| matches!(unknown.place, Place::Normal(_)))
+}
+
 /// Whether an unknown is at an edge of what it may be though no rate is above `none`, m/s².
 fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -> bool {
     let unknown = &problem.unknowns[index];
     match (solution.sides[index], unknown.place) {
-        (Side::Holds, Place::Normal(_)) => {
+        (Side::Holds, Place::Normal(_)) if are_several(problem) => {
             let largest = solution.sizes.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
             solution.sizes[unknown.first] < NEXT_TO_NOTHING * largest
         }
@@ -49,10 +54,11 @@ fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -
 /// Forces away from the edges, where nothing slips faster than at the rate `none`, m/s²; `None` if none are at
 /// an edge, or no others obey all laws.
 pub fn with_margin(problem: &Problem, solution: &Solution, none: f64) -> Option<Solution> {
-    if !(0..problem.unknowns.len()).any(|index| is_at_edge(problem, solution, index, none)) {
-        return None;
-    }
-    SHARES.into_iter().find_map(|share| with_share(problem, solution, none, share))
+    let at_edge = |index: &usize| is_at_edge(problem, solution, *index, none);
+    // The normal forces come first: if the last is one, no friction's share matters.
+    let last = (0..problem.unknowns.len()).rev().find(at_edge)?;
+    let shares = if matches!(problem.unknowns[last].place, Place::Normal(_)) { &SHARES[..1] } else { &SHARES };
+    shares.iter().find_map(|share| with_share(problem, solution, none, *share))
 }
 
 fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64) -> Option<Solution> {
