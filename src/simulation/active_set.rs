@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::{Constants, contacts::close, extrapolation::State, segment::slides, tolerance::Tolerance};
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, resolve, rolling_spin, slip,
+        ActiveSet, BallState, Contact, Contacts, Forces, Friction, MAX_CONTACTS, Resolved, resolve, rolling_spin, slip,
         stop_by_impulses,
     },
     table::{BALLS, Table},
@@ -173,7 +173,7 @@ fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
         _ => Friction::Slips(DVec2::ZERO),
     };
     let contact = std::array::from_fn(|index| sticks(contacts.get(index)));
-    stop_by_impulses(table, balls, contacts, &ActiveSet { contact, ..ActiveSet::SLIPPING });
+    stop_by_impulses(table, balls, contacts, &ActiveSet { contact, ..ActiveSet::SLIPPING }, &[0.0; MAX_CONTACTS]);
 }
 
 /// Pressing that cannot matter before the slips end that make it, m/s²: it moves nothing by as much as a speed that counts
@@ -220,7 +220,7 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
 /// spinning by `set` has stopped exactly.
 pub fn settle(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
     close(constants, balls, contacts);
-    stop_by_impulses(table, balls, contacts, set);
+    stop_by_impulses(table, balls, contacts, set, &[0.0; MAX_CONTACTS]);
     for (ball, state) in balls.iter_mut().enumerate() {
         if !contacts.iter().any(|contact| contact.has(ball)) {
             continue;

@@ -268,7 +268,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         let contacts = rests.as_slice();
         close(&c, &mut states, contacts);
         let law = self.law.inelastic();
-        let mut pushed = [false; MAX_CONTACTS];
+        let mut given = [0.0; MAX_CONTACTS];
         for round in 0..MOST_ROUNDS {
             // What has met closes, however slowly: balls that never slip lose their slip.
             if round > 0 && !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening)
@@ -276,17 +276,19 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
                 break;
             }
             let impulses = collide_together(c.radius, &law, &mut states, contacts);
-            pushed.iter_mut().zip(impulses).for_each(|(pushed, impulse)| *pushed |= impulse > 0.0);
+            given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse);
         }
         // What one of them has given another is a bounce, too.
-        stop_by_impulses(self.table, &mut states, contacts, &ActiveSet::SLIPPING);
+        stop_by_impulses(self.table, &mut states, contacts, &ActiveSet::SLIPPING, &given);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         for index in (0..BALLS).filter(|&index| changed[index]) {
             self.close(index, now);
             self.launch(index, now, &states[index]);
         }
         self.tell_impact(now, impact, told)?;
-        for (contact, _) in contacts.iter().zip(pushed).filter(|(contact, pushed)| *pushed && kind(contact) != impact) {
+        for (contact, _) in
+            contacts.iter().zip(given).filter(|(contact, given)| *given > 0.0 && kind(contact) != impact)
+        {
             let told = self.slow_bounce(now, contact)?;
             self.tell_impact(now, kind(contact), told)?;
         }

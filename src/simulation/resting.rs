@@ -46,15 +46,12 @@ const MOST_TURN: f64 = 0.03;
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
-/// The slip that ends first, which sets the scale of the rescaled time.
+/// Where something slips: a ball on the cloth, its centre, or a contact, by index.
 #[derive(Clone, Copy, Debug)]
-enum TimeScale {
-    /// None ends soon: time as it is.
-    Time,
-    /// A ball's on the cloth, its speed, or that of a contact (by index), which is this large at the start, m/s.
-    Cloth(usize, f64),
-    Roll(usize, f64),
-    Contact(usize, f64),
+enum Place {
+    Cloth(usize),
+    Roll(usize),
+    Contact(usize),
 }
 
 /// One step of the balls that rest against something.
@@ -72,7 +69,9 @@ pub struct Resting {
     pub end: State,
     pub(super) contacts: Contacts,
     pub(super) set: ActiveSet,
-    time_scale: TimeScale,
+    /// The slip that ends first, which sets the scale of the rescaled time, and how large it is at the start, m/s; none if none
+    /// ends soon: time is as it is.
+    time_scale: Option<(Place, f64)>,
     first: Forces,
     pub(super) last: Forces,
     shared: bool,
@@ -133,7 +132,7 @@ impl Resting {
             begin,
             contacts,
             set,
-            time_scale: TimeScale::Time,
+            time_scale: None,
             first: forces,
             last: forces,
             shared,
@@ -211,7 +210,7 @@ impl Resting {
     /// How soon the slips end that do so next, s, if their ends are so near that the forces do not change any more.
     fn slips_end_after(&self, table: &Table, balls: &State, forces: &Forces) -> Option<f64> {
         let mut soonest = f64::INFINITY;
-        self.slips(table.radius, balls, forces, |_, _, slip, rate| {
+        self.slips(table.radius, balls, forces, |_, slip, rate| {
             let falls = -slip.length_squared() / rate.dot(slip);
             if falls > 0.0 {
                 soonest = soonest.min(falls);
@@ -219,7 +218,7 @@ impl Resting {
         });
         let tolerance = &self.constants.tolerance;
         let mut error = 0.0_f64;
-        self.slips(table.radius, balls, forces, |_, _, slip, rate| {
+        self.slips(table.radius, balls, forces, |_, slip, rate| {
             // What does not end with the first turns a little until then.
             if (slip + soonest * rate).length() > tolerance.slip {
                 error = error.max(self.constants.sliding * soonest * soonest * rate.length() / slip.length());
@@ -229,13 +228,7 @@ impl Resting {
     }
 
     /// Hands over every slip of this active set and its rate.
-    fn slips(
-        &self,
-        radius: f64,
-        balls: &State,
-        forces: &Forces,
-        mut each: impl FnMut(fn(usize, f64) -> TimeScale, usize, DVec2, DVec2),
-    ) {
+    fn slips(&self, radius: f64, balls: &State, forces: &Forces, mut each: impl FnMut(Place, DVec2, DVec2)) {
         let rates: State = std::array::from_fn(|ball| BallState {
             position: balls[ball].position,
             velocity: forces.linear[ball],
@@ -246,14 +239,14 @@ impl Resting {
             let (state, rate) = (&balls[ball], &rates[ball]);
             let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
             if slips(self.set.cloth[ball]) {
-                each(TimeScale::Cloth, ball, slip(state), slip(rate));
+                each(Place::Cloth(ball), slip(state), slip(rate));
             } else if slips(self.set.roll[ball]) {
-                each(TimeScale::Roll, ball, state.velocity, rate.velocity);
+                each(Place::Roll(ball), state.velocity, rate.velocity);
             }
         }
         for (index, contact) in self.contacts.as_slice().iter().enumerate() {
             if slips(self.set.contact[index]) {
-                each(TimeScale::Contact, index, contact.slip(radius, balls), contact.slip(radius, &rates));
+                each(Place::Contact(index), contact.slip(radius, balls), contact.slip(radius, &rates));
             }
         }
     }
@@ -346,12 +339,12 @@ impl Resting {
 
     /// Longest step whose course a polynomial can follow, in rescaled time; sets the scale.
     fn longest_step(&mut self, radius: f64) -> f64 {
-        self.time_scale = TimeScale::Time;
+        self.time_scale = None;
         let sliding = self.constants.sliding;
         let strays = |force: f64, turn: f64| (2000.0 * STRAY / force * turn.powi(4)).powf(1.0 / 6.0);
         let mut longest = LONGEST_CURVE / sliding;
-        let (mut soonest, mut time_scale) = (f64::INFINITY, TimeScale::Time);
-        self.slips(radius, &self.begin, &self.first, |scaled, index, slip, rate| {
+        let (mut soonest, mut time_scale) = (f64::INFINITY, None);
+        self.slips(radius, &self.begin, &self.first, |place, slip, rate| {
             let length = slip.length();
             if length <= self.constants.tolerance.slip {
                 return;
@@ -363,7 +356,7 @@ impl Resting {
             longest = longest.min((STIFF * length / (3.5 * sliding)).max(MOST_TURN / turning));
             let falls = -length * length / rate.dot(slip);
             if falls > 0.0 && falls < soonest {
-                (soonest, time_scale) = (falls, scaled(index, length));
+                (soonest, time_scale) = (falls, Some((place, length)));
             }
         });
         // Two balls turn about each other, and the forces between them with them.
@@ -387,12 +380,13 @@ impl Resting {
 
     /// How fast time runs in rescaled time.
     fn time_rate(&self, radius: f64, balls: &State) -> f64 {
-        match self.time_scale {
-            TimeScale::Time => 1.0,
-            TimeScale::Cloth(ball, from) => slip(radius, balls[ball].velocity, balls[ball].spin).length() / from,
-            TimeScale::Roll(ball, from) => balls[ball].velocity.length() / from,
-            TimeScale::Contact(index, from) => self.contacts.as_slice()[index].slip(radius, balls).length() / from,
-        }
+        let Some((place, from)) = self.time_scale else { return 1.0 };
+        let slip = match place {
+            Place::Cloth(ball) => slip(radius, balls[ball].velocity, balls[ball].spin),
+            Place::Roll(ball) => balls[ball].velocity,
+            Place::Contact(index) => self.contacts.as_slice()[index].slip(radius, balls),
+        };
+        slip.length() / from
     }
 
     /// State `time` seconds after the start of the step, by one shorter step of the same method.
@@ -420,7 +414,7 @@ impl Resting {
         let begin = Phase { balls: self.begin, time: 0.0 };
         let begin = Step { end: begin, error: 0.0, best_length: 0.0 };
         let mut trial = self.attempt(table, &Trial { span: 0.0, step: begin, forces: self.first }, time);
-        if !matches!(self.time_scale, TimeScale::Time) {
+        if self.time_scale.is_some() {
             // Newton's steps: how fast time runs is known.
             for _ in 0..MAX_GUESSES {
                 let late = time - trial.step.end.time;

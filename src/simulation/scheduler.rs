@@ -103,12 +103,18 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             self.predict_all_again(changed);
         }
         self.predict_pairs(now, changed, true);
-        if self.pressed || self.resting.is_some() {
+        if (self.pressed || self.resting.is_some()) && !(self.resting.is_none() && self.collides_at(now)) {
             self.press(now, &mut changed)?;
             self.predict_pairs(now, changed, false);
             self.pressed = false;
         }
         ControlFlow::Continue(())
+    }
+
+    /// Whether an impact is due at this very moment. It comes first: forces do nothing in no time.
+    fn collides_at(&self, now: f64) -> bool {
+        let at_rail = |index: usize| self.balls[index].rail_after < self.balls[index].lasts && self.times[index] <= now;
+        (0..BALLS).any(at_rail) || self.times[BALLS..].iter().any(|time| *time <= now)
     }
 
     /// Predicts what balls will meet that go on pressing each other as before.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::Contact;
+use super::{Contact, problem::coefficient};
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
@@ -69,7 +69,7 @@ pub enum Friction {
 impl Friction {
     /// Slipping already if faster than `none`, m/s.
     fn of(slip: DVec2, none: f64) -> Self {
-        if slip.length_squared() > none * none { Self::Slips(DVec2::ZERO) } else { Self::Sticks }
+        if slip.length() > none { Self::Slips(DVec2::ZERO) } else { Self::Sticks }
     }
 
     /// The unit vector against which the friction acts; `None` where it holds.
@@ -109,6 +109,8 @@ impl ActiveSet {
         let radius = table.radius;
         let mut friction = [Friction::Sticks; MAX_CONTACTS];
         for (friction, contact) in friction.iter_mut().zip(contacts) {
+            // What has no friction cannot stick.
+            let none = if coefficient(table, contact) > 0.0 { none } else { -1.0 };
             *friction = Friction::of(contact.slip(radius, balls), none);
             if table.ball_friction.is_none() && contact.second.is_some() && *friction != Friction::Sticks {
                 *friction = Friction::Yields;

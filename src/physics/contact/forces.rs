@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     ActiveSet, Contact, Contacts, Friction, MAX_CONTACTS,
+    margin::{rates, with_margin},
     problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient, never_slips},
     solve::{Side, Solution, solve, solve_near},
 };
@@ -78,7 +79,10 @@ pub fn resolve(
     slack: f64,
     similar: Option<&Forces>,
 ) -> Option<Resolved> {
-    let (problem, solution) = solved(table, balls, contacts.as_slice(), set, similar);
+    let (problem, mut solution) = solved(table, balls, contacts.as_slice(), set, similar);
+    if let Some(spared) = with_margin(&problem, &solution, DEPARTING * table.gravity) {
+        solution = spared;
+    }
     let accelerations = problem.accelerations(&solution.sizes);
     let mut resolved = Resolved {
         contacts: *contacts,
@@ -91,7 +95,7 @@ pub fn resolve(
     };
     let mut kept = [Friction::Sticks; MAX_CONTACTS];
     let mut count = 0;
-    for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
+    for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
         if *side == Side::Holds {
             // Balls that never slip stop at once, others slide on against their friction.
             let stops =
@@ -101,10 +105,7 @@ pub fn resolve(
                 sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
         }
         let Side::Limited(force) = *side else { continue };
-        let rates: [f64; 2] = std::array::from_fn(|axis| {
-            if axis < unknown.count { problem.rates[unknown.first + axis].dot(&accelerations) } else { 0.0 }
-        });
-        let rate = DVec2::from_array(rates).length();
+        let rate = DVec2::from_array(rates(&problem, &solution, index)).length();
         let holds = rate <= DEPARTING * table.gravity;
         resolved.shared |= holds;
         let size = solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| size.hypot(*x));

@@ -327,6 +327,18 @@ impl Held {
         })
     }
 
+    /// Takes the friction of contacts that slip away where they pull back more than has been `given`; tells whether there are
+    /// any.
+    fn smooth_what_pulls(&mut self, given: &[f64; MAX_CONTACTS]) -> bool {
+        let mut any = false;
+        for ((joint, sizes), given) in self.joints[..self.contacts].iter_mut().zip(&self.sizes).zip(given) {
+            if sizes[0] < -given && joint.slip_friction != DVec2::ZERO {
+                (joint.slip_friction, any) = (DVec2::ZERO, true);
+            }
+        }
+        any
+    }
+
     /// The force in a contact.
     fn force(&self, index: usize) -> Triple {
         let [normal, along, up] = self.sizes[index];
@@ -424,15 +436,27 @@ pub fn forces(
 
 /// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
 /// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something has friction where its
-/// contact slips. Where they cannot all vanish, or not without changing others by far more, all stay.
-pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts: &[Contact], set: &ActiveSet) {
+/// contact slips. An impulse that would have to pull takes back part of what an impact has just `given` a contact, per mass in
+/// m/s, and its friction with it; beyond that it is rounding, and has nothing to rub with: energy would be gained. Where the
+/// speeds cannot all vanish, or not without changing others by far more, all stay.
+pub fn stop_by_impulses(
+    table: &Table,
+    balls: &mut [BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
+    given: &[f64; MAX_CONTACTS],
+) {
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
     let has_friction = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
     let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), has_friction);
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     let before = system.to_stop(&speeds);
-    if let Some([_, stopped]) = system.solve(&speeds, false)
+    let mut stopped = system.solve(&speeds, false);
+    while stopped.is_some() && system.smooth_what_pulls(given) {
+        stopped = system.solve(&speeds, false);
+    }
+    if let Some([_, stopped]) = stopped
         && stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before
     {
         for (ball, state) in balls.iter_mut().enumerate().filter(|(ball, _)| system.members[*ball]) {
@@ -440,3 +464,6 @@ pub fn stop_by_impulses(table: &Table, balls: &mut [BallState; BALLS], contacts:
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,6 +9,7 @@ mod active_set;
 mod forces;
 mod held;
 mod linear;
+mod margin;
 mod problem;
 mod solve;
 

@@ -158,7 +158,8 @@ impl<'a> System<'a> {
         let wanted = |i: usize| sizes[i] - self.rate(i, sizes) / response;
         if let Place::Normal(_) = unknown.place {
             let force = wanted(first);
-            return if force > 0.0 { (DVec2::new(force, 0.0), Side::Holds) } else { (DVec2::ZERO, Side::Absent) };
+            let pushes = force > 0.0 && !matches!(unknown.limit, Limit::Fixed(0.0));
+            return if pushes { (DVec2::new(force, 0.0), Side::Holds) } else { (DVec2::ZERO, Side::Absent) };
         }
         let force = DVec2::new(wanted(first), if unknown.count == 2 { wanted(first + 1) } else { 0.0 });
         let limit = match unknown.limit {

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Phase, Resting, STIFF, TimeScale, Trial};
+use super::{Phase, Place, Resting, STIFF, Trial};
 use crate::{
     physics::{BallState, Friction},
     simulation::extrapolation::{Mode, Stiff},
@@ -30,16 +30,14 @@ impl Resting {
         let length = length * self.time_rate(table.radius, balls);
         let mut slips = Vec::new();
         let mut stiffest = 0.0_f64;
-        self.slips(table.radius, balls, &from.forces, |place, index, slip, _| {
-            let place = place(index, 0.0);
+        self.slips(table.radius, balls, &from.forces, |place, slip, _| {
             let (friction, does) = match place {
-                TimeScale::Contact(index, _) => {
+                Place::Contact(index) => {
                     let limit = from.forces.friction_limit(table, &self.contacts, index);
                     (2.0 * RESPONSE * limit, self.set.contact[index])
                 }
-                TimeScale::Roll(ball, _) => (table.rolling_friction * table.gravity, self.set.roll[ball]),
-                TimeScale::Cloth(ball, _) => (RESPONSE * self.constants.sliding, self.set.cloth[ball]),
-                TimeScale::Time => return,
+                Place::Roll(ball) => (table.rolling_friction * table.gravity, self.set.roll[ball]),
+                Place::Cloth(ball) => (RESPONSE * self.constants.sliding, self.set.cloth[ball]),
             };
             let slip = if let Friction::Slips(start) = does { slip + start } else { slip };
             let turns = friction * length / slip.length();
@@ -53,7 +51,7 @@ impl Resting {
     }
 
     /// How the slip at one place turns, and what a turn of its friction changes.
-    fn mode(&self, table: &Table, from: &Trial, place: TimeScale, slip: DVec2) -> Mode {
+    fn mode(&self, table: &Table, from: &Trial, place: Place, slip: DVec2) -> Mode {
         let balls = &from.step.end.balls;
         let still = Phase { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
         let across = slip.perp().normalize();
@@ -64,16 +62,16 @@ impl Resting {
         };
         let (mut set, mut row) = (self.set, still);
         match place {
-            TimeScale::Cloth(ball, _) => {
+            Place::Cloth(ball) => {
                 turned(&mut set.cloth[ball]);
                 row.balls[ball].velocity = across;
                 row.balls[ball].spin = -table.radius * across.perp().extend(0.0);
             }
-            TimeScale::Roll(ball, _) => {
+            Place::Roll(ball) => {
                 turned(&mut set.roll[ball]);
                 row.balls[ball].velocity = across;
             }
-            TimeScale::Contact(index, _) => {
+            Place::Contact(index) => {
                 turned(&mut set.contact[index]);
                 let contact = &self.contacts.as_slice()[index];
                 let t = contact.normal(balls).perp();
@@ -83,7 +81,6 @@ impl Resting {
                     (row.balls[second].velocity, row.balls[second].spin) = (-across.x * t, spin);
                 }
             }
-            TimeScale::Time => {}
         }
         let slope = |forces| self.slope(table.radius, balls, forces);
         let (before, after) = (slope(&from.forces), slope(&self.forces_in(table, &set, balls, &from.forces)));

@@ -1,0 +1,34 @@
+//! Impulses that stop what is to stand still.
+
+use super::*;
+
+/// A ball at a cushion, which it slips on and leaves at some speed.
+fn rubbing(opening: f64) -> (Table, [BallState; BALLS], [Contact; 1]) {
+    let table = Table::preset("textbook").unwrap();
+    let mut balls = [0.0, 0.3, -0.3].map(|x| BallState::at_rest(DVec2::new(x, 0.0)));
+    balls[0].position.x = table.half_length();
+    balls[0].velocity = DVec2::new(-opening, 0.5);
+    balls[0].spin = DVec3::new(20.0, 10.0, 40.0);
+    (table, balls, [Contact::with_cushion(0, DVec2::NEG_X)])
+}
+
+fn stopped(opening: f64, given: f64) -> f64 {
+    let (table, mut balls, contacts) = rubbing(opening);
+    let before = balls[0].specific_energy(table.radius);
+    let given = std::array::from_fn(|index| if index == 0 { given } else { 0.0 });
+    stop_by_impulses(&table, &mut balls, &contacts, &ActiveSet::SLIPPING, &given);
+    assert!(contacts[0].opening_speed(&balls).abs() < 1e-18);
+    balls[0].specific_energy(table.radius) - before
+}
+
+#[test]
+fn what_would_have_to_pull_gains_no_energy() {
+    assert!(stopped(1e-9, 0.0) <= f64::EPSILON);
+    // What closes is pushed, and rubs.
+    assert!(stopped(-1e-9, 0.0) < -1e-11);
+}
+
+#[test]
+fn a_push_that_was_too_large_is_taken_back_with_its_friction() {
+    assert!(stopped(1e-9, 1e-6) > 1e-11);
+}
