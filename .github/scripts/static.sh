@@ -12,6 +12,8 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 out=target/dist
 mkdir -p "$out"
 
+# Without the names of functions, which a program of this kind has no use for: 3 MB less.
+export CARGO_PROFILE_RELEASE_STRIP=symbols
 for target in "${targets[@]}"; do
     cargo zigbuild --release --locked --bin carom --target "$target"
 done

@@ -93,7 +93,8 @@ impl Club {
     /// A player at a terminal, who asks for `order` instead of the coach.
     fn player(&self, key: &str, order: &str) -> Session {
         let mut command = CommandBuilder::new("ssh");
-        command.args(self.arguments(key)).args(["-tt", "root@127.0.0.1"]);
+        command.args(self.arguments(key));
+        command.args(["-tt", "root@127.0.0.1"]);
         if !order.is_empty() {
             command.arg(order);
         }
@@ -102,17 +103,6 @@ impl Club {
 
     fn players_folder(&self) -> PathBuf {
         self.folder.path().join("home/DATA/carom/players")
-    }
-}
-
-trait Arguments {
-    fn args<S: AsRef<std::ffi::OsStr>>(&mut self, all: impl IntoIterator<Item = S>) -> &mut Self;
-}
-
-impl Arguments for CommandBuilder {
-    fn args<S: AsRef<std::ffi::OsStr>>(&mut self, all: impl IntoIterator<Item = S>) -> &mut Self {
-        all.into_iter().for_each(|one| self.arg(one));
-        self
     }
 }
 
@@ -153,7 +143,9 @@ fn twenty_players_share_a_machine_over_ssh() {
     }
     // All think at once.
     let start = Instant::now();
-    sessions.iter_mut().for_each(|session| session.send("\r"));
+    for session in &mut sessions {
+        session.send("\r");
+    }
     let mut waited = Vec::new();
     for session in &mut sessions {
         session.wait_for_advice();

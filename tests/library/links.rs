@@ -10,13 +10,15 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The pages of a folder.
+fn pages_in(folder: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    entries.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect()
+}
+
 /// The pages that people read.
 fn pages() -> Vec<PathBuf> {
-    let markdown = |folder: &str| {
-        let entries = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
-        entries.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect::<Vec<_>>()
-    };
-    ["", "docs", "models", "saves", "tests/data/filmed"].into_iter().flat_map(markdown).collect()
+    ["", "docs", "models", "saves", "tests/data/filmed"].into_iter().flat_map(pages_in).collect()
 }
 
 /// The targets of `[words](target)`, but for those in blocks of code.
@@ -67,12 +69,11 @@ fn every_link_leads_to_a_file_and_a_heading_that_are_there() {
 
 #[test]
 fn the_book_has_every_page_and_no_other() {
-    let docs = root().join("docs");
-    let summary = fs::read_to_string(docs.join("SUMMARY.md")).unwrap();
+    let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).unwrap();
     let listed: BTreeSet<&str> = links(&summary).into_iter().collect();
-    let names = fs::read_dir(&docs).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let there: BTreeSet<String> = names.filter(|name| name.ends_with(".md") && name != "SUMMARY.md").collect();
-    assert_eq!(listed, there.iter().map(String::as_str).collect());
+    let pages = pages_in("docs");
+    let names = pages.iter().map(|page| page.file_name().unwrap().to_str().unwrap());
+    assert_eq!(listed, names.filter(|name| *name != "SUMMARY.md").collect());
 }
 
 #[test]

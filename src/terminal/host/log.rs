@@ -24,8 +24,14 @@ const LEVEL: Level = Level::INFO;
 pub fn start(path: &Path, level: Option<&str>) -> io::Result<()> {
     let file = Mutex::new(Shown::new(LogFile::open(path)?));
     let level = level.and_then(|name| name.parse().ok()).unwrap_or(LEVEL);
-    let subscriber =
-        tracing_subscriber::fmt().with_writer(file).with_ansi(false).with_target(false).with_max_level(level);
+    // What cannot be written, as on a full disk, is not told on the standard error: that is the screen, and where it is gone
+    // the complaint itself would be a panic, which is written down in its turn, and so on.
+    let subscriber = tracing_subscriber::fmt()
+        .with_writer(file)
+        .with_ansi(false)
+        .with_target(false)
+        .with_max_level(level)
+        .log_internal_errors(false);
     // A second start in the same process, as in tests, changes nothing.
     let _ = subscriber.try_init();
     Ok(())

@@ -9,7 +9,7 @@ use portable_pty::CommandBuilder;
 
 use crate::{
     program::{asked, carom as program, command, fed},
-    terminal::{OPENING, REST, Session, carom},
+    terminal::{OPENING, PATIENCE, REST, Session, carom},
 };
 
 fn guest(name: &str) -> CommandBuilder {
@@ -34,7 +34,7 @@ fn a_guest_plays_and_leaves_files_in_the_players_folder_alone() {
     let home = tempfile::tempdir().unwrap();
     let mut session = Session::start_at(home.path(), guest("Anna"), 80, 24);
     session.wait_for(OPENING);
-    session.send("\r");
+    session.send("\x1b[B\r");
     session.wait_for_advice();
     session.send("q");
     assert!(session.assert_left_without_trace().success());
@@ -44,7 +44,8 @@ fn a_guest_plays_and_leaves_files_in_the_players_folder_alone() {
     assert!(left.iter().all(|file| file.starts_with(&own)), "{left:?}");
     // The next session goes on from there, and that of another player does not.
     let mut again = Session::start_at(home.path(), guest("anna"), 80, 24);
-    again.wait_for(OPENING);
+    again.wait_for("Coach Drills");
+    again.settle(REST);
     again.send("c");
     again.wait_for("this is where the last session ended");
     let mut other = Session::start_at(home.path(), guest("ben"), 80, 24);
@@ -78,9 +79,9 @@ fn a_guests_settings_lead_to_no_file_that_is_not_theirs() {
     let mut session = Session::start_at(home.path(), guest("anna"), 120, 40);
     session.wait_for(OPENING);
     session.send("\x1b[17~");
-    session.wait_for("secret.toml");
+    session.wait_for("It is taken as");
     let said = session.screen().contents();
-    assert!(said.contains("line 1: table") && !said.contains("xyzzy") && !said.contains("password"), "{said}");
+    assert!(said.contains("secret.toml") && !said.contains("xyzzy") && !said.contains("password"), "{said}");
 }
 
 #[test]
@@ -100,6 +101,24 @@ fn two_sessions_of_one_player_lose_nothing() {
     let last = fs::read_to_string(own.join("last.json")).unwrap();
     assert!(serde_json::from_str::<serde_json::Value>(&last).is_ok(), "{last}");
     assert!(files(&own).iter().all(|file| !file.to_string_lossy().ends_with(".partial")), "{:?}", files(&own));
+}
+
+#[test]
+fn a_disk_that_takes_nothing_is_told_and_neither_spoils_the_screen_nor_keeps_the_program() {
+    let mut limited = CommandBuilder::new("sh");
+    let program = assert_cmd::cargo::cargo_bin!("carom").to_str().unwrap();
+    limited.args(["-c", &format!("ulimit -f 0; exec {program} --guest")]);
+    let mut session = Session::start_command(limited, 80, 24);
+    session.wait_for(OPENING);
+    session.send("\x1b[B\r");
+    session.wait_for_advice();
+    session.send("\x1b[17~");
+    session.wait_for("cannot go on from here");
+    session.settle(REST);
+    let said = session.screen().contents();
+    assert!(!said.contains("tracing") && !said.contains("Unable to write"), "{said}");
+    session.cut();
+    session.ends_within(PATIENCE);
 }
 
 #[test]
