@@ -61,7 +61,8 @@ mod tests {
 
     #[test]
     fn a_player_aims_at_the_ball_where_it_lies_and_at_the_point_of_the_cushion_where_it_is() {
-        let (table, meant) = (Table::default(), layout());
+        let (table, meant) =
+            (Table::default(), Layout::new([DVec2::new(-0.8, 0.1), DVec2::new(0.4, 0.3), DVec2::new(0.9, -0.5)]));
         let mut real = meant;
         real.balls[0] += DVec2::new(0.003, -0.004);
         real.balls[1] += DVec2::new(-0.002, 0.005);

@@ -23,10 +23,10 @@ use super::{
     recommend::coach_for,
 };
 use crate::{
-    coach::{Coach, Doubt, Request, Skill},
+    coach::{Doubt, Request, Skill},
     game::{Reward, Rule, scores},
     learning::{
-        Policy, Proposal,
+        Policy, PolicyError, Proposal,
         evaluation::{HELD_OUT_SEED, SuccessRate, held_out_layouts},
     },
     physics::{CueInputs, has_room},
@@ -157,7 +157,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     } else if args.policy_only {
         let reward = args.reward.unwrap_or(rule_reward);
         let skill = args.skill.unwrap_or(Skill::PERFECT);
-        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default(), &skill)?;
+        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
         note_doubts(&policy, &table, reward.rule());
         let mut said = Vec::new();
         let mut report = measure(args, &table, POLICY, reward, &mut |table, layout| {
@@ -315,19 +315,20 @@ fn print(out: &mut impl Write, report: &EvaluationReport, layouts: u32) -> std::
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }
 
-/// The policy that the coach asks for this player under `rule` on `table`, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule, skill: &Skill) -> Result<Policy, Failure> {
-    if name != "bundled" {
-        return policy_called(name).map_err(Failure::failed);
-    }
-    let coach = Coach::new(table.clone()).map_err(Failure::failed)?;
-    coach.policy(rule, skill).cloned().ok_or_else(|| {
-        Failure::wrong_input(format_args!(
-            "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
-             `carom train`",
-            table.name
-        ))
-    })
+/// The bundled policy for `rule` on `table`, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
+    let policy = if name == "bundled" {
+        Policy::bundled(table, rule).ok_or_else(|| {
+            Failure::wrong_input(format_args!(
+                "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+                 `carom train`",
+                table.name
+            ))
+        })?
+    } else {
+        policy_called(name)
+    };
+    policy.map_err(|error: PolicyError| Failure::failed(error))
 }
 
 #[cfg(test)]
