@@ -55,15 +55,12 @@ pub struct Coach {
 }
 
 impl Coach {
-    /// A coach with the policies that are bundled for this table and those with a context that know it, if there are any;
-    /// without, it searches.
+    /// A coach with the policies that are bundled for this table, if there are any; without, it searches.
     ///
     /// # Errors
     /// Where a bundled policy is damaged.
     pub fn new(table: Table) -> Result<Self, PolicyError> {
-        let bundled = Rule::ALL.into_iter().flat_map(|rule| {
-            [Policy::bundled(&table, rule), Policy::bundled_with_context(&table, rule)].into_iter().flatten()
-        });
+        let bundled = Rule::ALL.into_iter().filter_map(|rule| Policy::bundled(&table, rule));
         let policies = bundled.collect::<Result<_, _>>()?;
         Ok(Self { table, policies })
     }
@@ -79,21 +76,11 @@ impl Coach {
         Self { policies: vec![policy], ..self }
     }
 
-    /// The policy that it asks first for a player of this skill under `rule`.
-    pub fn policy(&self, rule: Rule, skill: &Skill) -> Option<&Policy> {
-        self.policies_for(rule, skill).first().copied()
-    }
-
-    /// The policies that it asks under `rule`, the likeliest to be right first: those that were trained for it, else any, for a
-    /// shot that makes some point is a good start of a search. Who errs is best known to those that are told so.
-    fn policies_for(&self, rule: Rule, skill: &Skill) -> Vec<&Policy> {
+    /// The policy that it asks under `rule`: the one that was trained for it, else any, for a shot that makes some point is
+    /// a good start of a search.
+    pub fn policy(&self, rule: Rule) -> Option<&Policy> {
         let trained_for = |policy: &&Policy| policy.origin().reward == Reward::for_rule(rule);
-        let mut all: Vec<&Policy> = self.policies.iter().filter(trained_for).collect();
-        if all.is_empty() {
-            all.extend(self.policies.first());
-        }
-        all.sort_by_key(|policy| policy.has_context() == skill.is_perfect());
-        all
+        self.policies.iter().find(trained_for).or(self.policies.first())
     }
 
     /// The table that it knows.
@@ -103,7 +90,7 @@ impl Coach {
 
     /// The policy's own shot under `rule` for a player of this skill, unchecked; `None` where there is no policy.
     pub fn policy_shot(&self, layout: &Layout, rule: Rule, skill: &Skill) -> Option<CueInputs> {
-        self.policy(rule, skill).map(|policy| policy.propose(&self.table, layout, skill))
+        self.policy(rule).map(|policy| policy.propose(&self.table, layout, skill))
     }
 
     /// Looks for the shot that the player makes most often, or with [`Request::plan`] the one after which the next is
@@ -140,9 +127,8 @@ impl Coach {
             until: clock.moment(1.0),
             patience: CONTACT_STEPS,
         };
-        let policies = self.policies_for(request.rule, &request.skill);
-        let proposals: Vec<_> =
-            policies.iter().flat_map(|policy| policy.proposals(&self.table, layout, &request.skill)).collect();
+        let policy = self.policy(request.rule);
+        let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
         let found = Attempt::new(task).run(&strokes, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {

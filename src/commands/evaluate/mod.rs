@@ -19,7 +19,7 @@ use super::{
     recommend::coach_for,
 };
 use crate::{
-    coach::{Coach, Doubt, Request, Skill},
+    coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
     learning::{Policy, evaluation::EVALUATION_SEED},
     printing,
@@ -137,8 +137,7 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
     let player = if let Some(shots) = args.random_search {
         Player::RandomSearch(shots)
     } else if args.policy_only {
-        let policy =
-            policy_named(&args.policy, &table, reward.rule().unwrap_or_default(), &skill.unwrap_or(Skill::PERFECT))?;
+        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
         note_doubts(&policy, &table, reward.rule());
         Player::Policy(policy)
     } else {
@@ -186,19 +185,20 @@ fn request(args: &Args, skill: Skill) -> Request {
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
 }
 
-/// The policy that the coach asks for this player under `rule` on `table`, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule, skill: &Skill) -> Result<Policy, Failure> {
-    if name != "bundled" {
-        return policy_called(name).map_err(Failure::failed);
-    }
-    let coach = Coach::new(table.clone()).map_err(Failure::failed)?;
-    coach.policy(rule, skill).cloned().ok_or_else(|| {
-        Failure::wrong_input(format_args!(
-            "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
-             `carom train`",
-            table.name
-        ))
-    })
+/// The bundled policy for `rule` on `table`, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
+    let policy = if name == "bundled" {
+        Policy::bundled(table, rule).ok_or_else(|| {
+            Failure::wrong_input(format_args!(
+                "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+                 `carom train`",
+                table.name
+            ))
+        })?
+    } else {
+        policy_called(name)
+    };
+    policy.map_err(Failure::failed)
 }
 
 #[cfg(test)]
@@ -210,17 +210,7 @@ mod tests {
         assert!(table_named("snooker").unwrap_err().to_string().contains("snooker"));
         let mut own = Table::preset("thesis").unwrap();
         own.name = "cellar".to_owned();
-        assert!(
-            policy_named("bundled", &own, Rule::OneCushion, &Skill::PERFECT)
-                .unwrap_err()
-                .to_string()
-                .contains("cellar")
-        );
-        assert!(
-            policy_named("no/such/file", &own, Rule::OneCushion, &Skill::PERFECT)
-                .unwrap_err()
-                .to_string()
-                .contains("no/such/file")
-        );
+        assert!(policy_named("bundled", &own, Rule::OneCushion).unwrap_err().to_string().contains("cellar"));
+        assert!(policy_named("no/such/file", &own, Rule::OneCushion).unwrap_err().to_string().contains("no/such/file"));
     }
 }

@@ -227,7 +227,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     if args.policy_only {
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
-        let policy = coach.policy(rule, &args.skill).ok_or_else(|| no_policy(coach.table()))?;
+        let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
         note_doubts(policy, coach.table(), Some(rule));
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
         // Others speak of the shot as it is meant, whoever plays it.

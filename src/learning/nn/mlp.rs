@@ -216,7 +216,7 @@ mod tests {
         assert_eq!(wide.sizes(), [9, 33, 17, 3]);
         let others = Tensor::ones((11, 4), DType::F32, &Device::Cpu).unwrap();
         let [before, after] = [(0, 2), (2, 3)].map(|(start, count)| inputs.narrow(1, start, count).unwrap());
-        let joined = Tensor::cat(&[&before, &others, &after], 1).unwrap();
+        let joined = Tensor::cat(&[&before, &others, &after], 1).unwrap().contiguous().unwrap();
         assert!(largest_difference(&mlp.forward(&inputs).unwrap(), &wide.forward(&joined).unwrap()) < 1e-6);
         assert!(mlp.with_more_inputs(6, 1).is_err());
     }

@@ -8,7 +8,7 @@ use super::Policy;
 use crate::{
     game::{Reward, Rule},
     learning::{
-        ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
+        ddpg::{hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage::{self, write_atomic},
@@ -24,9 +24,6 @@ const BUNDLED: [(&str, Reward, &[u8]); 6] = [
     ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
     ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
 ];
-
-/// Those with a context: what was rewarded, and the file.
-const WITH_CONTEXT: [(Reward, &[u8]); 0] = [];
 
 /// Where a policy comes from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,16 +95,6 @@ impl Policy {
         let (.., bytes) =
             BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (table.name.as_str(), reward))?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
-    }
-
-    /// The policy with a context that comes with the program for `rule`, if there is one and it knows tables like this one.
-    ///
-    /// # Errors
-    /// Where the bundled file is damaged, which a test rules out.
-    pub fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
-        let reward = Reward::for_rule(rule);
-        let (_, bytes) = WITH_CONTEXT.iter().find(|(what, _)| *what == reward).filter(|_| knows(table))?;
-        Some(Self::from_bytes(bytes, &format!("the bundled policy with a context for {rule}")))
     }
 
     /// Reads a policy from a file.
@@ -198,7 +185,7 @@ mod tests {
         let own = Table { sliding_friction: 0.3, ..Table::default() };
         assert!(Policy::bundled(&own, Rule::StraightRail).is_none());
         let size: usize = BUNDLED.iter().map(|(.., bytes)| bytes.len()).sum();
-        assert!(size <= 10_000_000, "{size} bytes of weights");
+        assert!(size <= 7_000_000, "{size} bytes of weights");
     }
 
     #[test]
