@@ -13,7 +13,7 @@ use std::{
 use assert_cmd::cargo::cargo_bin;
 
 /// Longest that an array of jobs may take.
-const PATIENCE: Duration = Duration::from_mins(10);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A folder with the script `name` of the page.
 fn folder_with(name: &str) -> tempfile::TempDir {
