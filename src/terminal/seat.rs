@@ -12,6 +12,9 @@ use crate::{
 /// Longest time that the coach thinks for a guest, ms: what a player waits for anyway.
 pub const LONGEST_FOR_GUESTS: u64 = 1000;
 
+/// Room on the disk that a session needs, bytes: a few files of some kilobytes.
+const LEAST_ROOM: u64 = 1 << 18;
+
 /// Whose files are read and written, and what may be done.
 #[derive(Clone, Debug)]
 pub struct Seat {
@@ -60,7 +63,10 @@ impl Seat {
     /// What the player should know before anything is lost: why nothing can be kept.
     pub fn warning(&self) -> Option<String> {
         let folder = &self.places.own;
-        let refusal = storage::room_in(folder).refusal?;
+        let room = storage::room_in(folder);
+        let is_full = room.free.is_some_and(|free| free < LEAST_ROOM);
+        let refusal = room.refusal.map(|error| error.to_string());
+        let refusal = refusal.or_else(|| is_full.then(|| "the disk is full".to_owned()))?;
         Some(format!("nothing can be kept in {}: {refusal}", folder.display()))
     }
 }
