@@ -103,7 +103,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             self.predict_all_again(changed);
         }
         self.predict_pairs(now, changed, true);
-        if (self.pressed || self.resting.is_some()) && !(self.resting.is_none() && self.collides_at(now)) {
+        if self.resting.is_some() || (self.pressed && !self.collides_at(now)) {
             self.press(now, &mut changed)?;
             self.predict_pairs(now, changed, false);
             self.pressed = false;
