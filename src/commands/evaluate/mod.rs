@@ -14,8 +14,10 @@ mod drawn_tables;
 mod robustness;
 mod self_play;
 
-use self::drawn_tables::DrawnTables;
-use self::robustness::{Robustness, Said};
+use self::{
+    drawn_tables::DrawnTables,
+    robustness::{Robustness, Said},
+};
 use super::{
     Failure,
     input::{note_doubts, table_named},
@@ -273,7 +275,7 @@ fn measure(
     EvaluationReport {
         player: name,
         policy: args.random_search.is_none().then(|| args.policy.clone()),
-        table: table.name.clone(),
+        table: if args.drawn_tables { format!("tables like {}", table.name) } else { table.name.clone() },
         measure: if name == POLICY { reward.name() } else { args.rule.name() },
         seed: args.seed,
         mean_reward: total / count as f64,
@@ -350,7 +352,7 @@ mod tests {
     fn a_player_is_measured_with_its_interval() {
         let table = Table::default();
         let args = args(&["--layouts", "50"]);
-        let mut at_the_first_ball = |layout: &Layout| CueInputs {
+        let mut at_the_first_ball = |_: &Table, layout: &Layout| CueInputs {
             a: 0.0,
             b: 0.0,
             theta: 0.1,
