@@ -9,9 +9,9 @@ use carom::{
     },
     drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, decode, encode, flaws, shifted},
     game::scores,
-    learning::normal_pair,
     physics::CueInputs,
     simulation::Recording,
+    statistics::normal_pair,
 };
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
