@@ -6,8 +6,8 @@ use carom::{
     coach::{Skill, Technique, make_probability},
     drills::{Category, Exercise, GATHERED, flaws},
     game::scores,
-    learning::normal_pair,
     physics::{CueInputs, with_room},
+    statistics::normal_pair,
     table::{Layout, Table},
 };
 use rand::{RngExt, SeedableRng};

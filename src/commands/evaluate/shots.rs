@@ -144,7 +144,7 @@ struct EvaluationReport<'a> {
     player: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     policy: Option<&'a str>,
-    table: &'a str,
+    table: String,
     /// The reward or the rule.
     measure: &'a str,
     seed: u64,
@@ -202,7 +202,7 @@ fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> 
     EvaluationReport {
         player: &order.player,
         policy: order.policy.as_deref(),
-        table: &order.table.name,
+        table: if order.drawn_tables { format!("tables like {}", order.table.name) } else { order.table.name.clone() },
         measure: &order.measure,
         seed: order.seed,
         mean_reward: mean(&|record| record.earned),

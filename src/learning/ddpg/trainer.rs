@@ -179,7 +179,7 @@ pub(in crate::learning) mod tests {
     fn shots_count_alike_however_they_are_chosen() {
         for (ranking, critic_chooses) in [(0.0, 0.3), (0.5, 0.5), (1.0, 0.0), (0.4, 1.0)] {
             let mut task = small_task();
-            task.hyperparameters = Hyperparameters { ranking, critic_chooses, ..task.hyperparameters };
+            task.hyperparameters = Hyperparameters { critic_chooses, ranking, ..task.hyperparameters };
             let mut trainer = Trainer::new(task, Table::default()).unwrap();
             trainer.iterate().unwrap();
             assert_eq!((trainer.shots(), trainer.replay.len()), (16, 16), "ranking {ranking}");
