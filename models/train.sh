@@ -2,7 +2,7 @@
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
 # with the same version. All of it takes about five hours of a shared core. The bundled files for match began
 # from networks that a version before this one had trained; their first rounds were played without the cue's room, and all but
-# the last two with balls that stay on the cloth.
+# the last two or three with balls that stay on the cloth.
 set -eu
 folder=${1:-runs}
 carom=${2:-carom}
@@ -31,7 +31,8 @@ train match-one-cushion --from "$folder/match-one-cushion-third" --seed 52 --ste
 train match-three-cushion-first --table match --reward three-cushion --seed 1 --steps 8000000
 train match-three-cushion-second --from "$folder/match-three-cushion-first" --seed 2 --steps 6000000 --set critic_chooses=0.6 --set "$near"
 train match-three-cushion-third --from "$folder/match-three-cushion-second" --seed 43 --steps 4000000
-train match-three-cushion --from "$folder/match-three-cushion-third" --seed 53 --steps 7000000
+train match-three-cushion-fourth --from "$folder/match-three-cushion-third" --seed 53 --steps 7000000
+train match-three-cushion --from "$folder/match-three-cushion-fourth" --seed 63 --steps 12000000
 train thesis-r3 --table thesis --reward r3 --seed 1 --steps 4000000
 train thesis-one-cushion --table thesis --reward one-cushion --seed 1 --steps 3000000
 train thesis-three-cushion --table thesis --reward three-cushion --seed 1 --steps 2500000

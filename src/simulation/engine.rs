@@ -139,7 +139,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
-            dead: table.ball_restitution == 0.0 && table.rail_restitution == 0.0,
+            dead: table.ball_restitution == 0.0 && table.rail.largest_restitution(table.rail_restitution) == 0.0,
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),

@@ -66,10 +66,10 @@ pub struct Tolerance {
     pub negligible_coupled: f64,
 }
 
-/// How many more bounces a chatter has than at a restitution of 0.95: in inverse proportion to what is lost. Without loss none
-/// ends.
+/// How many times as many bounces a chatter has as at a restitution of 0.95, from as many up to ten times: in inverse proportion
+/// to what is lost. Without loss none ends.
 fn liveliness(table: &Table) -> f64 {
-    let lost = 1.0 - table.ball_restitution.max(table.rail_restitution);
+    let lost = 1.0 - table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
     if lost > 0.0 { (0.05 / lost).clamp(1.0, 10.0) } else { 1.0 }
 }
 

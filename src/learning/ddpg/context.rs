@@ -6,13 +6,14 @@ use super::{
     action::ActionSpace,
     features::{ACTION_FEATURES, FEATURE_VERSION, STATE_FEATURES},
 };
-use crate::{
-    player::Skill,
-    table::{Rail, RailModel, Rails, Table},
-};
+use crate::table::{Rail, RailModel, Rails, Table};
 
 /// Constants of a table that networks are told.
 const CONSTANTS: usize = 12;
+
+/// Errors in multiples of an expert's that are told as nought: about a club player's. Networks are trained with it, so it stays
+/// when levels change.
+const USUAL_ERRORS: f64 = 3.7;
 
 /// Numbers about a table and a player: the constants, which laws the table follows, the way it leans, and the errors.
 pub const CONTEXT_FEATURES: usize = CONSTANTS + 2 + 2 + 2;
@@ -70,11 +71,11 @@ impl Inputs {
 }
 
 /// Appends [`CONTEXT_FEATURES`] numbers of the order of one, for a table that is looked at in this mirror and a player whose
-/// errors are so many times an expert's ([`Skill::scale`]), 0 for one who has none.
+/// errors are so many times an expert's ([`scale`](crate::player::Skill::scale)), 0 for one who has none.
 pub fn push_context(table: &Table, mirror: DVec2, errors: f64, out: &mut Vec<f32>) {
     let lean = mirror * table.tilt / LEAN;
     let laws = [table.rail.model == RailModel::Equator, table.flight.is_some()].map(|law| f64::from(u8::from(law)));
-    let hand = if errors > 0.0 { [1.0, (errors / Skill::CLUB.scale()).ln()] } else { [0.0; 2] };
+    let hand = if errors > 0.0 { [1.0, (errors / USUAL_ERRORS).ln()] } else { [0.0; 2] };
     let numbers = told(table).into_iter().chain(laws).chain([lean.x, lean.y]).chain(hand);
     out.extend(numbers.map(|number| number as f32));
 }

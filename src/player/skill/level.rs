@@ -4,24 +4,24 @@ use super::{Growth, Skill};
 
 /// What a player averages at three-cushion whose errors are an expert's at the reference stroke, and the power by which the
 /// average falls with their size: the line through what the coach's shots made on `match`, table and placing in doubt, with
-/// errors of 1.27, 2.18, 3.7 and 9.2 times an expert's (averages 2.51, 1.17, 0.52 and 0.10 in 450, 200, 300 and 400
-/// innings), if both are drawn on logarithmic axes. `carom evaluate --self-play --rule three-cushion --skill club --layouts
-/// 600 --simulations 90000` measures one.
-const AVERAGE_OF_EXPERTS_ERRORS: f64 = 3.73;
-const FALL: f64 = 1.56;
+/// errors of 1.27, 1.49, 2.18, 3.63, 3.7, 7.85 and 9.2 times an expert's (averages 2.51, 2.32, 1.17, 0.69, 0.52, 0.18 and 0.10
+/// in 200 to 600 innings each), if both are drawn on logarithmic axes. `carom evaluate --self-play --rule three-cushion
+/// --skill club --layouts 300 --simulations 90000` measures one.
+const AVERAGE_OF_EXPERTS_ERRORS: f64 = 3.86;
+const FALL: f64 = 1.49;
 
 impl Skill {
     /// Averages about 2 points an inning at three-cushion.
-    pub const WORLD_CLASS: Self = Self::level(1.49);
+    pub const WORLD_CLASS: Self = Self::level(1.55);
 
     /// Averages about 1.
-    pub const NATIONAL: Self = Self::level(2.33);
+    pub const NATIONAL: Self = Self::level(2.45);
 
     /// Averages about 0.5.
-    pub const CLUB: Self = Self::level(3.63);
+    pub const CLUB: Self = Self::level(3.95);
 
     /// Averages about 0.15.
-    pub const BEGINNER: Self = Self::level(7.85);
+    pub const BEGINNER: Self = Self::level(8.8);
 
     /// A player whose errors at the reference stroke are so many times an expert's, and grow as usual.
     pub const fn level(scale: f64) -> Self {

@@ -23,8 +23,11 @@ pub struct Keys {
 impl Keys {
     /// Lets `pressed` do what `meant` does.
     pub fn add(&mut self, pressed: Chord, meant: Chord) {
-        self.pairs.retain(|(known, _)| *known != pressed);
-        self.pairs.push((pressed, meant));
+        // In its old place where it was known, as in the file.
+        match self.pairs.iter_mut().find(|(known, _)| *known == pressed) {
+            Some((_, known)) => *known = meant,
+            None => self.pairs.push((pressed, meant)),
+        }
     }
 
     /// What is meant by a key that was pressed.

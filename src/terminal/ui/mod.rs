@@ -30,7 +30,7 @@ pub use self::{
     input::{TextField, Typed, is_typed},
     message::{Message, Tone},
     panel::{draw_nothing, draw_title, frame, write_paragraphs},
-    profile::draw_profile,
+    profile::{draw_profile, side_view_below},
     sight::draw_sight,
     spin::draw_spin,
     status_line::{draw_question, draw_status},

@@ -22,6 +22,9 @@ use crate::{
 
 /// Columns left of the plot: a height, and the axis.
 const LEFT: u16 = 7;
+/// Rows of a side view that is taken from the table: a title, four of the plot, and the axis.
+const ROWS: u16 = 6;
+
 /// What ends a scale, in units of a power of ten.
 const ENDS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0];
 
@@ -29,6 +32,14 @@ const ENDS: [f64; 7] = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 15.0];
 const OBSTACLE_WEIGHT: u8 = 3;
 const COURSE_WEIGHT: u8 = 5;
 const BALL_WEIGHT: u8 = 32;
+
+/// Divides the room of a table, beside which panels begin at the row `panels`, into the table's and that of a side view below it.
+pub fn side_view_below(table: Rect, panels: u16) -> (Rect, Rect) {
+    let Rect { x, y, width, height } = table;
+    let bottom = panels.max(y + ROWS).min(y + height.max(ROWS));
+    let side = Rect::new(x, bottom - ROWS, width, ROWS);
+    (Rect { height: side.y - y, ..table }, side)
+}
 
 /// Draws the jump, with the ball where it is at `time`, s. Both scales are their own: heights are drawn larger than ways.
 pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area: Rect, ui: &mut Ui) {

@@ -9,7 +9,7 @@ use circles::circles;
 use imports::{Module, imports};
 
 /// The top-level modules from the ground up: each may use those before it, and none behind it.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "platform",
     "printing",
     "storage",
@@ -18,6 +18,7 @@ const ORDER: [&str; 15] = [
     "physics",
     "simulation",
     "game",
+    "player",
     "learning",
     "coach",
     "calibration",

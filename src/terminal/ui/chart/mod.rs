@@ -228,8 +228,7 @@ fn draw_shots(chart: &Chart, area: Rect, plot: Rect, grid: &Grid, ui: &mut Ui) {
         let column = plot.x + grid.column_of((tick.at * f64::from(grid.size().0 - 1)).round() as i32);
         let width = tick.label.len() as u16;
         let end = (column + 1 + width / 2).min(area.right());
-        let start = end.saturating_sub(width);
-        if start >= free {
+        if let Some(start) = end.checked_sub(width).filter(|start| *start >= free) {
             ui.buffer.set_stringn(start, plot.bottom(), &tick.label, usize::from(width), ui.theme.faint());
             free = end + 1;
             first = first.or(Some(start));

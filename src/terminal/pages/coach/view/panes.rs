@@ -3,7 +3,10 @@
 
 use ratatui::layout::Rect;
 
-use crate::{table::Table, terminal::Mapping};
+use crate::{
+    table::Table,
+    terminal::{Mapping, ui::side_view_below},
+};
 
 /// Rows of the panels below the table where all of them stand there: a title and seven lines at least; of every so many
 /// rows beyond those of the second size one more is theirs, up to the third number.
@@ -36,9 +39,6 @@ const WIDE_COLUMN: u16 = 30;
 const PRECISION_ROWS: (u16, u16) = (13, 10);
 const SIGHT_ROWS: [u16; 2] = [4, 5];
 const MANY_ROWS: u16 = 13;
-
-/// Rows of the side view where it is taken from the table: a title, four of the plot, and the axis.
-const SIDE_ROWS: u16 = 6;
 
 /// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
 /// several panels at once.
@@ -81,13 +81,11 @@ impl Panes {
     /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes rows
     /// from the table, else in the place of the view's panel and the shot's.
     pub fn with_side_view(self) -> (Self, Rect) {
-        let Rect { x, y, width, height } = self.table;
         if !self.is_beside() {
             return (self, self.info.union(self.shot));
         }
-        let bottom = self.info.y.max(y + SIDE_ROWS).min(y + height.max(SIDE_ROWS));
-        let side = Rect::new(x, bottom - SIDE_ROWS, width, SIDE_ROWS);
-        (Self { table: Rect { height: side.y - y, ..self.table }, ..self }, side)
+        let (table, side) = side_view_below(self.table, self.info.y);
+        (Self { table, ..self }, side)
     }
 
     /// All rows but the first, which is the header's, and the last two, for news and keys.

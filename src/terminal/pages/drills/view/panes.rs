@@ -2,14 +2,15 @@
 
 use ratatui::layout::Rect;
 
-use crate::{table::Table, terminal::Mapping};
+use crate::{
+    table::Table,
+    terminal::{Mapping, ui::side_view_below},
+};
 
 /// Rows of the panels below the table where all of them stand there: a title and seven lines.
 const BELOW: u16 = 8;
 /// The same where there is a column beside it: a title and four lines.
 const BELOW_BESIDE: u16 = 5;
-/// Rows of the side view where it is taken from the table: a title, four of the plot, and the axis.
-const SIDE_ROWS: u16 = 6;
 /// Columns beside the table: at least, and at most.
 const BESIDE: (u16, u16) = (22, 36);
 /// Columns of the stroke and the tip where all panels stand side by side.
@@ -56,13 +57,11 @@ impl Panes {
     /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes
     /// rows from the table, else in the place of the stroke's numbers, the tip and the sight.
     pub fn with_side_view(self) -> (Self, Rect) {
-        let Rect { x, y, width, height } = self.table;
         if self.stroke.y >= self.aim.y {
             return (self, self.stroke.union(self.sight));
         }
-        let bottom = self.aim.y.max(y + SIDE_ROWS).min(y + height.max(SIDE_ROWS));
-        let side = Rect::new(x, bottom - SIDE_ROWS, width, SIDE_ROWS);
-        (Self { table: Rect { height: side.y - y, ..self.table }, ..self }, side)
+        let (table, side) = side_view_below(self.table, self.aim.y);
+        (Self { table, ..self }, side)
     }
 
     fn all_below(table: &Table, area: Rect) -> Self {
