@@ -23,11 +23,10 @@ pub struct Keys {
 impl Keys {
     /// Lets `pressed` do what `meant` does.
     pub fn add(&mut self, pressed: Chord, meant: Chord) {
-        // In its old place where it was known, as in the file.
-        match self.pairs.iter_mut().find(|(known, _)| *known == pressed) {
-            Some((_, known)) => *known = meant,
-            None => self.pairs.push((pressed, meant)),
-        }
+        self.remove(pressed);
+        self.pairs.push((pressed, meant));
+        // In whatever order they were given: a file that is read again gives them by name.
+        self.pairs.sort_by_key(|(pressed, _)| name(*pressed));
     }
 
     /// What is meant by a key that was pressed.
