@@ -139,7 +139,7 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
     } else if args.policy_only {
         let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
         note_doubts(&policy, &table, reward.rule());
-        Player::Policy(policy)
+        Player::Policy(Box::new(policy))
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
         Player::Recommender(Box::new(coach), request(args, skill.unwrap_or(Skill::PERFECT)))

@@ -1,6 +1,11 @@
 //! What an evaluation measures, and the parts that several processes or machines share it out in.
 
-use std::{collections::BTreeSet, fmt, path::PathBuf, str::FromStr};
+use std::{
+    collections::BTreeSet,
+    fmt,
+    path::{Path, PathBuf},
+    str::FromStr,
+};
 
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +18,7 @@ use crate::{
 
 /// What is measured: all parts of an evaluation have it in common.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line, or follows from some")]
 pub struct Order {
     /// Who decides: "recommender", "policy" or "random search".
     pub player: String,
@@ -161,9 +167,10 @@ pub fn merged(files: &[PathBuf]) -> Result<(Order, Records), MergeError> {
     Ok((order, records))
 }
 
-fn read(path: &PathBuf) -> Result<Part, MergeError> {
-    let text = storage::read(path, storage::LARGE).map_err(|error| MergeError::File { path: path.clone(), error })?;
-    serde_json::from_slice(&text).map_err(|error| MergeError::Contents { path: path.clone(), error })
+fn read(path: &Path) -> Result<Part, MergeError> {
+    let text =
+        storage::read(path, storage::LARGE).map_err(|error| MergeError::File { path: path.to_owned(), error })?;
+    serde_json::from_slice(&text).map_err(|error| MergeError::Contents { path: path.to_owned(), error })
 }
 
 impl Records {

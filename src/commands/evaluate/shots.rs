@@ -34,7 +34,7 @@ pub enum Player {
     /// Networks and search together.
     Recommender(Box<Coach>, Request),
     /// The networks alone.
-    Policy(Policy),
+    Policy(Box<Policy>),
     /// The first of so many random shots that makes the point.
     RandomSearch(u32),
 }
