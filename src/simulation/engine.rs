@@ -23,6 +23,10 @@ use crate::{
 /// stability table counts the shots that come to it.
 const MOST_WORK: u32 = 6_000;
 
+/// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
+/// ten events, and one in a chatter some hundred.
+const MOST_EVENTS: u32 = 20_000;
+
 /// Bounces that take as long as one step of a resting contact.
 const STEP_WORK: u32 = 4;
 
@@ -176,7 +180,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
         }
-        while flow.is_continue() {
+        let mut events = 0;
+        while flow.is_continue() && events < MOST_EVENTS {
+            events += 1;
             let (mut next, mut source) = (f64::INFINITY, usize::MAX);
             for (index, &time) in self.times.iter().enumerate() {
                 if time < next {

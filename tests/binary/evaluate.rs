@@ -1,6 +1,6 @@
 //! `carom evaluate` in parts: together they report what one process does.
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, time::Duration};
 
 use serde_json::Value;
 
@@ -73,4 +73,13 @@ fn what_is_not_a_whole_is_refused_by_name() {
         let output = asked(&["evaluate", "--shard", shard]).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{shard}");
     }
+}
+
+/// A ball that a raised cue had brought above another met it in the air without end, and the coach never answered.
+#[test]
+fn a_ball_that_stays_above_another_keeps_nobody_waiting() {
+    let line = "evaluate --self-play --rule three-cushion --skill beginner --layouts 400 --simulations 90000 --seed 16";
+    let output = asked(&words(&format!("{line} --shard 54/400"))).timeout(Duration::from_secs(60)).assert().success();
+    let part: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    assert_eq!(part["records"]["innings"][0]["layout"], 53);
 }
