@@ -26,10 +26,13 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.wait_for_advice();
     session.wait_for("‖");
     session.send(".");
-    session.wait_for("Contacts 1/");
+    // A stroke with the cue raised makes the ball jump at once: then the first meeting is the second of the contacts.
+    let is_first =
+        |screen: &vt100::Screen| ["Contacts 1/", "Contacts 2/"].iter().any(|text| screen.contents().contains(text));
+    session.wait_until("the first event", is_first);
     session.send(" ");
     session.wait_until("it plays", |screen| !screen.contents().contains('‖'));
-    session.wait_until("the next event", |screen| !screen.contents().contains("Contacts 1/"));
+    session.wait_until("the next event", |screen| !is_first(screen));
     session.send(" ?");
     session.wait_for("Placing the balls");
     // Escape and q at once would be Alt-q.
