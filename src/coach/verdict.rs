@@ -214,7 +214,7 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{physics::CueInputs, table::Flight};
+    use crate::physics::CueInputs;
 
     fn told(point: Point, tally: Tally, cue_ball: CueBall) -> String {
         Verdict { point, tally, miss: None, off: [None; BALLS] }.words(cue_ball, LengthUnit::Metres)
@@ -277,7 +277,7 @@ mod tests {
     }
 
     fn flown(layout: &str, cue: &str, cue_ball: CueBall) -> String {
-        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let table = Table::default();
         let layout = Layout::parse(layout, &table).unwrap();
         let recording = Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap();
         Verdict::of(Rule::StraightRail, &table, &layout, &recording).words(cue_ball, LengthUnit::Metres)

@@ -7,7 +7,6 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
 
 use super::{Failure, input::table_named, output::tell};
 use crate::{
@@ -99,12 +98,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut out = printing::stdout();
     if args.json {
         for row in &references {
-            write_json(&mut out, row)?;
+            printing::json_line(&mut out, row)?;
         }
         for study in &studies {
-            write_json(&mut out, &study.summary)?;
+            printing::json_line(&mut out, &study.summary)?;
             for row in &study.rows {
-                write_json(&mut out, row)?;
+                printing::json_line(&mut out, row)?;
             }
         }
     } else {
@@ -136,7 +135,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
     }
     let mut out = printing::stdout();
     if args.json {
-        rows.iter().try_for_each(|row| write_json(&mut out, row))?;
+        rows.iter().try_for_each(|row| printing::json_line(&mut out, row))?;
     } else {
         out.write_all(filmed::text(&rows).as_bytes())?;
     }
@@ -159,8 +158,8 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
         let name = format!("fitted to {used}");
         let row = filmed::judge(&name, &fitted.table, judge_on);
         if args.json {
-            write_json(&mut out, &fitted)?;
-            write_json(&mut out, &row)?;
+            printing::json_line(&mut out, &fitted)?;
+            printing::json_line(&mut out, &row)?;
         } else {
             let judged = if std::ptr::eq(fit_on, judge_on) { "the same shots" } else { "the shots that were not used" };
             writeln!(out, "{}Judged on {judged}:\n{}", filmed::fit_text(&fitted, used), filmed::text(&[row]))?;
@@ -179,17 +178,12 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     let mut out = printing::stdout();
     if args.json {
         for row in &rows {
-            write_json(&mut out, row)?;
+            printing::json_line(&mut out, row)?;
         }
     } else {
         out.write_all(stability::text(&rows).as_bytes())?;
     }
     Ok(())
-}
-
-fn write_json(out: &mut impl Write, value: &impl Serialize) -> std::io::Result<()> {
-    printing::json(out, value)?;
-    writeln!(out)
 }
 
 /// The tables that are judged where none is named: two with usual strokes, and one with steep ones whose balls fly.

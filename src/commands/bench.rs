@@ -58,8 +58,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     written?;
     if args.json {
         let report = BenchReport { version: VERSION, machine: &machine, seconds: args.seconds, figures: &figures };
-        printing::json(&mut out, &report)?;
-        writeln!(out)?;
+        printing::json_line(&mut out, &report)?;
     }
     Ok(())
 }

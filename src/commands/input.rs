@@ -149,13 +149,12 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             Failure::wrong_input(format_args!("line {index} is not a valid JSON question: {reason}"))
         });
         match question.and_then(&mut answer) {
-            Ok(answer) => printing::json(&mut out, &answer)?,
+            Ok(answer) => printing::json_line(&mut out, &answer)?,
             Err(failure) => {
                 refused += 1;
-                printing::json(&mut out, &Refusal { error: failure.to_string() })?;
+                printing::json_line(&mut out, &Refusal { error: failure.to_string() })?;
             }
         }
-        writeln!(out)?;
         if file == "-" {
             // A program at the other end of a pipe waits for this answer before its next question.
             out.flush()?;

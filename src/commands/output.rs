@@ -54,9 +54,7 @@ pub fn impulse_words(impulse: &Impulse) -> String {
 
 /// A line of JSON on the standard output.
 pub fn json_line(value: &impl Serialize) -> io::Result<()> {
-    let mut out = printing::stdout();
-    printing::json(&mut out, value)?;
-    writeln!(out)
+    printing::json_line(&mut printing::stdout(), value)
 }
 
 /// Rows of cells as lines, as wide as a terminal shows them, whatever the cells hold; the columns in `numbers` stand to the right.

@@ -287,8 +287,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let mut out = printing::stdout();
     if args.json {
-        printing::json(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room))?;
-        writeln!(out)?;
+        printing::json_line(&mut out, &SimulateAnswer::of(&played, &verdict, cue_room))?;
     } else {
         describe(&mut out, args, &played, &verdict)?;
     }

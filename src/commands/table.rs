@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             for name in PRESETS {
                 let table = Table::preset(name).map_err(Failure::failed)?;
                 if args.json {
-                    json(&mut out, &table)?;
+                    printing::json_line(&mut out, &table)?;
                 } else {
                     writeln!(out, "{}", line(&table))?;
                 }
@@ -53,7 +53,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Order::Show { table } => {
             let table = table_named(table)?;
             if args.json {
-                json(&mut out, &table)?;
+                printing::json_line(&mut out, &table)?;
             } else {
                 write!(out, "{}", toml::to_string(&table).map_err(Failure::failed)?)?;
             }
@@ -64,7 +64,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             let table = Table::from_toml(&text)
                 .map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))?;
             if args.json {
-                json(&mut out, &table)?;
+                printing::json_line(&mut out, &table)?;
             } else {
                 writeln!(out, "{} can be played on: {}", file.display(), line(&table))?;
             }
@@ -80,9 +80,4 @@ fn line(table: &Table) -> String {
         "{name}: {length} x {width} m between the noses, balls of {} mm, rolling friction {rolling_friction}, cushions {rail_restitution}",
         2e3 * radius
     )
-}
-
-fn json(out: &mut impl Write, table: &Table) -> Result<(), Failure> {
-    printing::json(out, table)?;
-    Ok(writeln!(out)?)
 }

@@ -11,7 +11,7 @@ use std::{
 use super::{
     Failure,
     lookup::run_to_watch,
-    output::tell,
+    output::{json_line, tell},
     train::{line, print_runs},
 };
 use crate::{
@@ -107,13 +107,11 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
 
 /// A line of metrics: all of them as JSON, those with a measurement for people.
 fn print(record: &Record, json: bool) -> io::Result<()> {
-    let mut out = printing::stdout();
     if json {
-        printing::json(&mut out, record)?;
-        return writeln!(out);
+        return json_line(record);
     }
     match line(record) {
-        Some(line) => writeln!(out, "{line}"),
+        Some(line) => writeln!(printing::stdout(), "{line}"),
         None => Ok(()),
     }
 }

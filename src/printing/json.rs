@@ -7,11 +7,16 @@ use serde_json::{Serializer, ser::Formatter};
 
 use super::is_hidden;
 
-/// Writes `value` as JSON, without a new line at the end.
+/// Writes `value` as a line of JSON.
 ///
 /// # Errors
 /// What the output answers, or a value that JSON has no form for.
-pub fn json(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
+pub fn json_line(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
+    json(out, value)?;
+    out.write_all(b"\n")
+}
+
+fn json(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
     value.serialize(&mut Serializer::with_formatter(out, Escaping)).map_err(io::Error::from)
 }
 

@@ -11,7 +11,7 @@ mod version;
 mod visible;
 
 pub use self::{
-    json::{json, json_text},
+    json::{json_line, json_text},
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},
     version::{FULL_VERSION, SOURCE, TARGET, VERSION},
     visible::{OneLine, is_hidden},

@@ -92,13 +92,13 @@ fn deep_q_learning_finds_the_optimum() {
 #[test]
 fn the_deterministic_policy_gradient_finds_the_optimum() {
     // Strong noise that goes on from game to game, and targets that follow soon: the defaults are made for far more shots. With
-    // some seeds the plain algorithm loses its way even so: of 16 two do, and rounding decides which.
+    // some seeds the plain algorithm loses its way even so: of 16 two do, and rounding decides which and may cost a third.
     let noise = OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 1.0 };
     let settings = PlainDdpgSettings { keep: 0.99, noise, noise_restarts: false, ..PlainDdpgSettings::default() };
     let all = |shots: u32| (1..=16).map(|seed| learnt::<PlainDdpg>(settings.clone(), shots, seed)).collect::<Vec<_>>();
     let found = |earned: &[f64]| earned.iter().filter(|earned| **earned > 0.95).count();
     let (chance, earned) = (all(0), all(10_000));
-    assert!(found(&chance) == 0 && found(&earned) >= 12, "{chance:?} {earned:?}");
+    assert!(found(&chance) == 0 && found(&earned) >= 13, "{chance:?} {earned:?}");
 }
 
 fn start(agent: &str, settings: Value) -> Box<dyn Learner> {

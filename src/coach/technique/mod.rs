@@ -176,10 +176,9 @@ fn spread(layout: &Layout) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Flight;
 
     fn flown(layout: &str, cue: &str) -> Technique {
-        technique_on(&Table { flight: Some(Flight::default()), ..Table::default() }, layout, cue)
+        technique_on(&Table::default(), layout, cue)
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod robustness;
 mod self_play;
 mod shots;
 
-use std::{io::Write, path::PathBuf, time::Duration};
+use std::{path::PathBuf, time::Duration};
 
 use self::{
     order::{Order, Part, Records, Shard, merged},
@@ -16,13 +16,13 @@ use super::{
     Failure,
     input::{minutes, note_doubts, table_named},
     lookup::{policy_called, skill_called},
+    output::json_line,
     recommend::coach_for,
 };
 use crate::{
     coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
     learning::{Policy, evaluation::EVALUATION_SEED},
-    printing,
     table::Table,
 };
 
@@ -113,9 +113,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let (order, records) = if args.merge.is_empty() {
         let (order, records) = measure(args)?;
         if let Some(shard) = args.shard {
-            let mut out = printing::stdout();
-            printing::json(&mut out, &Part { order, shard, records })?;
-            return Ok(writeln!(out)?);
+            return Ok(json_line(&Part { order, shard, records })?);
         }
         (order, records)
     } else {

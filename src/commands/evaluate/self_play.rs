@@ -12,7 +12,10 @@ use serde::{Deserialize, Serialize};
 use super::order::{Order, Shard};
 use crate::{
     coach::{Coach, Doubt, Inning, Request, Skill, inning},
-    commands::{Failure, output::tell},
+    commands::{
+        Failure,
+        output::{json_line, tell},
+    },
     learning::evaluation::{SuccessRate, held_out_layouts},
     printing,
     table::Layout,
@@ -113,13 +116,7 @@ pub fn play(
 /// Prints the report over all innings.
 pub fn print(order: &Order, records: &[InningRecord], json: bool) -> std::io::Result<()> {
     let report = report(order, records);
-    let mut out = printing::stdout();
-    if json {
-        printing::json(&mut out, &report)?;
-        writeln!(out)
-    } else {
-        print_text(&mut out, &report)
-    }
+    if json { json_line(&report) } else { print_text(&mut printing::stdout(), &report) }
 }
 
 fn report<'a>(order: &'a Order, records: &[InningRecord]) -> SelfPlayReport<'a> {

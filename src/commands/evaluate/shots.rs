@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     coach::{Coach, Request, Skill},
+    commands::output::json_line,
     game::{Reward, Rule, scores},
     learning::{
         Policy, Proposal,
@@ -171,13 +172,7 @@ struct EvaluationReport<'a> {
 /// Prints the report over all layouts.
 pub fn print(order: &Order, records: &[ShotRecord], json: bool) -> std::io::Result<()> {
     let report = report(order, records);
-    let mut out = printing::stdout();
-    if json {
-        printing::json(&mut out, &report)?;
-        writeln!(out)
-    } else {
-        print_text(&mut out, &report, records.len())
-    }
+    if json { json_line(&report) } else { print_text(&mut printing::stdout(), &report, records.len()) }
 }
 
 fn report<'a>(order: &'a Order, records: &[ShotRecord]) -> EvaluationReport<'a> {

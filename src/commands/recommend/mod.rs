@@ -186,8 +186,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let answer = answer(args, &coach, &layout, args.rule)?;
     let mut out = printing::stdout();
     if args.json {
-        printing::json(&mut out, &answer)?;
-        writeln!(out)?;
+        printing::json_line(&mut out, &answer)?;
     } else {
         describe(&mut out, args, coach.table(), &answer)?;
     }

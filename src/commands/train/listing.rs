@@ -28,8 +28,7 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<(), Failure> {
     let mut out = printing::stdout();
     if json {
         for run in &runs {
-            printing::json(&mut out, run)?;
-            writeln!(out)?;
+            printing::json_line(&mut out, run)?;
         }
         return Ok(());
     }

@@ -59,6 +59,9 @@ pub struct Hyperparameters {
     /// Weight of the mean square by which the actor's outputs lie beyond 2, where the squashing is flat: an actor that has always
     /// struck as hard as it could never learns that another player must not.
     pub saturation_penalty: f64,
+    /// Whether a run that starts from other weights takes the critic alone, and its actor begins anew: one whose outputs lie where
+    /// the squashing is flat can no longer be turned.
+    pub new_actor: bool,
     /// How far the behaviour strays from the actor's proposals.
     pub exploration: Exploration,
 }
@@ -85,6 +88,7 @@ impl Default for Hyperparameters {
             demonstrations: 0.0,
             logit_weight: 0.02,
             saturation_penalty: 0.0,
+            new_actor: false,
             exploration: Exploration::default(),
         }
     }

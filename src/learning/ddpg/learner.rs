@@ -131,7 +131,11 @@ impl Learner for Trainer {
             Err(WeightsError::Array { name, expected })
         };
         let adopted = Networks {
-            actor: network("actor", Inputs::actor, own.actor.sizes())?,
+            actor: if self.agent.hyper.new_actor {
+                own.actor.duplicate()?
+            } else {
+                network("actor", Inputs::actor, own.actor.sizes())?
+            },
             critic: network("critic", Inputs::critic, own.critic.sizes())?,
         };
         self.agent = Ddpg::starting_from(adopted, self.agent.hyper.clone())?;
@@ -144,7 +148,7 @@ mod tests {
     use super::*;
     use crate::{
         game::Rule,
-        learning::{Policy, ddpg::trainer::tests::small_task, evaluation::held_out_layouts},
+        learning::{Policy, ddpg::trainer::tests::small_task, evaluation::held_out_layouts, nn::mlp::Mlp},
     };
 
     #[test]
@@ -198,6 +202,15 @@ mod tests {
                 assert!((old.cue.phi - told.cue.phi).abs() < 1e-4 && (old.success - told.success).abs() < 1e-4);
             }
         }
+        // Asked to, it takes the critic alone.
+        let mut task = pupil.task.clone();
+        task.hyperparameters.new_actor = true;
+        let mut fresh = Trainer::new(task.clone(), table.clone()).unwrap();
+        fresh.load_weights(&Reader::new(&file).unwrap()).unwrap();
+        let parameters = |network: &Mlp| network.parameters().to_vec1::<f32>().unwrap();
+        let begun = Trainer::new(task, table.clone()).unwrap();
+        assert_eq!(parameters(&fresh.agent.target().actor), parameters(&begun.agent.target().actor));
+        assert_eq!(parameters(&fresh.agent.target().critic), parameters(&pupil.agent.target().critic));
         // Once it has learnt, it makes a difference who plays.
         for _ in 0..30 {
             pupil.iterate().unwrap();

@@ -112,9 +112,7 @@ impl MetricsFile {
     /// Adds a line to those that wait.
     pub fn push(&mut self, record: &Record) {
         // A record has nothing but numbers under fixed names, and memory takes any number of bytes.
-        if printing::json(&mut self.waiting, record).is_ok() {
-            self.waiting.push(b'\n');
-        }
+        let _ = printing::json_line(&mut self.waiting, record);
     }
 
     /// Writes the lines that wait.

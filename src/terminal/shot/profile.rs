@@ -153,13 +153,10 @@ fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        physics::CueInputs,
-        table::{Flight, Layout},
-    };
+    use crate::{physics::CueInputs, table::Layout};
 
     fn profile(layout: &str, cue: &str) -> Option<Profile> {
-        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let table = Table::default();
         let layout = Layout::parse(layout, &table).unwrap();
         let recording = Recording::new(&table, &layout, &CueInputs::parse(cue).unwrap()).unwrap();
         Profile::of(&table, &recording)

@@ -189,13 +189,13 @@ mod tests {
     use crate::{
         physics::CueInputs,
         simulation::Recording,
-        table::{Flight, Layout, Table},
+        table::{Layout, Table},
         terminal::{Capabilities, Depth, Keys, ui::Theme},
     };
 
     /// The picture of a jump over yellow, row by row.
     fn picture(time: Option<f64>, caps: Capabilities) -> (Vec<String>, Buffer) {
-        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let table = Table::default();
         let layout = Layout::parse("-0.5,0 -0.2,0 0.9,0.5", &table).unwrap();
         let recording = Recording::new(&table, &layout, &CueInputs::parse("0,0,45,0,5").unwrap()).unwrap();
         let profile = Profile::of(&table, &recording).unwrap();

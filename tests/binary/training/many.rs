@@ -58,8 +58,9 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     let config = |run: &str| -> Value {
         serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap()
     };
+    let (weights, checkpoint) = ("one/policy.safetensors", "one/checkpoint.safetensors");
     for (from, run) in
-        [("one", "of-run"), ("one/policy.safetensors", "of-policy"), ("one/checkpoint.safetensors", "of-file")]
+        [("one", "of-run"), (weights, "of-policy"), (weights, "of-policy-again"), (checkpoint, "of-file")]
     {
         done(here, &format!("train --from {from} --reward r1 --steps 64 --evaluation-layouts 20 --run {run}"));
         let (config, origin) = (config(run), &config(run)["from"]);
@@ -67,10 +68,11 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
         assert_eq!((&origin["reward"], &config["reward"]), (&"r3".into(), &"r1".into()));
         assert_eq!((&config["table"]["name"], &config["settings"]["batch"]), (&"thesis".into(), &32.into()));
     }
-    // Its seed, table and settings are the same for all three: so are the weights that they end with, but that a policy's have half
-    // the digits to begin with.
+    // Its seed, table and settings are the same for all: so are the weights that they end with, but that a policy's have half the
+    // digits to begin with.
     let policy = |run: &str| fs::read(here.join(run).join("policy.safetensors")).unwrap();
-    assert!(policy("of-run") == policy("of-file") && policy("of-policy").len() == policy("of-run").len());
+    assert!(policy("of-run") == policy("of-file") && policy("of-policy") == policy("of-policy-again"));
+    assert!(policy("of-policy") != policy("of-run") && policy("of-policy").len() == policy("of-run").len());
     done(here, "train --config small.toml --reward r1 --steps 64 --evaluation-layouts 20 --table thesis --run none");
     assert!(policy("of-run") != policy("none"));
 

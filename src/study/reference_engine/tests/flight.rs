@@ -24,7 +24,7 @@ fn tables() -> [Table; 5] {
         flight: Some(Flight { restitution: 0.6, friction: Some(0.4) }),
         ..table("textbook", RailModel::Nose, 0.5)
     };
-    let whole_match = Table { flight: Some(Flight::default()), ..Table::default() };
+    let whole_match = Table::default();
     [
         Table { flight: whole_match.flight, ..Table::preset("textbook").unwrap() },
         table("textbook", RailModel::Smooth, 0.0),
@@ -86,7 +86,7 @@ fn a_ball_thrown_straight_up_hops_for_the_sum_of_all_hops() {
 
 #[test]
 fn a_ball_with_much_follow_climbs_the_nose_and_one_shot_over_it_is_off_the_table() {
-    let table = Table { flight: Some(Flight::default()), ..Table::default() };
+    let table = Table::default();
     let climbs = played(&table, [5.0, 0.0, 0.0], [0.0, 900.0, 0.0]);
     let kinds: Vec<_> = climbs.events.iter().map(|event| event.1).take(2).collect();
     assert_eq!(kinds, [EventKind::BallRail(0, Rail::Right), EventKind::Jumps(0)]);
@@ -98,7 +98,7 @@ fn a_ball_with_much_follow_climbs_the_nose_and_one_shot_over_it_is_off_the_table
 
 #[test]
 fn a_stroke_presses_the_ball_into_the_cloth_as_the_simulators_does() {
-    let table = Table { flight: Some(Flight::default()), ..Table::default() };
+    let table = Table::default();
     let (numbers, of) = (Numbers::<D>::of(&table), D::of);
     for (b, theta) in [(0.1, 0.05), (-0.3, 0.6), (0.4, 1.4)] {
         let cue = crate::physics::CueInputs { a: 0.2, b, theta, phi: 1.1, speed: 3.0 };

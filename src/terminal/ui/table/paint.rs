@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use crate::{
         physics::CueInputs,
-        table::{Flight, Layout, Table},
+        table::{Layout, Table},
         terminal::{
             Capabilities, Depth, Keys, Mapping, Palette, Shot,
             ui::{TableView, draw_table},
@@ -155,7 +155,7 @@ mod tests {
 
     /// The table at `time` of a shot on a table that lets balls fly, and the shot.
     fn flown(layout: &str, cue: &str, time: f64, caps: Capabilities) -> (Buffer, Shot, Mapping) {
-        let table = Table { flight: Some(Flight::default()), ..Table::default() };
+        let table = Table::default();
         let layout = Layout::parse(layout, &table).unwrap();
         let shot = Shot::new(&table, &layout, CueInputs::parse(cue).unwrap(), false, "test").unwrap();
         let theme = Theme::new(caps.depth);
