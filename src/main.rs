@@ -7,7 +7,8 @@ use std::{io::Write, process::ExitCode};
 
 use carom::{commands::Cli, printing};
 
-// A quarter of a small network's update is malloc and free; mimalloc alone makes training 1.3 to 3 times faster.
+// A quarter of a small network's update is malloc and free; mimalloc alone makes training 1.3 to 3 times faster. It is built
+// without huge pages (`no_thp`): each makes 2 MB resident for the first byte in it, 17 MB after a recommendation, and nothing is faster.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

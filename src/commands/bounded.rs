@@ -1,20 +1,17 @@
 //! One shot within bounds: of time, and of what numbers can hold. A table may be stiff beyond any use and still be a table.
 
-use std::{
-    ops::ControlFlow,
-    time::{Duration, Instant},
-};
+use std::time::Duration;
 
 use super::Failure;
 use crate::{
     physics::{CueInputs, Impulse, strike},
-    simulation::{End, Event, Observer, Recorder, Recording, Segment, simulate},
+    simulation::{Bounded, End, Recorder, Recording, simulate},
     study::{Stepped, Steps},
-    table::{BALLS, Layout, Table},
+    table::{Layout, Table},
 };
 
-/// Longest time that one shot may take, s. The slowest on a table that exists take some milliseconds.
-const LONGEST: u64 = 5;
+/// Longest time that one shot may take. The slowest on a table that exists take some milliseconds.
+const LONGEST: Duration = Duration::from_secs(5);
 
 /// Most steps of one shot: some seconds of them.
 const MOST_STEPS: f64 = 4e6;
@@ -25,9 +22,9 @@ const MOST_STEPS: f64 = 4e6;
 /// What is wrong with the layout or the stroke; and where it takes too long or its numbers get out of hand.
 pub fn play(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Recording, Failure> {
     let (recording, is_over) = Recording::played_by(table, layout, cue, |impulse, recorder| {
-        let mut bounded = Bounded::new(recorder);
+        let mut bounded = Bounded::new(recorder, LONGEST, u32::MAX);
         let end = simulate(table, layout, impulse, &mut bounded);
-        (end, bounded.is_over)
+        (end, bounded.is_over())
     })
     .map_err(Failure::wrong_input)?;
     finite(table, recording, is_over)
@@ -61,9 +58,9 @@ pub fn play_in_steps(
         )));
     }
     let play = |impulse: &Impulse, recorder: &mut Recorder| -> (End, (Stepped, bool)) {
-        let mut bounded = Bounded::new(recorder);
+        let mut bounded = Bounded::new(recorder, LONGEST, u32::MAX);
         let stepped = steps.simulate(table, layout, impulse, &mut bounded);
-        (stepped.end, (stepped, bounded.is_over))
+        (stepped.end, (stepped, bounded.is_over()))
     };
     let (recording, (stepped, is_over)) =
         Recording::played_by(table, layout, cue, play).map_err(Failure::wrong_input)?;
@@ -74,60 +71,15 @@ fn finite(table: &Table, recording: Recording, is_over: bool) -> Result<Recordin
     let name = &table.name;
     if is_over {
         return Err(Failure::failed(format_args!(
-            "the shot takes more than {LONGEST} s to compute on \"{name}\" and is given up; larger time steps or a table \
-             that is less stiff would do"
+            "the shot takes more than {} s to compute on \"{name}\" and is given up; larger time steps or a table \
+             that is less stiff would do",
+            LONGEST.as_secs()
         )));
     }
-    let end = recording.duration();
-    let positions = recording.final_layout().balls;
-    let is_finite = end.is_finite()
-        && positions.iter().all(|position| position.is_finite())
-        && (0..BALLS).all(|ball| recording.state(ball, end).spin.is_finite())
-        && recording.events().iter().all(|event| event.time.is_finite());
-    if is_finite {
+    if recording.is_finite() {
         return Ok(recording);
     }
     Err(Failure::failed(format_args!(
         "the shot's numbers do not stay finite on \"{name}\"; a table with less friction between balls or on cushions would do"
     )))
-}
-
-/// Records until it has taken too long.
-struct Bounded<'a> {
-    recorder: &'a mut Recorder,
-    until: Instant,
-    is_over: bool,
-}
-
-impl<'a> Bounded<'a> {
-    fn new(recorder: &'a mut Recorder) -> Self {
-        Self { recorder, until: Instant::now() + Duration::from_secs(LONGEST), is_over: false }
-    }
-
-    fn go_on(&mut self) -> ControlFlow<()> {
-        self.is_over |= Instant::now() > self.until;
-        if self.is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-}
-
-impl Observer for Bounded<'_> {
-    const SEGMENTS: bool = true;
-
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.recorder.event(event)?;
-        self.go_on()
-    }
-
-    fn bounce(&mut self, bounce: Event) {
-        self.recorder.bounce(bounce);
-    }
-
-    fn contact_step(&mut self) -> ControlFlow<()> {
-        self.recorder.contact_step()?;
-        self.go_on()
-    }
-
-    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
-        self.recorder.segment(ball, segment, end);
-    }
 }

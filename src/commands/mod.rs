@@ -10,6 +10,7 @@ mod documents;
 mod drill;
 mod evaluate;
 mod failure;
+mod follow;
 mod input;
 mod lookup;
 mod output;
@@ -34,6 +35,9 @@ use crate::{
     storage::{Player, notice},
     terminal::{Seat, Settings, TerminalError},
 };
+
+/// Where sshd puts what a client has asked for, if a key may run one command only.
+const ASKED_OVER_SSH: &str = "SSH_ORIGINAL_COMMAND";
 
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
@@ -62,6 +66,7 @@ enum Command {
     Recommend(recommend::Args),
     Train(train::Args),
     Watch(watch::Args),
+    Follow(follow::Args),
     Drill(drill::Args),
     Play(play::Args),
     Evaluate(evaluate::Args),
@@ -82,7 +87,8 @@ impl Cli {
     /// # Errors
     /// Where it is wrong or asks for help: all is said then, and this is the exit code.
     pub fn read() -> Result<Self, ExitCode> {
-        Self::try_parse().map_err(|answer| {
+        let asked = std::env::var(ASKED_OVER_SSH).unwrap_or_default();
+        Self::try_parse().and_then(|cli| cli.asked(&asked)).map_err(|answer| {
             // A value that is right and whose file cannot be read is no wrong input.
             if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
                 && failure.code() != 2
@@ -90,13 +96,24 @@ impl Cli {
                 tell(format_args!("carom: {failure}"));
                 return ExitCode::from(failure.code());
             }
-            let is_safe = std::env::args_os().all(|argument| !argument.to_string_lossy().chars().any(is_hidden));
+            let words = std::env::args_os().chain([asked.clone().into()]);
+            let is_safe = words.into_iter().all(|word| !word.to_string_lossy().chars().any(is_hidden));
             // clap repeats what it was given as it is, between the codes of its own bold words.
             let said = if is_safe { answer.print() } else { write!(printing::stderr(), "{}", answer.render()) };
             // Nobody may be left to tell.
             let _ = said;
             ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2))
         })
+    }
+
+    /// The same with what a guest has asked for behind `ssh`: another player may be followed so, and nothing else be done.
+    fn asked(self, words: &str) -> Result<Self, clap::Error> {
+        let words: Vec<&str> = words.split_whitespace().collect();
+        if !self.guest || words.first() != Some(&"follow") {
+            return Ok(self);
+        }
+        let asked = Self::try_parse_from(["carom"].iter().chain(&words))?;
+        Ok(Self { command: asked.command, ..self })
     }
 
     /// Whose files are read and written.
@@ -111,7 +128,7 @@ impl Cli {
         let seat = self.seat()?;
         // A table on the command line is that of whoever runs the machine.
         let named = self.table.as_deref().map(input::table_named).transpose()?;
-        seat.take().map_err(|error| {
+        seat.take(None).map_err(|error| {
             let folder = seat.places.own.display();
             Failure::failed(format_args!("the player's folder {folder} cannot be made: {error}"))
         })?;
@@ -143,6 +160,7 @@ impl Cli {
             Some(Command::Recommend(args)) => recommend::run(&args),
             Some(Command::Train(args)) => train::run(&args),
             Some(Command::Watch(args)) => watch::run(&args),
+            Some(Command::Follow(ref args)) => follow::run(args, self.seat()?),
             Some(Command::Drill(args)) => drill::run(&args),
             Some(Command::Play(args)) => play::run(&args),
             Some(Command::Evaluate(args)) => evaluate::run(&args),

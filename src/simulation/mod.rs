@@ -4,6 +4,7 @@ mod active_set;
 mod aloft;
 mod alone;
 mod ball_ball;
+mod bounded;
 mod chatter;
 mod constants;
 mod contact_mode;
@@ -31,6 +32,7 @@ mod tests;
 
 pub use crate::table::Rail;
 pub use aloft::Nose;
+pub use bounded::Bounded;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, StepBudget};

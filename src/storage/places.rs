@@ -36,6 +36,8 @@ pub struct Places {
     pub tables: PathBuf,
     /// What the last session of the screen left.
     pub last: PathBuf,
+    /// The folder of what others may see, while the player allows it.
+    pub shown: PathBuf,
     /// What happened, line by line.
     pub log: PathBuf,
     /// Which notices have been given.
@@ -63,11 +65,16 @@ impl Places {
     /// # Errors
     /// Where the account has no home.
     pub fn of_player(player: &Player) -> io::Result<Self> {
-        let dirs = ProjectDirs::from("", "", "carom").ok_or_else(|| {
+        let players = Self::players().ok_or_else(|| {
             io::Error::new(io::ErrorKind::NotFound, "this account has no home to keep players' files in")
         })?;
         let account = Self::of_this_user();
-        Ok(Self { runs: account.runs, ..Self::under(&dirs.data_dir().join(PLAYERS).join(player.folder())) })
+        Ok(Self { runs: account.runs, ..Self::under(&players.join(player.folder())) })
+    }
+
+    /// Where the players of this account have their folders; none where it has no home.
+    pub fn players() -> Option<PathBuf> {
+        Some(ProjectDirs::from("", "", "carom")?.data_dir().join(PLAYERS))
     }
 
     /// All of it in one folder.
@@ -86,6 +93,7 @@ impl Places {
             daily_check: data.join("calibration-daily.toml"),
             tables: data.join("tables"),
             last: state.join("last.json"),
+            shown: data.join("shown"),
             log: state.join("carom.log"),
             notices: state.join("notices"),
             settings,

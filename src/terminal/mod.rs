@@ -13,6 +13,7 @@ mod pages;
 mod plain;
 mod seat;
 mod shot;
+mod shown;
 mod tasks;
 mod ui;
 mod words;
@@ -50,7 +51,7 @@ pub use keymap::remap::Keys;
 pub use pages::{
     calibration::keys::{CalibrationAction, CalibrationCondition, CalibrationContext},
     coach::{
-        AdviceState, Mode, View,
+        AdviceState, Followed, Mode, View,
         keys::{CoachAction, CoachCondition},
     },
     drills::keys::{DrillAction, DrillCondition, DrillContext},
@@ -60,13 +61,16 @@ pub use pages::{
     },
     training::keys::{TrainingAction, TrainingCondition, TrainingContext},
 };
+pub use plain::follow::follow_in_lines;
 pub use seat::{LONGEST_FOR_GUESTS, Seat};
 pub use shot::{Shot, StrokeChange, film::FilmScene};
+pub use shown::{Author, Doing, ShownShot, ShownTable, Sight, all_shown};
 pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
     calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
     drills::{DrillReport, DrillTask, JudgedStroke, Loaded, Outcome, Position, Stroke, Taught},
+    onlooker::{Onlooker, Seen, SeenTable},
     recommender::{Answer, CoachNews, CoachWorker, Job},
     reel::{Reel, Scene},
     training::{Failure, Keeping, Kept, Launch, Report, Slot, Subscriptions},
@@ -146,6 +150,25 @@ fn seed() -> u64 {
 /// Whether there is a terminal on both sides that can show pictures.
 pub fn is_there() -> bool {
     host::has_terminal()
+}
+
+/// The table of somebody else, who shows it in `folder` and is called `name`, on the screen, for the player at `seat` as they want
+/// it.
+///
+/// # Errors
+/// [`TerminalError`]: no terminal, or one that fails.
+pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Result<(), TerminalError> {
+    if !is_there() {
+        return Err(TerminalError::NoTerminal);
+    }
+    let table = Table::default();
+    let layout = Layout::opening(&table);
+    let app = App::new(table, layout, detect(settings), seed())?
+        .with_detection(detect)
+        .with_seat(&seat)
+        .with_settings(settings)
+        .following(name.to_owned(), folder.to_owned());
+    Ok(host::runner::run(app, seat.places)?)
 }
 
 /// The training screen, following `run`, or with the runs in `list`, by default the user's, to choose from.

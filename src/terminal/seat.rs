@@ -1,7 +1,7 @@
 //! Who sits at the terminal: the user of this account, one of several players who share it, or a guest of a machine that is not
 //! theirs.
 
-use std::io;
+use std::{io, path::Path};
 
 use super::Settings;
 use crate::{
@@ -18,6 +18,8 @@ const LEAST_ROOM: u64 = 1 << 18;
 /// Whose files are read and written, and what may be done.
 #[derive(Clone, Debug)]
 pub struct Seat {
+    /// The player's name, where they have one.
+    pub player: Option<Player>,
     /// Where this player's files are.
     pub places: Places,
     /// Guests start and steer no training, read and write no files but their own, think for a second at most and on one
@@ -28,7 +30,7 @@ pub struct Seat {
 impl Seat {
     /// The user's own.
     pub fn of_this_user() -> Self {
-        Self { places: Places::of_this_user(), is_guest: false }
+        Self { player: None, places: Places::of_this_user(), is_guest: false }
     }
 
     /// That of a player with a folder of their own.
@@ -36,16 +38,18 @@ impl Seat {
     /// # Errors
     /// Where the account has no home.
     pub fn of_player(player: &Player, is_guest: bool) -> io::Result<Self> {
-        Ok(Self { places: Places::of_player(player)?, is_guest })
+        Ok(Self { player: Some(player.clone()), places: Places::of_player(player)?, is_guest })
     }
 
-    /// Holds this process to what the player may do, for as long as it runs.
+    /// Holds this process to what the player may do, for as long as it runs; what somebody else shows in the folder `seen` may
+    /// be read too.
     ///
     /// # Errors
     /// Where a guest's folder cannot be made.
-    pub fn take(&self) -> io::Result<()> {
+    pub fn take(&self, seen: Option<&Path>) -> io::Result<()> {
         if self.is_guest {
-            storage::confine(&self.places.own, &[&self.places.runs])?;
+            let read: Vec<&Path> = seen.into_iter().chain([&*self.places.runs]).collect();
+            storage::confine(&self.places.own, &read)?;
             platform::limit_threads(1);
         }
         Ok(())

@@ -173,6 +173,7 @@ pub fn bindings(place: KeyContext) -> Vec<Bound> {
     match place {
         KeyContext::Coach => take(&mut all, coach::COACH, A::Coach, Condition::Coach, coach::words),
         KeyContext::OwnStroke => take(&mut all, coach::OWN_STROKE, A::Coach, Condition::Coach, coach::words),
+        KeyContext::Follow => take(&mut all, coach::FOLLOW, A::Coach, Condition::Coach, coach::words),
         KeyContext::Question(place) => take(&mut all, place.bindings(), A::Coach, Condition::Coach, coach::words),
         KeyContext::Training(place) => {
             take(&mut all, place.bindings(), A::Training, Condition::Training, training::words);
@@ -253,7 +254,7 @@ mod tests {
     };
 
     fn places() -> impl Iterator<Item = KeyContext> {
-        [KeyContext::Coach, KeyContext::OwnStroke, KeyContext::CommandPalette]
+        [KeyContext::Coach, KeyContext::OwnStroke, KeyContext::Follow, KeyContext::CommandPalette]
             .into_iter()
             .chain(TrainingContext::ALL.map(KeyContext::Training))
             .chain(QuestionContext::ALL.map(KeyContext::Question))

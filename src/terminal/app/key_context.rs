@@ -14,6 +14,8 @@ pub enum KeyContext {
     Coach,
     /// The player's own stroke there.
     OwnStroke,
+    /// The table of somebody else, who is followed.
+    Follow,
     /// What is asked over its table.
     Question(QuestionContext),
     /// One of the training pages, or what is asked there.
@@ -30,9 +32,10 @@ pub enum KeyContext {
 
 impl KeyContext {
     /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 16] = [
+    pub const PAGES: [(Self, &'static str); 17] = [
         (Self::Coach, "Coach"),
         (Self::OwnStroke, "Coach: your stroke"),
+        (Self::Follow, "Following a player"),
         (Self::Drill(DrillContext::Library), "Drills: library"),
         (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
         (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
@@ -52,7 +55,7 @@ impl KeyContext {
     /// Whether letters are typed there, or answers.
     pub const fn takes_letters(self) -> bool {
         match self {
-            Self::Coach | Self::OwnStroke => false,
+            Self::Coach | Self::OwnStroke | Self::Follow => false,
             Self::Training(place) => place.takes_letters(),
             Self::Drill(place) => place.takes_letters(),
             Self::Settings(place) => place.takes_letters(),

@@ -100,7 +100,7 @@ impl App {
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         match when {
             Condition::Help => self.help.is_none().then_some("the help is not open"),
-            Condition::Tabs => self.stands_alone().then_some("carom watch has no other screens; carom has them all"),
+            Condition::Tabs => self.stands_alone().then_some("there are no other screens here; carom has them all"),
             _ if self.help.is_some() => Some("close the help first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
@@ -130,6 +130,7 @@ impl App {
         match self.screen {
             PageId::Coach => match self.coach.question().filter(|_| self.help.is_none()) {
                 Some(question) => KeyContext::Question(question),
+                None if self.coach.followed().is_some() => KeyContext::Follow,
                 None if self.coach.what_if().is_some() => KeyContext::OwnStroke,
                 None => KeyContext::Coach,
             },

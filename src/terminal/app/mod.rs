@@ -41,6 +41,7 @@ use crate::{
             drills::{Balls, DrillsPage},
             training::TrainingPage,
         },
+        shown::ShownTable,
         ui::Theme,
     },
 };
@@ -155,11 +156,19 @@ impl App {
         let file = seat.places.settings.clone();
         let mut app = self.with_places(seat.places.clone()).with_settings_file(file);
         app.is_guest = seat.is_guest;
+        app.coach.player.clone_from(&seat.player);
         app.training.is_guest = seat.is_guest;
         if seat.is_guest {
             app.coach.think_at_most(Duration::from_millis(LONGEST_FOR_GUESTS));
         }
         app
+    }
+
+    /// The same program that shows the table of somebody else, who shows it in `folder`, and nothing else.
+    #[must_use]
+    pub fn following(mut self, name: String, folder: PathBuf) -> Self {
+        self.coach.follow(name, folder);
+        self
     }
 
     /// The same program as the user wants it.
@@ -305,7 +314,21 @@ impl App {
 
     /// What the program around has to find out as long as it is wanted; it goes to [`App::receive_report`].
     pub fn wanted(&self) -> Subscriptions {
+        if let Some(followed) = self.coach.followed() {
+            return Subscriptions { shown: Some(followed.folder.clone()), ..Subscriptions::default() };
+        }
         if self.screen == PageId::Training { self.training.wanted() } else { Subscriptions::default() }
+    }
+
+    /// What others may see of the coach's table, while the player allows it.
+    pub fn shown_table(&self) -> Option<ShownTable> {
+        self.coach.shown_table(self.screen == PageId::Coach)
+    }
+
+    /// It cannot be shown, as the sentence says.
+    pub fn not_shown(&mut self, sentence: String) {
+        self.coach.hide();
+        self.failed(sentence);
     }
 
     /// Lets `seconds` pass for whatever moves on the screen.

@@ -47,6 +47,6 @@ impl App {
 
     /// Whether there is no other screen to go to.
     pub const fn stands_alone(&self) -> bool {
-        self.training.alone
+        self.training.alone || self.coach.followed().is_some()
     }
 }

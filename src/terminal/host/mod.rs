@@ -8,5 +8,6 @@ mod log;
 mod pace;
 pub mod runner;
 mod sgr;
+mod showing;
 
 pub use self::guard::has_terminal;

@@ -15,7 +15,7 @@ use crate::{
     storage::Places,
     terminal::{
         Answer, App, CoachNews, Effect, Job, Report, SavedSession, SessionParts,
-        host::{events, guard::TerminalGuard, log, pace::Pace},
+        host::{events, guard::TerminalGuard, log, pace::Pace, showing::Showing},
         tasks::{Tasks, event::Event},
     },
 };
@@ -47,9 +47,11 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let tasks = Tasks::new(to_screen);
     let remembered = (None, Instant::now());
     let ticked = Instant::now();
+    let showing = Showing::new(places.shown.clone());
     let mut runner =
-        Runner { app, session, tasks, places, ticked, remembered, forgotten: false, written: String::new() };
+        Runner { app, session, tasks, places, ticked, remembered, forgotten: false, written: String::new(), showing };
     let end = runner.until_the_end(&news);
+    runner.showing.end();
     runner.remember(true);
     info!(?end, "the screen closes");
     let left = runner.session.leave();
@@ -84,6 +86,8 @@ struct Runner {
     forgotten: bool,
     /// What was last written into the log.
     written: String,
+    /// The table as others see it, if they may.
+    showing: Showing,
 }
 
 impl Runner {
@@ -96,7 +100,8 @@ impl Runner {
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast goes by itself: one picture more, and no other.
             let toast = self.app.toast_time().map(|left| self.ticked + Duration::from_secs_f64(left));
-            let first = match pace.wake(interval).into_iter().chain(toast).chain(self.forgets()).min() {
+            let writing = self.forgets().into_iter().chain(self.showing.due(&self.app));
+            let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => news.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(due) => news.recv_timeout(due.saturating_duration_since(Instant::now())),
@@ -129,6 +134,7 @@ impl Runner {
             }
             // Before the picture: a slow link may hold that up.
             self.remember(false);
+            self.show();
             self.write_down();
             self.draw()?;
             pace.drew(Instant::now());
@@ -161,6 +167,13 @@ impl Runner {
             }
         }
         self.remembered = (last, Instant::now());
+    }
+
+    /// Shows the table to others, as far as they may see it.
+    fn show(&mut self) {
+        if let Err(sentence) = self.showing.write(&self.app) {
+            self.app.not_shown(sentence);
+        }
     }
 
     /// Writes refusals and failures down that were shown.

@@ -1,6 +1,7 @@
 //! The coach as a conversation: lines in, sentences out. For screen readers, dumb terminals and scripts.
 
 mod film;
+pub mod follow;
 mod order;
 mod speech;
 

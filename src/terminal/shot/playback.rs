@@ -87,6 +87,12 @@ impl Playback {
         self.playing = false;
     }
 
+    /// Goes on as another clock does that stands at `time` in a shot of this `duration`.
+    pub fn follow(&mut self, time: f64, duration: f64, playing: bool) {
+        self.jump(time.min(duration));
+        self.playing = playing && time < duration;
+    }
+
     /// Pauses at the first event after now, or at the end.
     pub fn step_forward(&mut self, events: &[Event], duration: f64) {
         let next = events.iter().find(|event| event.time > self.time);
@@ -142,6 +148,15 @@ mod tests {
         assert!(!playback.playing && playback.time == 2.0);
         playback.toggle(2.0);
         assert!(playback.playing && playback.time == 0.0);
+    }
+
+    #[test]
+    fn another_clock_is_followed_to_the_end_of_the_shot_and_no_further() {
+        let mut playback = Playback::default();
+        playback.follow(1.5, 2.0, true);
+        assert!(playback.playing && (playback.time, playback.readout) == (1.5, 1.5));
+        playback.follow(7.0, 2.0, true);
+        assert!(!playback.playing && playback.time == 2.0);
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod advice;
 pub mod calibration;
 pub mod drills;
 pub mod event;
+pub mod onlooker;
 mod policies;
 mod polling;
 mod practice;
@@ -37,7 +38,7 @@ use crate::{
     terminal::{
         CalibrationTask, CoachWorker, DrillTask, Job, Keeping, Launch, Reel, Report, SettingsFile, SettingsTask, Slot,
         Subscriptions,
-        tasks::{event::Event, polling::Poll, worker::Worker},
+        tasks::{event::Event, onlooker::Onlooker, polling::Poll, worker::Worker},
     },
 };
 
@@ -55,6 +56,7 @@ pub struct Tasks {
     wanted: Subscriptions,
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
+    shown: Option<Poll>,
     /// The coach's thread; like those below it starts with its first task.
     coach: Option<Worker<Box<Job>>>,
     /// The thread that plays strokes and writes files for the drills.
@@ -76,6 +78,7 @@ impl Tasks {
             wanted: Subscriptions::default(),
             list: None,
             followed: [None, None],
+            shown: None,
             coach: None,
             practice: None,
             settings: None,
@@ -116,6 +119,14 @@ impl Tasks {
                 self.list = Some(Poll::start("runs", LIST_INTERVAL, self.to_screen.clone(), list(folder))?);
             }
         }
+        if wanted.shown != self.wanted.shown {
+            self.shown = None;
+            if let Some(folder) = wanted.shown.clone() {
+                let mut onlooker = Onlooker::new(folder);
+                let look = move || onlooker.look().map(Report::Shown);
+                self.shown = Some(Poll::start("onlooker", FOLLOW_INTERVAL, self.to_screen.clone(), look)?);
+            }
+        }
         for (n, slot) in Slot::ALL.into_iter().enumerate() {
             if wanted.followed[n] != self.wanted.followed[n] {
                 self.followed[n] = None;
@@ -133,6 +144,7 @@ impl Tasks {
     pub fn taken(&self, report: &Report) {
         let poll = match report {
             Report::Runs(_) => &self.list,
+            Report::Shown(_) => &self.shown,
             Report::Followed(Slot::Main, ..) => &self.followed[0],
             Report::Followed(Slot::Compared, ..) => &self.followed[1],
             _ => &None,

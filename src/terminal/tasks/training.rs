@@ -11,7 +11,7 @@ use crate::{
         Policy,
         run::{follow::Update, list::Listing, request::Request},
     },
-    terminal::Reel,
+    terminal::{Reel, tasks::onlooker::Seen},
 };
 
 /// Why a run's weights are of no use to the coach.
@@ -39,6 +39,8 @@ pub struct Subscriptions {
     pub runs: Option<PathBuf>,
     /// The runs that are followed, in the order of [`Slot::ALL`].
     pub followed: [Option<PathBuf>; 2],
+    /// The folder in which somebody else shows their table.
+    pub shown: Option<PathBuf>,
 }
 
 /// A process that trains, to be started.
@@ -106,6 +108,8 @@ pub enum Report {
     Sent(Request, Result<(), String>),
     /// A policy was to be kept.
     Kept(Keeping, Result<Kept, String>),
+    /// What is seen of somebody else's table.
+    Shown(Seen),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),
 }

@@ -8,6 +8,7 @@ mod edges;
 mod faults;
 mod film;
 mod finder;
+mod follow;
 mod heights;
 mod keys;
 mod mouse;

@@ -96,7 +96,9 @@ const CALIBRATION_NOTES: [&str; 5] = [
 /// What the help says of the picture at `place`.
 fn notes(place: KeyContext) -> Vec<String> {
     match place {
-        KeyContext::Coach | KeyContext::OwnStroke => return COACH_NOTES.map(str::to_owned).to_vec(),
+        KeyContext::Coach | KeyContext::OwnStroke | KeyContext::Follow => {
+            return COACH_NOTES.map(str::to_owned).to_vec();
+        }
         KeyContext::Drill(DrillContext::Films | DrillContext::Film) => return FILM_NOTES.map(str::to_owned).to_vec(),
         KeyContext::Drill(_) => return DRILL_NOTES.map(str::to_owned).to_vec(),
         KeyContext::Calibration(_) => return CALIBRATION_NOTES.map(str::to_owned).to_vec(),

@@ -25,6 +25,10 @@ impl CoachPage {
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
         match when {
             CoachCondition::Anytime => None,
+            CoachCondition::Named => refuse(
+                self.player.is_none(),
+                "others follow a player by a name, and you have none: carom --player NAME",
+            ),
             CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
             _ if thinking.is_some() => thinking,
             CoachCondition::Placing => {
@@ -105,6 +109,7 @@ impl CoachPage {
                 self.message = Some(Message::plain(words));
             }
             Action::TurnSideView => self.turn_side_view(),
+            Action::TurnShown => self.turn_shown(),
             Action::NextView => self.view = self.view.next(),
             Action::NextShot => self.choose(|advised| advised.turn(true)),
             Action::PreviousShot => self.choose(|advised| advised.turn(false)),

@@ -107,6 +107,8 @@ pub enum CoachAction {
     Yes,
     /// Leaves all as it is.
     No,
+    /// Lets others see the table, or no longer.
+    TurnShown,
     /// Opens the drills.
     OpenDrills,
     /// Opens the list of filmed shots.
@@ -144,6 +146,8 @@ pub enum CoachCondition {
     Trained,
     /// Where an earlier session can be gone on with.
     Interrupted,
+    /// Where the player has a name.
+    Named,
 }
 
 /// What is asked over the table.
@@ -270,8 +274,21 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Program, W::Anytime, &[letter('f', A::OpenFilms)], None, "filmed shots: watch real balls beside simulated ones"),
     bind(Balls, W::Anytime, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise")
         .known_as("export share keep store"),
+    bind(Program, W::Named, &[letter('F', A::TurnShown)], None,
+        "let others follow your table (carom follow NAME), or no longer").known_as("show share watch spectators live public"),
     bind(Program, W::Anytime, &[letter('t', A::OpenTraining)], Some(("train", 1)),
         "train agents and watch them learn"),
+];
+
+/// The table of somebody else, who is followed.
+#[rustfmt::skip]
+pub const FOLLOW: &[Binding<A, W>] = &[
+    bind(Shot, W::Shot, &[letter('N', A::TurnNumbers)], Some(("numbers", 1)), "the shot in the thesis' numbers, or in words again")
+        .known_as("a b theta phi V impulse angle millimetres"),
+    bind(Shot, W::Shot, &[letter('E', A::TurnEvents)], Some(("events", 1)),
+        "list all events, with rolls and stops, or contacts only").known_as("rolls slides filter"),
+    bind(Shot, W::Shot, &[letter('i', A::TurnSideView)], Some(("from the side", 1)),
+        "the jump from the side: height over way, or the table alone").known_as("jump hop height flight profile"),
 ];
 
 /// The player's own stroke beside the coach's.
@@ -293,6 +310,7 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Anytime, [
         "to the stroke, to the end"),
     bind(Stroke, W::Anytime, &[letter('<', A::Slower), letter('>', A::Faster)], None, "play slower or faster"),
     bind(Stroke, W::Anytime, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Program, W::Named, &[letter('F', A::TurnShown)], None, "let others follow your table (carom follow NAME), or no longer"),
 ]);
 
 /// The words of `action` by itself, where its binding does several things.

@@ -2,7 +2,8 @@
 //!
 //! [`actions`] is what each key does to it, [`asking`] how the coach is asked, [`dragging`] what the mouse does to balls,
 //! [`saving`] how they are saved as a position, [`positions`] how they are typed;
-//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke beside the coach's.
+//! [`lesson`] teaches diamond systems, [`own_stroke`] is the player's own stroke beside the coach's, [`spectators`] are others who
+//! look on.
 
 mod actions;
 mod advised;
@@ -15,6 +16,7 @@ mod page;
 mod positions;
 mod saving;
 mod side_view;
+mod spectators;
 pub mod view;
 
 use std::{sync::Arc, time::Duration};
@@ -28,6 +30,7 @@ use crate::{
     game::Rule,
     learning::Policy,
     simulation::Event,
+    storage::Player,
     table::{CueBall, Layout, LayoutError, Table},
     terminal::{
         CoachQuery, Proposal, SavedSession, SessionParts, Settings, Shot,
@@ -44,6 +47,7 @@ use crate::{
 };
 
 pub use advised::{AdviceState, Choice};
+pub use spectators::Followed;
 
 /// What the arrow keys are for on the coach's screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,6 +123,12 @@ pub struct CoachPage {
     seen: side_view::Seen,
     /// The units in which lengths are told.
     pub units: Units,
+    /// The player's name, under which others can follow the table.
+    pub player: Option<Player>,
+    /// Whether they may.
+    is_shown: bool,
+    /// Somebody else whose table this is: it is looked at, and nothing else.
+    followed: Option<Followed>,
     /// The player's own stroke beside the coach's.
     compared: Option<own_stroke::Compared>,
     balls: History<Position>,
@@ -165,6 +175,9 @@ impl CoachPage {
             has_all_events: false,
             seen: side_view::Seen::default(),
             units: Units::default(),
+            player: None,
+            is_shown: false,
+            followed: None,
             compared: None,
             balls: History::new(Position {
                 table: Arc::new(table),
@@ -212,7 +225,7 @@ impl CoachPage {
         let CoachQuery { rule, skill, plan, .. } = self.query;
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
         let last = SessionParts { table, layout, cue_ball, rule, skill, plan, practice };
-        (self.is_begun() || practice.is_some()).then_some(last)
+        (self.followed.is_none() && (self.is_begun() || practice.is_some())).then_some(last)
     }
 
     /// Whether anything has been done since the start.
@@ -398,6 +411,11 @@ impl CoachPage {
     pub fn verdict(&self) -> Option<Verdict> {
         let shot = self.watched().filter(|shot| self.playback.time >= shot.recording.duration())?;
         Some(shot.verdict(self.query.rule, self.table()))
+    }
+
+    /// Somebody else whose table this is.
+    pub const fn followed(&self) -> Option<&Followed> {
+        self.followed.as_ref()
     }
 
     /// The chosen step in millimetres, mm.

@@ -29,6 +29,9 @@ impl Page for CoachPage {
     }
 
     fn input(&mut self, typed: Typed) -> bool {
+        if self.followed().is_some() {
+            return false;
+        }
         let field = self.typed.as_mut().or_else(|| self.saving.field_mut());
         let taken = field.is_some_and(|field| field.take(typed));
         if let (Typed::Paste(text), None) = (typed, self.question()) {

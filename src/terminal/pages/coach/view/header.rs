@@ -47,6 +47,15 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
 /// What is asked, each after the key that changes it.
 fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
+    if let Some(followed) = coach.followed() {
+        let words = if followed.emptiness().is_some() {
+            String::new()
+        } else {
+            format!(" {}, {}", rule_word(query.rule), skill_word(query.skill))
+        };
+        let whose = Span::styled(format!(" following {}", followed.name), ui.theme.accent());
+        return Line::from(vec![whose, Span::styled(words, ui.theme.text())]);
+    }
     let plan = if query.plan { "plan on" } else { "plan off" };
     let parts = [
         (CoachAction::NextRule, rule_word(query.rule)),
@@ -102,6 +111,9 @@ enum Form {
 fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static> {
     let playback = coach.playback;
     let is_thinking = coach.spinner().is_some();
+    if coach.followed().is_some_and(|followed| followed.emptiness().is_some()) {
+        return Line::default();
+    }
     let Some(shot) = coach.shot() else {
         let words = if is_thinking { "thinking" } else { "placing balls" };
         return Line::from(Span::styled(if form == Form::Short { "" } else { words }, ui.theme.faint()));

@@ -14,7 +14,7 @@ mod shot;
 mod told;
 
 use glam::DVec2;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Margin, Position, Rect};
 
 use crate::{
     coach::words::TipUnit,
@@ -24,7 +24,7 @@ use crate::{
         pages::{
             PageArea, Target,
             coach::{
-                CoachPage,
+                CoachPage, Followed,
                 view::{
                     balls::draw_balls,
                     card::draw_card,
@@ -44,7 +44,7 @@ use crate::{
         shot::playback::passed,
         ui::{
             ListedEvents, Message, TableView, Ui, columns, draw_events, draw_profile, draw_question, draw_sight,
-            draw_spin, draw_status, draw_table, draw_tip, shorten, spell,
+            draw_spin, draw_status, draw_table, draw_tip, shorten, spell, write_paragraphs,
         },
         words::{event_words, fixed, in_diamonds, millimetres, percent},
     },
@@ -52,9 +52,15 @@ use crate::{
 
 /// Draws the screen; gives the first row of what stands below the picture.
 pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
+    draw_header(coach, area.header, ui);
+    if let Some(words) = coach.followed().and_then(Followed::emptiness) {
+        let [style, place] = [ui.theme.text(), ui.theme.faint()];
+        let hint = "q ends it.".to_owned();
+        write_paragraphs(&[(words, style), (hint, place)], area.body.inner(Margin::new(2, 2)), ui);
+        return area.status.y;
+    }
     let profile = coach.profile();
     let (panes, side) = panes(coach, area.screen);
-    draw_header(coach, area.header, ui);
     let choice = coach.shown().map(AdviceState::choice);
     let planned = choice.filter(|_| coach.view == View::Plan && coach.what_if().is_none());
     let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
@@ -94,7 +100,7 @@ pub fn draw(coach: &CoachPage, area: &PageArea, ui: &mut Ui) -> u16 {
         return draw_question(&Message::plain(before + &question), field, area.status, ui);
     }
     let message = message.unwrap_or_else(|| standing(coach, usize::from(area.status.width.saturating_sub(2)), ui));
-    draw_status(&message, area.status, ui)
+    draw_status(&coach.marked(message), area.status, ui)
 }
 
 /// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
@@ -154,6 +160,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) {
         Some(_) if told.is_some() && is_wide => {}
         Some(proposal) if coach.is_in_numbers => draw_proposal(proposal, table, coach.layout(), panes.shot, ui),
         Some(proposal) => draw_card(proposal, coach, panes.shot, ui),
+        None if coach.followed().is_some() => draw_shot(None, &["no shot yet"], table, panes.shot, ui),
         None => draw_shot(None, &["no shot yet", "Enter asks", "the coach"], table, panes.shot, ui),
     }
     let how_long = shot.is_some() && !coach.is_in_numbers && coach.units.tip == TipUnit::Tips;
@@ -194,7 +201,7 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
 
 /// What the mouse points at; nothing while something is asked.
 pub fn target(coach: &CoachPage, area: &PageArea, at: Position) -> Option<Target> {
-    if coach.question().is_some() {
+    if coach.question().is_some() || coach.followed().is_some() {
         return None;
     }
     let area = area.screen;
@@ -217,6 +224,8 @@ fn draw_info(coach: &CoachPage, view: View, says_why: bool, area: Rect, ui: &mut
     let choice = advised.map(AdviceState::choice);
     let empty = match (coach.spinner(), choice) {
         (Some(_), _) => "the coach is thinking",
+        (None, Some(_)) if coach.followed().is_some() => "the player alone sees this",
+        (None, None) if coach.followed().is_some() => "no shot yet",
         (None, Some(_)) => "being worked out",
         (None, None) => "no shot yet; Enter asks the coach",
     };
@@ -241,6 +250,9 @@ fn standing(coach: &CoachPage, room: usize, ui: &Ui) -> Message {
             format!("so far a shot that makes the point {} % of the time; Esc takes it", percent(made.rate))
         });
         return Message::plain(format!("{} {words}", pictures[picture % pictures.len()]));
+    }
+    if let Some(doing) = coach.followed().and_then(Followed::doing) {
+        return Message::plain(doing);
     }
     // Beside a stroke of one's own it is told already.
     if let Some(verdict) = coach.verdict().filter(|_| coach.what_if().is_none()) {

@@ -1,0 +1,70 @@
+//! Recording within bounds: of time, and of how much happens. A table may be stiff beyond any use and still be a table.
+
+use std::{
+    ops::ControlFlow,
+    time::{Duration, Instant},
+};
+
+use super::{Event, Observer, Recorder, Recording, Segment};
+use crate::table::BALLS;
+
+/// Records until it has taken too long, or too much has happened.
+#[derive(Debug)]
+pub struct Bounded<'a> {
+    recorder: &'a mut Recorder,
+    until: Instant,
+    /// Events and steps that may follow.
+    left: u32,
+    is_over: bool,
+}
+
+impl<'a> Bounded<'a> {
+    /// Records for `longest` and as many events and steps of resting contacts as `most`, at most.
+    pub fn new(recorder: &'a mut Recorder, longest: Duration, most: u32) -> Self {
+        Self { recorder, until: Instant::now() + longest, left: most, is_over: false }
+    }
+
+    /// Whether the shot was given up.
+    pub const fn is_over(&self) -> bool {
+        self.is_over
+    }
+
+    fn go_on(&mut self) -> ControlFlow<()> {
+        self.is_over |= self.left == 0 || Instant::now() > self.until;
+        self.left = self.left.saturating_sub(1);
+        if self.is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl Observer for Bounded<'_> {
+    const SEGMENTS: bool = true;
+
+    fn event(&mut self, event: Event) -> ControlFlow<()> {
+        self.recorder.event(event)?;
+        self.go_on()
+    }
+
+    fn bounce(&mut self, bounce: Event) {
+        self.recorder.bounce(bounce);
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.recorder.contact_step()?;
+        self.go_on()
+    }
+
+    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
+        self.recorder.segment(ball, segment, end);
+    }
+}
+
+impl Recording {
+    /// Whether its numbers have stayed within what numbers can hold.
+    pub fn is_finite(&self) -> bool {
+        let end = self.duration();
+        end.is_finite()
+            && self.final_layout().balls.iter().all(|position| position.is_finite())
+            && (0..BALLS).all(|ball| self.state(ball, end).spin.is_finite())
+            && self.events().iter().all(|event| event.time.is_finite())
+    }
+}

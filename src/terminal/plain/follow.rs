@@ -1,0 +1,136 @@
+//! Somebody else's table in lines, as it changes: for screen readers, pipes and scripts.
+
+use std::{
+    io::{self, Write},
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+    thread,
+    time::{Duration, Instant},
+};
+
+use crate::{
+    coach::Units,
+    learning::evaluation::SuccessRate,
+    physics::CueInputs,
+    printing,
+    table::Layout,
+    terminal::{
+        plain::speech,
+        shown::{Author, Doing},
+        tasks::onlooker::{Onlooker, Seen, SeenTable},
+        words::percent,
+    },
+};
+
+/// Time between two looks.
+const INTERVAL: Duration = Duration::from_millis(200);
+
+/// How long a table has to be as it is before it is told: balls on their way need no sentence each.
+const QUIET: Duration = Duration::from_millis(600);
+
+/// Tells what is seen of the table in `folder`, which is that of `name`, until they show it no more or `stop` is set; with `json`
+/// every change as an object.
+///
+/// # Errors
+/// Whatever writing reports.
+pub fn follow_in_lines(
+    name: &str,
+    folder: &Path,
+    units: Units,
+    json: bool,
+    stop: &AtomicBool,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let mut onlooker = Onlooker::new(folder.to_owned());
+    let mut teller = Teller { name, units, told: Told::default() };
+    let mut waiting: Option<(Box<SeenTable>, Instant)> = None;
+    while !stop.load(Ordering::Relaxed) {
+        match onlooker.look() {
+            Some(Seen::Nothing) => return Ok(()),
+            Some(Seen::Damaged) => {
+                waiting = None;
+                tell_damage(name, json, out)?;
+            }
+            Some(Seen::Table(seen)) if json => {
+                printing::json(out, &seen.shown)?;
+                writeln!(out)?;
+            }
+            Some(Seen::Table(seen)) => waiting = Some((seen, Instant::now())),
+            None => {}
+        }
+        let is_due = |(seen, since): &mut (Box<SeenTable>, Instant)| {
+            since.elapsed() >= QUIET || seen.shown.shot.is_some_and(|shot| shot.playing)
+        };
+        if let Some((seen, _)) = waiting.take_if(is_due) {
+            for line in teller.news(&seen) {
+                writeln!(out, "{line}")?;
+            }
+        }
+        out.flush()?;
+        thread::sleep(INTERVAL);
+    }
+    Ok(())
+}
+
+/// Says that the table cannot be read; programs are told nothing.
+fn tell_damage(name: &str, json: bool, out: &mut impl Write) -> io::Result<()> {
+    if json {
+        return Ok(());
+    }
+    writeln!(out, "The table of {name} cannot be read: it is damaged, or of another version of carom.")
+}
+
+/// What was told last.
+#[derive(Default)]
+struct Told {
+    scene: String,
+    layout: Option<Layout>,
+    cue: Option<CueInputs>,
+    doing: Option<Doing>,
+    plays: bool,
+}
+
+/// Somebody who tells what is new.
+struct Teller<'a> {
+    name: &'a str,
+    units: Units,
+    told: Told,
+}
+
+impl Teller<'_> {
+    fn news(&mut self, seen: &SeenTable) -> Vec<String> {
+        let (name, shown, told) = (self.name, &seen.shown, &mut self.told);
+        let mut lines = Vec::new();
+        let scene = format!("{name} plays {} on the table {}, as {}.", shown.rule, shown.table.name, shown.skill);
+        if told.scene != scene {
+            lines.push(scene.clone());
+            told.scene = scene;
+        }
+        if told.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Doing::Elsewhere {
+            lines.push(format!("{name} is at another screen."));
+        }
+        if told.layout.replace(shown.layout) != Some(shown.layout) {
+            lines.extend(speech::places(&shown.table, &shown.layout, shown.cue_ball).lines().map(str::to_owned));
+            told.cue = None;
+        }
+        let Some((stroke, shot)) = shown.shot.zip(seen.shot.as_ref()) else { return lines };
+        let is_settled = shown.doing != Doing::Thinking && stroke.author != Author::Search;
+        if is_settled && told.cue.replace(stroke.cue) != Some(stroke.cue) {
+            let whose = if stroke.author == Author::Player { "Their own stroke" } else { "The coach recommends" };
+            let made = stroke.made.map_or_else(String::new, |(made, of)| {
+                format!(" It is made {} percent of the time.", percent(SuccessRate::new(made, of).rate))
+            });
+            lines.push(format!("{whose}: {}{made}", shot.words.sentence(shown.cue_ball, self.units)));
+        }
+        let plays = stroke.playing;
+        if plays && !told.plays {
+            lines.push(format!("{name} plays the shot."));
+        }
+        if told.plays && !plays && stroke.time >= shot.recording.duration() {
+            let verdict = shot.verdict(shown.rule, &shown.table);
+            lines.push(verdict.words(shown.cue_ball, self.units.length));
+        }
+        told.plays = plays;
+        lines
+    }
+}

@@ -1,0 +1,309 @@
+//! What a player lets others see of the coach's table: a small file in a folder of its own, there for as long as they allow it.
+//!
+//! Whoever looks on reads that file and nothing else, and takes none of its word: somebody else has written it.
+
+use std::{
+    fs, io,
+    path::Path,
+    time::{Duration, SystemTime},
+};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    coach::Skill,
+    game::Rule,
+    physics::CueInputs,
+    storage::{self, Lock, Places, Player},
+    table::{BALLS, CueBall, Layout, Table},
+    terminal::shot::playback::SPEEDS,
+};
+
+/// The file.
+pub const FILE: &str = "table.json";
+
+/// Largest file that is read, bytes: twenty times what a table takes.
+const LARGEST: u64 = 1 << 16;
+
+/// The version of the file that is written.
+const VERSION: u32 = 1;
+
+/// Sizes that a table to be drawn may have, and the radius of its balls, m: far beyond any that is built.
+const SIDE: std::ops::RangeInclusive<f64> = 0.3..=10.0;
+const RADIUS: std::ops::RangeInclusive<f64> = 0.005..=0.2;
+
+/// Longest name of a table, bytes.
+const LONGEST_NAME: usize = 64;
+
+/// What the player does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Doing {
+    /// The balls are placed.
+    Placing,
+    /// The coach thinks.
+    Thinking,
+    /// A shot is looked at, or plays.
+    Watching,
+    /// Another screen is open.
+    Elsewhere,
+}
+
+/// Whose idea a shot is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Author {
+    /// The coach recommends it.
+    Coach,
+    /// The coach has found no better one so far.
+    Search,
+    /// The player's own stroke.
+    Player,
+}
+
+/// The coach's table as others may see it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShownTable {
+    /// The version of the file.
+    pub version: u32,
+    /// What the player does.
+    pub doing: Doing,
+    /// The table.
+    pub table: Table,
+    /// Where the balls lie before the shot.
+    pub layout: Layout,
+    /// Which of them is the cue ball.
+    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    pub cue_ball: CueBall,
+    /// What counts as a point.
+    pub rule: Rule,
+    /// Who plays.
+    pub skill: Skill,
+    /// The ball that is selected, by its place in the layout.
+    pub selected: usize,
+    /// The shot that is on the table.
+    pub shot: Option<ShownShot>,
+}
+
+/// A shot on a table that is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShownShot {
+    /// The stroke.
+    pub cue: CueInputs,
+    /// Whose idea it is.
+    pub author: Author,
+    /// Whether it makes the point if it is played as meant.
+    pub solved: bool,
+    /// How often the player makes it, if that is known: attempts that do, and all of them.
+    pub made: Option<(usize, usize)>,
+    /// Where its playback stands, s since the stroke.
+    pub time: f64,
+    /// Seconds of the shot in a second.
+    pub speed: f64,
+    /// Whether it goes on by itself.
+    pub playing: bool,
+}
+
+impl ShownShot {
+    /// Where its playback stands so long after it was written, s since the stroke.
+    pub fn time_after(&self, since: Duration) -> f64 {
+        self.time + if self.playing { self.speed * since.as_secs_f64() } else { 0.0 }
+    }
+}
+
+/// What is to be seen in the folder of a player.
+#[derive(Debug)]
+pub enum Sight {
+    /// Nothing: the player shows no table, or is not there, which is none of anybody's business.
+    Nothing,
+    /// A file that cannot be read.
+    Damaged,
+    /// A table, and how long ago it was written.
+    Table(Box<ShownTable>, Duration),
+}
+
+impl ShownTable {
+    /// A table with balls on it, and nothing else yet.
+    pub fn new(doing: Doing, table: Table, layout: Layout, rule: Rule, skill: Skill) -> Self {
+        let (cue_ball, selected, shot) = (CueBall::White, 0, None);
+        Self { version: VERSION, doing, table, layout, cue_ball, rule, skill, selected, shot }
+    }
+
+    /// Whether somebody who has seen this so long ago has to be told `now`: a shot that just plays on is no news.
+    pub fn is_outdated_by(&self, since: Duration, now: &Self) -> bool {
+        /// How far two clocks may be apart, seconds of the screen.
+        const APART: f64 = 0.25;
+        let (Some(before), Some(shot)) = (&self.shot, &now.shot) else { return self != now };
+        let plays_on = before.playing && shot.playing;
+        if !plays_on || (shot.time - before.time_after(since)).abs() > APART * shot.speed {
+            return self != now;
+        }
+        let shot = Some(ShownShot { time: before.time, ..*shot });
+        *self != Self { shot, ..now.clone() }
+    }
+
+    /// Puts it into `folder`, for others to see.
+    ///
+    /// # Errors
+    /// Whatever the file system reports; what stood there stays.
+    pub fn write(&self, folder: &Path) -> io::Result<()> {
+        storage::replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+    }
+
+    /// What is to be seen in `folder`.
+    pub fn look(folder: &Path) -> Sight {
+        // The lock of a process that was killed is gone, whatever it has left.
+        if Lock::is_held(folder) == Some(false) {
+            return Sight::Nothing;
+        }
+        let path = folder.join(FILE);
+        let written = fs::metadata(&path).and_then(|found| found.modified());
+        let age = written.ok().and_then(|written| SystemTime::now().duration_since(written).ok()).unwrap_or_default();
+        match storage::read(&path, LARGEST) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Sight::Nothing,
+            Err(_) => Sight::Damaged,
+            Ok(bytes) => match serde_json::from_slice::<Self>(&bytes) {
+                Ok(shown) if shown.is_sound() => Sight::Table(Box::new(shown), age),
+                _ => Sight::Damaged,
+            },
+        }
+    }
+
+    /// Whether it can be shown: nothing that somebody else has written is taken on trust.
+    fn is_sound(&self) -> bool {
+        let Self { table, .. } = self;
+        let can_be_drawn = SIDE.contains(&table.length)
+            && SIDE.contains(&table.width)
+            && RADIUS.contains(&table.radius)
+            && table.name.len() <= LONGEST_NAME;
+        self.version == VERSION
+            && can_be_drawn
+            && self.layout.validate(table).is_ok()
+            && self.selected < BALLS
+            && self.shot.is_none_or(|shot| {
+                shot.cue.validate().is_ok()
+                    && (0.0..f64::MAX).contains(&shot.time)
+                    && SPEEDS.contains(&shot.speed)
+                    && shot.made.is_none_or(|(made, of)| made <= of)
+            })
+    }
+}
+
+/// The players of this account who show their table now, by name.
+pub fn all_shown() -> Vec<Player> {
+    let Some(folder) = Places::players() else { return Vec::new() };
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let players = entries.filter_map(|entry| entry.file_name().to_str()?.parse::<Player>().ok());
+    let is_shown = |player: &Player| {
+        Places::of_player(player).is_ok_and(|places| !matches!(ShownTable::look(&places.shown), Sight::Nothing))
+    };
+    let mut shown: Vec<Player> = players.filter(is_shown).collect();
+    shown.sort_by_key(Player::folder);
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    fn shown() -> ShownTable {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
+        let shot = ShownShot {
+            cue,
+            author: Author::Coach,
+            solved: true,
+            made: Some((9, 10)),
+            time: 1.0,
+            speed: 2.0,
+            playing: true,
+        };
+        let shown = ShownTable::new(Doing::Watching, table, layout, Rule::ThreeCushion, Skill::CLUB);
+        ShownTable { shot: Some(shot), selected: 2, ..shown }
+    }
+
+    #[test]
+    fn what_is_written_is_seen_as_long_as_its_writer_lives() {
+        let folder = tempfile::tempdir().unwrap();
+        let lock = Lock::take(folder.path()).unwrap();
+        assert!(matches!(ShownTable::look(folder.path()), Sight::Nothing));
+        shown().write(folder.path()).unwrap();
+        let Sight::Table(seen, age) = ShownTable::look(folder.path()) else { panic!("nothing is seen") };
+        let cue = |shown: &ShownTable| shown.shot.unwrap().cue;
+        // Directions are written in degrees.
+        assert!((cue(&seen).phi - cue(&shown()).phi).abs() < 1e-14 && age < Duration::from_secs(60));
+        let shot = seen.shot.map(|shot| ShownShot { cue: cue(&shown()), ..shot });
+        assert_eq!(ShownTable { shot, ..*seen }, shown());
+        let size = fs::metadata(folder.path().join(FILE)).unwrap().len();
+        assert!(20 * size > LARGEST / 2 && size < LARGEST / 8, "{size}");
+        drop(lock);
+        assert!(matches!(ShownTable::look(folder.path()), Sight::Nothing), "a process that was killed has left it");
+    }
+
+    #[test]
+    fn a_shot_that_plays_on_is_no_news_and_everything_else_is() {
+        let before = shown();
+        let at = |time: f64| {
+            let shot = before.shot.map(|shot| ShownShot { time, ..shot });
+            ShownTable { shot, ..before.clone() }
+        };
+        let second = Duration::from_secs(1);
+        assert!(!before.is_outdated_by(second, &at(3.0)));
+        assert!(before.is_outdated_by(second, &at(1.0)), "it has stood still meanwhile");
+        assert!(before.is_outdated_by(second, &ShownTable { selected: 0, ..at(3.0) }));
+        let paused = before.shot.map(|shot| ShownShot { time: 3.0, playing: false, ..shot });
+        let paused = ShownTable { shot: paused, ..before.clone() };
+        assert!(before.is_outdated_by(second, &paused) && !paused.is_outdated_by(second, &paused));
+        assert!(before.is_outdated_by(second, &ShownTable { shot: None, ..before.clone() }));
+    }
+
+    #[test]
+    fn what_somebody_else_has_written_is_not_taken_on_trust() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE);
+        let sound = serde_json::to_value(shown()).unwrap();
+        let is_seen = |text: &str| {
+            fs::write(&path, text).unwrap();
+            matches!(ShownTable::look(folder.path()), Sight::Table(..))
+        };
+        assert!(is_seen(&sound.to_string()));
+        let bad: &[(&str, Value)] = &[
+            ("/version", json!(2)),
+            ("/doing", json!("\u{1b}[2J")),
+            ("/table/L", json!(1e9)),
+            ("/table/R", json!(1e-6)),
+            ("/table/name", json!("a".repeat(65))),
+            ("/table/mu_s", json!(0)),
+            ("/layout/0/0", json!(99)),
+            ("/layout/0/0", Value::Null),
+            ("/skill", json!("a=1e999")),
+            ("/skill", json!("nobody")),
+            ("/selected", json!(3)),
+            ("/selected", json!(-1)),
+            ("/shot/cue/speed", json!(1e300)),
+            ("/shot/cue/a", json!(2)),
+            ("/shot/time", json!(-1)),
+            ("/shot/speed", json!(1e9)),
+            ("/shot/made", json!([11, 10])),
+            ("/rule", json!("snooker")),
+        ];
+        for (place, value) in bad {
+            let mut damaged = sound.clone();
+            *damaged.pointer_mut(place).unwrap_or_else(|| panic!("{place}")) = value.clone();
+            assert!(!is_seen(&damaged.to_string()), "{place} = {value}");
+        }
+        let text = sound.to_string();
+        for text in ["", "{", "null", &"[".repeat(9999), &text.replace("2.5", "1e999"), &text.replace("2.5", "NaN")] {
+            assert!(!is_seen(text), "{text:.40}");
+        }
+        assert!(!is_seen(&format!("{text}{}", " ".repeat(1 << 16))), "a file without an end");
+        fs::write(&path, [0xff, 0xfe]).unwrap();
+        assert!(matches!(ShownTable::look(folder.path()), Sight::Damaged));
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        assert!(matches!(ShownTable::look(folder.path()), Sight::Damaged));
+    }
+}

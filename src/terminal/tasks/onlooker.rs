@@ -1,0 +1,164 @@
+//! Looking on while somebody else plays: their table as they show it, with its shot recorded here.
+
+use std::{path::PathBuf, sync::Arc, time::Duration};
+
+use crate::{
+    physics::CueInputs,
+    simulation::{Bounded, Recording, simulate},
+    table::{Layout, Table},
+    terminal::{
+        Shot,
+        shown::{Author, ShownTable, Sight},
+    },
+};
+
+/// Longest time that somebody else's shot may take to compute, most events and steps of its contacts, and its longest
+/// duration, s: theirs may be a table that is stiff or slippery beyond any use.
+const LONGEST: Duration = Duration::from_secs(2);
+const MOST: u32 = 20_000;
+const LONGEST_SHOT: f64 = 120.0;
+
+/// What is seen of somebody else's table.
+#[derive(Clone, Debug)]
+pub enum Seen {
+    /// They show none.
+    Nothing,
+    /// It cannot be read.
+    Damaged,
+    /// The table.
+    Table(Box<SeenTable>),
+}
+
+/// Somebody else's table.
+#[derive(Clone, Debug)]
+pub struct SeenTable {
+    /// What they show.
+    pub shown: ShownTable,
+    /// How long ago they have written it.
+    pub age: Duration,
+    /// The shot, recorded; nothing where there is none, or it cannot be played.
+    pub shot: Option<Arc<Shot>>,
+}
+
+/// What a recorded shot is made of.
+type Made = (Table, Layout, CueInputs, bool);
+
+/// Somebody who looks on.
+#[derive(Debug)]
+pub struct Onlooker {
+    folder: PathBuf,
+    before: Option<Seen>,
+    /// The shot that was recorded last, and what it is made of.
+    shot: Option<(Made, Option<Arc<Shot>>)>,
+}
+
+impl Onlooker {
+    /// One who looks at what is shown in `folder`.
+    pub const fn new(folder: PathBuf) -> Self {
+        Self { folder, before: None, shot: None }
+    }
+
+    /// What is seen now, where that is something else than before.
+    pub fn look(&mut self) -> Option<Seen> {
+        let sight = ShownTable::look(&self.folder);
+        let is_known = match (&sight, &self.before) {
+            (Sight::Nothing, Some(Seen::Nothing)) | (Sight::Damaged, Some(Seen::Damaged)) => true,
+            (Sight::Table(shown, _), Some(Seen::Table(seen))) => **shown == seen.shown,
+            _ => false,
+        };
+        if is_known {
+            return None;
+        }
+        let seen = match sight {
+            Sight::Nothing => Seen::Nothing,
+            Sight::Damaged => Seen::Damaged,
+            Sight::Table(shown, age) => {
+                let shot = self.record(&shown);
+                Seen::Table(Box::new(SeenTable { shown: *shown, age, shot }))
+            }
+        };
+        self.before = Some(seen.clone());
+        Some(seen)
+    }
+
+    /// The shot, recorded once.
+    fn record(&mut self, shown: &ShownTable) -> Option<Arc<Shot>> {
+        let shot = shown.shot?;
+        let made = (shown.table.clone(), shown.layout, shot.cue, shot.solved);
+        if let Some((known, shot)) = &self.shot
+            && *known == made
+        {
+            return shot.clone();
+        }
+        let (table, layout, cue, solved) = &made;
+        let source = if shot.author == Author::Player { "their own" } else { "the coach" };
+        let recording = recorded(table, layout, cue);
+        let shot = recording.map(|recording| Arc::new(Shot::of(table, recording, *cue, *solved, source)));
+        self.shot = Some((made, shot.clone()));
+        shot
+    }
+}
+
+/// The shot, if it can be played within bounds.
+fn recorded(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Recording> {
+    let (recording, is_over) = Recording::played_by(table, layout, cue, |impulse, recorder| {
+        let mut bounded = Bounded::new(recorder, LONGEST, MOST);
+        let end = simulate(table, layout, impulse, &mut bounded);
+        (end, bounded.is_over())
+    })
+    .ok()?;
+    (!is_over && recording.is_finite() && recording.duration() <= LONGEST_SHOT).then_some(recording)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+    use crate::{
+        coach::Skill,
+        game::Rule,
+        storage::Lock,
+        terminal::shown::{Doing, ShownShot},
+    };
+
+    #[test]
+    fn a_change_is_seen_once_and_the_shot_is_the_same_bit_for_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut onlooker = Onlooker::new(folder.path().to_owned());
+        assert!(matches!(onlooker.look(), Some(Seen::Nothing)) && onlooker.look().is_none());
+        let lock = Lock::take(folder.path()).unwrap();
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
+        let shot =
+            ShownShot { cue, author: Author::Coach, solved: true, made: None, time: 0.0, speed: 1.0, playing: false };
+        let shown = ShownTable::new(Doing::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
+        let shown = ShownTable { shot: Some(shot), ..shown };
+        shown.write(folder.path()).unwrap();
+        let Some(Seen::Table(seen)) = onlooker.look() else { panic!("nothing is seen") };
+        let (there, here) = (Recording::new(&table, &layout, &cue).unwrap(), &seen.shot.as_ref().unwrap().recording);
+        assert_eq!((there.duration(), there.events().len()), (here.duration(), here.events().len()));
+        assert!(onlooker.look().is_none());
+        let playing = ShownTable { shot: Some(ShownShot { playing: true, ..shot }), ..shown };
+        playing.write(folder.path()).unwrap();
+        let Some(Seen::Table(again)) = onlooker.look() else { panic!("nothing is seen") };
+        assert!(Arc::ptr_eq(seen.shot.as_ref().unwrap(), again.shot.as_ref().unwrap()), "recorded once");
+        drop(lock);
+        assert!(matches!(onlooker.look(), Some(Seen::Nothing)));
+    }
+
+    #[test]
+    fn a_table_on_which_a_shot_never_seems_to_end_keeps_nobody_waiting() {
+        let slippery = Table {
+            sliding_friction: 1e-4,
+            rolling_friction: 1e-4,
+            rail_restitution: 1.0,
+            ..Table::preset("textbook").unwrap()
+        };
+        let start = Instant::now();
+        let cue = CueInputs::parse("0,0,0,40,100").unwrap();
+        assert!(recorded(&slippery, &Layout::opening(&slippery), &cue).is_none());
+        assert!(start.elapsed() < 5 * LONGEST, "{:?}", start.elapsed());
+    }
+}

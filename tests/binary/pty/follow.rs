@@ -1,0 +1,259 @@
+//! Looking on while another player plays: what is seen, when it ends, and what nobody sees.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+    thread,
+    time::Duration,
+};
+
+use assert_cmd::cargo::cargo_bin;
+use portable_pty::CommandBuilder;
+
+use crate::{
+    program::Kept,
+    terminal::{OPENING, PATIENCE, REST, Session, carom},
+};
+
+fn guest(name: &str) -> CommandBuilder {
+    let mut command = carom();
+    command.args(["--guest", "--player", name]);
+    command
+}
+
+/// A guest who asks for this behind `ssh`.
+fn over_ssh(name: &str, words: &str) -> CommandBuilder {
+    let mut command = guest(name);
+    command.env("SSH_ORIGINAL_COMMAND", words);
+    command
+}
+
+/// The program without a terminal, in the home of a session.
+fn lines(home: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(cargo_bin!("carom"));
+    command
+        .args(args)
+        .env("HOME", home)
+        .env("XDG_DATA_HOME", home.join("data"))
+        .env("XDG_STATE_HOME", home.join("state"));
+    command.env("XDG_CONFIG_HOME", home.join("config")).env_remove("SSH_ORIGINAL_COMMAND");
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// What such a program says, with its exit code.
+fn said(command: &mut Command) -> (Option<i32>, String, String) {
+    let output = command.output().unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (output.status.code(), out, err)
+}
+
+/// The folder in which a player shows their table.
+fn shown(home: &Path, name: &str) -> PathBuf {
+    home.join("data/carom/players").join(name).join("shown")
+}
+
+/// A player who shows their table.
+fn showing(home: &Path, name: &str) -> Session {
+    let mut session = Session::start_at(home, guest(name), 80, 24);
+    session.wait_for(OPENING);
+    session.send("F");
+    session.wait_for(&format!("carom follow {name} shows this table"));
+    let file = shown(home, name).join("table.json");
+    session.wait_until("the file", |_| file.exists());
+    session
+}
+
+#[test]
+fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    assert_eq!(said(&mut lines(home, &["follow", "anna"])).0, Some(1), "before there is an anna");
+    let mut anna = Session::start_at(home, guest("Anna"), 80, 24);
+    anna.wait_for(OPENING);
+    assert!(!shown(home, "anna").exists(), "nothing is shown by itself");
+    let (code, _, err) = said(&mut lines(home, &["follow", "anna"]));
+    assert!(code == Some(1) && err.contains("anna shows no table now"), "{err}");
+    anna.send("F");
+    anna.wait_for("carom follow Anna shows this table");
+    // From then on the status line says so, whatever else it says.
+    anna.press("\x1b[C");
+    anna.wait_for("shown to others: white at x -700.0 mm");
+    let mut ben = Session::start_at(home, over_ssh("ben", "follow anna"), 80, 24);
+    ben.wait_for("following anna");
+    ben.wait_for("anna places the balls");
+    ben.wait_for("-700.0");
+    anna.press("\x1b[C");
+    ben.wait_for("-690.0");
+    anna.send("\r");
+    ben.wait_for("the coach thinks for anna");
+    anna.wait_for_advice();
+    ben.wait_for_advice();
+    let told = |session: &Session| session.screen().contents().lines().nth(18).map(str::to_owned);
+    assert_eq!(told(&ben), told(&anna), "the shot in words");
+    anna.send(" ");
+    ben.wait_until("the shot plays", |screen| screen.contents().contains("next: "));
+    let over =
+        |screen: &vt100::Screen| ["Point", "No point", "point"].iter().any(|word| screen.contents().contains(word));
+    anna.wait_until("the end", over);
+    ben.wait_until("the end", over);
+    // Keys of the one who looks on change nothing.
+    ben.send("\x1b[C\x1b[Cro\rF");
+    ben.settle(REST);
+    assert!(ben.screen().contents().contains("following anna") && !shown(home, "ben").exists());
+    anna.send("F");
+    ben.wait_for("anna shows no table at the moment");
+    assert_eq!(fs::read_dir(shown(home, "anna")).unwrap().count(), 1, "the lock alone");
+    anna.send("F");
+    ben.wait_for("following anna straight");
+    anna.send("q");
+    assert!(anna.assert_left_without_trace().success());
+    ben.wait_for("anna shows no table at the moment");
+    ben.send("q");
+    assert!(ben.assert_left_without_trace().success());
+    assert!(!home.join("data/carom/players/ben/last.json").exists(), "it was not ben's session");
+}
+
+#[test]
+fn a_player_who_is_killed_is_seen_no_more_and_one_who_rests_writes_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let mut anna = showing(home, "anna");
+    let mut ben = Session::start_at(home, over_ssh("ben", "follow anna"), 120, 40);
+    ben.wait_for("anna places the balls");
+    anna.settle(Duration::from_secs(3));
+    let changed = || fs::metadata(shown(home, "anna").join("table.json")).unwrap().modified().unwrap();
+    let (before, written) = (changed(), anna.written());
+    thread::sleep(Duration::from_secs(2));
+    assert_eq!((changed(), anna.written()), (before, written));
+    // Another session of hers cannot show another table under her name.
+    let mut second = Session::start_at(home, guest("anna"), 80, 24);
+    second.wait_for(OPENING);
+    second.send("F");
+    second.wait_for("another session of yours");
+    anna.signal("KILL");
+    ben.wait_for("anna shows no table at the moment");
+    assert_eq!(said(&mut lines(home, &["follow", "anna"])).0, Some(1));
+    second.send("F");
+    ben.wait_for("anna places the balls");
+}
+
+#[test]
+fn a_player_without_a_name_shows_nothing_and_one_may_follow_oneself() {
+    let mut nobody = Session::start(80, 24);
+    nobody.wait_for(OPENING);
+    nobody.send("F");
+    nobody.wait_for("carom --player NAME");
+    let home = tempfile::tempdir().unwrap();
+    let mut anna = showing(home.path(), "anna");
+    let mut mirror = Session::start_at(home.path(), over_ssh("anna", "follow Anna"), 80, 24);
+    mirror.wait_for("Anna places the balls");
+    anna.press("\x1b[C");
+    mirror.wait_for("-700.0");
+}
+
+#[test]
+fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let mut anna = showing(home, "anna");
+    let (code, out, _) = said(&mut lines(home, &["follow"]));
+    assert_eq!((code, out.as_str()), (Some(0), "anna\n"));
+    let (_, out, _) = said(&mut lines(home, &["follow", "--json"]));
+    assert_eq!(out, "{\"player\":\"anna\"}\n");
+    let plain = lines(home, &["follow", "anna"]).spawn().unwrap();
+    let json = lines(home, &["follow", "anna", "--json"]).spawn().unwrap();
+    thread::sleep(Duration::from_secs(2));
+    anna.send("\r");
+    anna.wait_for_advice();
+    thread::sleep(Duration::from_secs(2));
+    anna.send(" ");
+    anna.wait_until("the end", |screen| {
+        screen.contents().contains("shown to others: ") && screen.contents().contains("oint")
+    });
+    thread::sleep(Duration::from_secs(10));
+    anna.send("q");
+    let [plain, json] = [plain, json].map(|child| child.wait_with_output().unwrap());
+    let text = String::from_utf8(plain.stdout).unwrap();
+    for part in ["anna plays straight", "White lies at", "The coach recommends: ", "anna plays the shot.", "oint"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(
+        plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna shows the table no more")
+    );
+    let text = String::from_utf8(json.stdout).unwrap();
+    let records: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(records.len() > 3 && records.iter().all(|record| record["table"]["name"] == "match"), "{text}");
+    assert!(records.iter().any(|record| record["shot"]["playing"] == true), "{text}");
+}
+
+#[test]
+fn a_file_that_somebody_else_has_made_hurts_nobody() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    let anna = showing(home, "anna");
+    let good = fs::read_to_string(shown(home, "anna").join("table.json")).unwrap();
+    drop(anna);
+    let folder = shown(home, "mallory");
+    fs::create_dir_all(&folder).unwrap();
+    let put = |text: &str| {
+        // As a player's own program puts it: whole or not at all.
+        fs::write(folder.join("new"), text).unwrap();
+        fs::rename(folder.join("new"), folder.join("table.json")).unwrap();
+    };
+    let named = good.replace("\"name\":\"match\"", "\"name\":\"\\u001b[2J\\u009bred\"");
+    assert_ne!(named, good);
+    put(&named);
+    let mut ben = Session::start_at(home, over_ssh("ben", "follow mallory"), 120, 40);
+    ben.wait_for("mallory places the balls");
+    let plain = Kept(lines(home, &["follow", "mallory"]).spawn().unwrap());
+    thread::sleep(Duration::from_secs(2));
+    put("{\"version\":1,");
+    ben.wait_for("cannot be read");
+    put(&good.replace("\"selected\":0", "\"selected\":7"));
+    put(&" ".repeat(1 << 20));
+    thread::sleep(Duration::from_secs(1));
+    ben.wait_for("cannot be read");
+    put(&good);
+    ben.wait_for("mallory places the balls");
+    // A link leads a guest nowhere else.
+    #[cfg(unix)]
+    {
+        fs::write(home.join("secret"), &good).unwrap();
+        fs::remove_file(folder.join("table.json")).unwrap();
+        std::os::unix::fs::symlink(home.join("secret"), folder.join("table.json")).unwrap();
+        ben.wait_for("cannot be read");
+    }
+    fs::remove_file(folder.join("table.json")).unwrap();
+    ben.wait_for("mallory shows no table at the moment");
+    let mut plain = plain;
+    let output = std::mem::take(&mut plain.0.stdout);
+    let text = std::io::read_to_string(output.unwrap()).unwrap();
+    assert!(text.contains("mallory plays") && !text.contains('\u{1b}') && !text.contains('\u{9b}'), "{text:?}");
+    assert!(ben.child.try_wait().unwrap().is_none(), "it looks on still");
+}
+
+#[test]
+fn hostile_and_unknown_names_are_a_sentence_and_a_guest_gets_nothing_else_by_asking() {
+    let home = tempfile::tempdir().unwrap();
+    let home = home.path();
+    for name in ["../anna", "/etc", "a b", "\u{1b}]0;x\u{7}", ""] {
+        let (code, out, err) = said(&mut lines(home, &["follow", "--", name]));
+        assert!(code == Some(2) && out.is_empty() && err.contains("accepted are 1 to 32 letters"), "{name:?}: {err}");
+        assert!(!err.contains('\u{1b}'), "{err:?}");
+    }
+    let mut asked = lines(home, &["--guest", "--player", "ben"]);
+    let (code, _, err) = said(asked.env("SSH_ORIGINAL_COMMAND", "follow ../../secret\u{1b}[2J"));
+    assert!(code == Some(2) && err.contains("accepted are") && !err.contains('\u{1b}'), "{err:?}");
+    let mut asked = lines(home, &["--guest", "--player", "ben"]);
+    let (code, _, err) = said(asked.env("SSH_ORIGINAL_COMMAND", "follow"));
+    assert!(code == Some(0) && err.contains("nobody shows"), "{err}");
+    for words in ["train --list", "doctor", "simulate", "cat /etc/passwd", "followx anna"] {
+        let mut ben = Session::start_at(home, over_ssh("ben", words), 80, 24);
+        ben.wait_for(OPENING);
+        ben.send("q");
+        assert_eq!(ben.ends_within(PATIENCE).exit_code(), 0, "{words}");
+    }
+    assert_eq!(said(&mut lines(home, &["follow", "anna"])).2.lines().count(), 1);
+}

@@ -1,0 +1,122 @@
+//! Looking on: what a player shows, and the same table on the screen of somebody else.
+
+use carom::{
+    storage::{Lock, Player as Name},
+    table::{Layout, Table},
+    terminal::{App, Doing, Effect, KeyContext, Onlooker, Report, Seat, Seen, ShownTable},
+};
+use ratatui::{Terminal, backend::TestBackend};
+
+use super::{
+    keys::key,
+    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, places},
+};
+
+/// A player with a name.
+fn anna() -> Player {
+    let mut player = Player::new();
+    let app = App::new(Table::default(), Layout::opening(&Table::default()), TRUE_COLOUR, 7).unwrap();
+    let name: Name = "anna".parse().unwrap();
+    player.app = app.with_seat(&Seat { player: Some(name), places: places("/anna".as_ref()), is_guest: false });
+    player
+}
+
+/// What somebody sees who looks on.
+fn seen(shown: &ShownTable) -> Seen {
+    let folder = tempfile::tempdir().unwrap();
+    let _lock = Lock::take(folder.path()).unwrap();
+    shown.write(folder.path()).unwrap();
+    Onlooker::new(folder.path().to_owned()).look().unwrap()
+}
+
+fn following(caps: carom::terminal::Capabilities) -> App {
+    let table = Table::default();
+    let layout = Layout::opening(&table);
+    App::new(table, layout, caps, 7).unwrap().following("anna".to_owned(), "/anna".into())
+}
+
+fn picture(app: &mut App, (width, height): (u16, u16)) -> String {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+    app.resize((width, height).into());
+    terminal.draw(|frame| app.draw(frame)).unwrap();
+    terminal.backend().to_string()
+}
+
+#[test]
+fn nobody_is_shown_who_does_not_say_so_and_who_does_is_told_all_the_time() {
+    let player = anna().press("Right Enter").answer();
+    assert!(player.app.shown_table().is_none());
+    let player = player.press("F");
+    player.says("shown to others: carom follow anna shows this table from now on");
+    let player = player.press("Esc Right");
+    player.says("shown to others: white at x");
+    assert_eq!(player.app.shown_table().unwrap().doing, Doing::Placing);
+    let player = player.press("Enter");
+    assert_eq!(player.app.shown_table().unwrap().doing, Doing::Thinking);
+    let player = player.answer().press("w l");
+    assert!(player.app.shown_table().unwrap().shot.is_some());
+    let player = player.press("F1 Esc d");
+    assert_eq!(player.app.shown_table().unwrap().doing, Doing::Elsewhere);
+    let player = player.press("F2 F");
+    assert!(player.app.shown_table().is_none());
+    let nameless = Player::new().press("F");
+    assert!(nameless.app.shown_table().is_none());
+    assert!(nameless.app.toasts().shown()[0].text.contains("carom --player NAME"));
+}
+
+#[test]
+fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
+    let mut player = anna().press("F Enter").answer();
+    for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
+        let mut app = following(caps);
+        let before = picture(&mut app, (80, 24));
+        assert!(before.contains("anna shows no table at the moment") && before.contains("q ends it"), "{before}");
+        let shown = player.app.shown_table().unwrap();
+        app.receive_report(Report::Shown(seen(&shown)));
+        assert_eq!((app.place(), app.layout(), app.last()), (KeyContext::Follow, player.app.layout(), None));
+        for size in SIZES {
+            let there = picture(&mut app, size);
+            assert!(there.contains("following anna straight, expert") && !there.contains("Enter"), "{there}");
+            if caps == TRUE_COLOUR {
+                let own = picture(&mut player.app, size);
+                let rows = |text: &str| text.lines().skip(2).take(10).map(str::to_owned).collect::<Vec<_>>();
+                assert_eq!(rows(&there), rows(&own), "the table");
+            }
+        }
+        for pressed in ["Right", "Enter", "Space", "F", "r", "o", "u", "w", "Tab", "p", "s", "F2", "F4", "F5", "n"] {
+            let effect: Option<Effect> = app.handle(&key(pressed));
+            assert!(effect.is_none(), "{pressed}: {effect:?}");
+        }
+        app.paste("-0.5,0 0,0 0.5,0.03");
+        assert_eq!((app.place(), app.layout()), (KeyContext::Follow, player.app.layout()));
+        assert!(!app.playback().playing && app.shown_table().is_none());
+    }
+    insta::assert_snapshot!(picture(
+        &mut {
+            let mut app = following(TRUE_COLOUR);
+            app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
+            app
+        },
+        (80, 24)
+    ));
+}
+
+#[test]
+fn the_shot_plays_on_where_it_is_seen_and_goes_when_it_is_shown_no_more() {
+    let player = anna().press("F Enter").answer().press("Space");
+    let mut app = following(TRUE_COLOUR);
+    app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
+    assert!(app.playback().playing && app.frame_interval().is_some());
+    app.tick(0.5);
+    assert!(app.playback().time >= 0.5);
+    let player = player.press("End");
+    app.receive_report(Report::Shown(seen(&player.app.shown_table().unwrap())));
+    let there = picture(&mut app, (80, 24));
+    assert!(!app.playback().playing && there.contains("oint"), "{there}");
+    app.receive_report(Report::Shown(Seen::Nothing));
+    assert!(picture(&mut app, (80, 24)).contains("anna shows no table at the moment"));
+    app.receive_report(Report::Shown(Seen::Damaged));
+    let there = picture(&mut app, (80, 24));
+    assert!(there.contains("cannot be read") && app.frame_interval().is_none(), "{there}");
+    assert!(app.handle(&key("q")).is_some_and(|effect| matches!(effect, Effect::Quit)));
+}
