@@ -89,9 +89,10 @@ fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
     anna.send("\r");
     ben.wait_for("the coach thinks for anna");
     anna.wait_for_advice();
-    ben.wait_for_advice();
-    let told = |session: &Session| session.screen().contents().lines().nth(18).map(str::to_owned);
-    assert_eq!(told(&ben), told(&anna), "the shot in words");
+    anna.settle(Duration::from_secs(2));
+    let told = |screen: &vt100::Screen| screen.contents().lines().nth(18).map(str::to_owned);
+    let words = told(anna.screen());
+    ben.wait_until("the shot in words", |screen| told(screen) == words);
     anna.send(" ");
     ben.wait_until("the shot plays", |screen| screen.contents().contains("next: "));
     let over =
@@ -106,7 +107,7 @@ fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
     ben.wait_for("anna shows no table at the moment");
     assert_eq!(fs::read_dir(shown(home, "anna")).unwrap().count(), 1, "the lock alone");
     anna.send("F");
-    ben.wait_for("following anna straight");
+    ben.wait_for("following anna: match");
     anna.send("q");
     assert!(anna.assert_left_without_trace().success());
     ben.wait_for("anna shows no table at the moment");
@@ -131,7 +132,8 @@ fn a_player_who_is_killed_is_seen_no_more_and_one_who_rests_writes_nothing() {
     let mut second = Session::start_at(home, guest("anna"), 80, 24);
     second.wait_for(OPENING);
     second.send("F");
-    second.wait_for("another session of yours");
+    second.wait_for("others see the table");
+    assert!(!second.screen().contents().contains("from now on"));
     anna.signal("KILL");
     ben.wait_for("anna shows no table at the moment");
     assert_eq!(said(&mut lines(home, &["follow", "anna"])).0, Some(1));

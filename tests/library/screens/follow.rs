@@ -55,7 +55,7 @@ fn nobody_is_shown_who_does_not_say_so_and_who_does_is_told_all_the_time() {
     assert_eq!(player.app.shown_table().unwrap().doing, Doing::Thinking);
     let player = player.answer().press("w l");
     assert!(player.app.shown_table().unwrap().shot.is_some());
-    let player = player.press("F1 Esc d");
+    let player = player.press("F3");
     assert_eq!(player.app.shown_table().unwrap().doing, Doing::Elsewhere);
     let player = player.press("F2 F");
     assert!(player.app.shown_table().is_none());
@@ -76,7 +76,7 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
         assert_eq!((app.place(), app.layout(), app.last()), (KeyContext::Follow, player.app.layout(), None));
         for size in SIZES {
             let there = picture(&mut app, size);
-            assert!(there.contains("following anna straight, expert") && !there.contains("Enter"), "{there}");
+            assert!(there.contains("following anna: match, straight, expert") && !there.contains("Enter"), "{there}");
             if caps == TRUE_COLOUR {
                 let own = picture(&mut player.app, size);
                 let rows = |text: &str| text.lines().skip(2).take(10).map(str::to_owned).collect::<Vec<_>>();

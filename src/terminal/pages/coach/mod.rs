@@ -47,6 +47,7 @@ use crate::{
 };
 
 pub use advised::{AdviceState, Choice};
+use spectators::Company;
 pub use spectators::Followed;
 
 /// What the arrow keys are for on the coach's screen.
@@ -125,10 +126,8 @@ pub struct CoachPage {
     pub units: Units,
     /// The player's name, under which others can follow the table.
     pub player: Option<Player>,
-    /// Whether they may.
-    is_shown: bool,
-    /// Somebody else whose table this is: it is looked at, and nothing else.
-    followed: Option<Followed>,
+    /// Who else is at this table.
+    company: Company,
     /// The player's own stroke beside the coach's.
     compared: Option<own_stroke::Compared>,
     balls: History<Position>,
@@ -176,8 +175,7 @@ impl CoachPage {
             seen: side_view::Seen::default(),
             units: Units::default(),
             player: None,
-            is_shown: false,
-            followed: None,
+            company: Company::Alone,
             compared: None,
             balls: History::new(Position {
                 table: Arc::new(table),
@@ -225,7 +223,7 @@ impl CoachPage {
         let CoachQuery { rule, skill, plan, .. } = self.query;
         let (table, layout, cue_ball) = (self.table(), *self.layout(), self.cue_ball());
         let last = SessionParts { table, layout, cue_ball, rule, skill, plan, practice };
-        (self.followed.is_none() && (self.is_begun() || practice.is_some())).then_some(last)
+        (self.followed().is_none() && (self.is_begun() || practice.is_some())).then_some(last)
     }
 
     /// Whether anything has been done since the start.
@@ -411,11 +409,6 @@ impl CoachPage {
     pub fn verdict(&self) -> Option<Verdict> {
         let shot = self.watched().filter(|shot| self.playback.time >= shot.recording.duration())?;
         Some(shot.verdict(self.query.rule, self.table()))
-    }
-
-    /// Somebody else whose table this is.
-    pub const fn followed(&self) -> Option<&Followed> {
-        self.followed.as_ref()
     }
 
     /// The chosen step in millimetres, mm.

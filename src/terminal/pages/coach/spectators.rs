@@ -7,7 +7,7 @@ use crate::{
     terminal::{
         Advice, AdviceState, CoachQuery, Mode, Proposal,
         pages::coach::{CoachPage, Position},
-        shot::History,
+        shot::{History, WhatIf},
         shown::{Author, Doing, ShownShot, ShownTable},
         tasks::onlooker::{Seen, SeenTable},
         ui::Message,
@@ -16,6 +16,17 @@ use crate::{
 
 /// What stands before all that the status line says while others may look on.
 const SHOWN: &str = "shown to others";
+
+/// Who else is at the table.
+#[derive(Debug)]
+pub enum Company {
+    /// Nobody.
+    Alone,
+    /// Others may look on.
+    Others,
+    /// Somebody whose table it is: it is looked at, and nothing else.
+    Host(Followed),
+}
 
 /// Somebody else whose table this page shows.
 #[derive(Debug)]
@@ -62,23 +73,38 @@ impl Followed {
 }
 
 impl CoachPage {
+    /// Somebody else whose table this is.
+    pub const fn followed(&self) -> Option<&Followed> {
+        match &self.company {
+            Company::Host(followed) => Some(followed),
+            _ => None,
+        }
+    }
+
+    /// Whether others may look on.
+    const fn is_shown(&self) -> bool {
+        matches!(self.company, Company::Others)
+    }
+
     /// Lets others see the table, or no longer.
     pub(super) fn turn_shown(&mut self) {
-        self.is_shown = !self.is_shown;
-        self.message = Some(match (&self.player, self.is_shown) {
+        self.company = if self.is_shown() { Company::Alone } else { Company::Others };
+        self.message = Some(match (&self.player, self.is_shown()) {
             (Some(player), true) => Message::plain(format!("carom follow {player} shows this table from now on")),
             _ => Message::plain("others see nothing of this table any more"),
         });
     }
 
     /// Others see nothing of it from now on.
-    pub const fn hide(&mut self) {
-        self.is_shown = false;
+    pub fn hide(&mut self) {
+        self.company = Company::Alone;
+        // It said the contrary.
+        self.message = None;
     }
 
     /// What others may see, while they may; where another screen is open, the table as it was left.
     pub fn shown_table(&self, is_open: bool) -> Option<ShownTable> {
-        if !self.is_shown {
+        if !self.is_shown() {
             return None;
         }
         let doing = match self.mode {
@@ -95,7 +121,7 @@ impl CoachPage {
     fn shown_shot(&self) -> Option<ShownShot> {
         let proposal = self.proposal()?;
         let what_if = self.what_if();
-        let made = what_if.map_or(proposal.made, |own| own.made());
+        let made = what_if.map_or(proposal.made, WhatIf::made);
         let author = match what_if {
             Some(_) => Author::Player,
             None if proposal.is_early => Author::Search,
@@ -115,17 +141,17 @@ impl CoachPage {
 
     /// What the status line says, with a word that others may look on where they may.
     pub(super) fn marked(&self, message: Message) -> Message {
-        if self.is_shown { message.after(SHOWN) } else { message }
+        if self.is_shown() { message.after(SHOWN) } else { message }
     }
 
     /// Shows the table of somebody else from now on.
     pub fn follow(&mut self, name: String, folder: PathBuf) {
-        self.followed = Some(Followed::new(name, folder));
+        self.company = Company::Host(Followed::new(name, folder));
     }
 
     /// Something else is seen of the table that is followed.
     pub fn see(&mut self, seen: Seen) {
-        let Some(followed) = &mut self.followed else { return };
+        let Company::Host(followed) = &mut self.company else { return };
         followed.seen = seen.clone();
         self.playback.pause();
         if let Seen::Table(seen) = seen {

@@ -22,6 +22,8 @@ const NAMED: usize = 60;
 const MEASURED: usize = 90;
 /// What is said where jumps and massés are forbidden; the answer says it too.
 const FORBIDDEN: &str = " no jumps";
+/// Most columns of the table's name where somebody else's is followed.
+const TABLE: usize = 12;
 /// Fewest columns of a policy's name that still tell something.
 const NAME: usize = 8;
 
@@ -51,7 +53,8 @@ fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
         let words = if followed.emptiness().is_some() {
             String::new()
         } else {
-            format!(" {}, {}", rule_word(query.rule), skill_word(query.skill))
+            let table = end_of(&coach.table().name, TABLE, ui.caps);
+            format!(": {table}, {}, {}", rule_word(query.rule), skill_word(query.skill))
         };
         let whose = Span::styled(format!(" following {}", followed.name), ui.theme.accent());
         return Line::from(vec![whose, Span::styled(words, ui.theme.text())]);
@@ -74,6 +77,9 @@ fn question(coach: &CoachPage, ui: &Ui) -> Line<'static> {
 
 /// The policy that is asked or the table, where it is not the usual one or there is room for it; then that jumps are forbidden.
 fn name(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
+    if coach.followed().is_some() {
+        return Line::default();
+    }
     let mut line = policy_or_table(coach, left, room, ui);
     if !coach.query.jumps && line.width() + FORBIDDEN.len() <= left {
         line.push_span(Span::styled(FORBIDDEN, ui.theme.text()));
