@@ -216,6 +216,30 @@ fn keys_without_a_player_get_nothing_and_players_get_no_more_than_the_coach() {
     assert!(is_below(&club.players_folder().join("anna"), &club.folder.path().join("home")));
 }
 
+#[test]
+#[ignore = "needs root and sshd; its command stands above"]
+fn a_player_looks_on_over_ssh_while_another_plays() {
+    let club = Club::open(&["anna".to_owned(), "ben".to_owned()]);
+    let mut anna = club.player("anna", "");
+    anna.wait_for(OPENING);
+    let mut ben = club.player("ben", "follow anna");
+    assert_ne!(ben.ends_within(PATIENCE).exit_code(), 0, "she has not allowed it yet");
+    anna.send("F");
+    anna.wait_for("carom follow anna shows this table");
+    anna.settle(Duration::from_secs(1));
+    let mut ben = club.player("ben", "follow anna");
+    ben.wait_for("anna places the balls");
+    anna.send("\r");
+    anna.wait_for_advice();
+    anna.send(" ");
+    ben.wait_for("next: ");
+    // A connection that breaks takes the picture with it.
+    anna.cut();
+    ben.wait_for("anna shows no table at the moment");
+    ben.send("q");
+    assert_eq!(ben.ends_within(PATIENCE).exit_code(), 0);
+}
+
 /// Whether all files below `home` are below `folder`.
 fn is_below(folder: &Path, home: &Path) -> bool {
     fs::read_dir(home).unwrap().all(|entry| {
