@@ -52,8 +52,7 @@ pub fn follow_in_lines(
                 tell_damage(name, json, out)?;
             }
             Some(Seen::Table(seen)) if json => {
-                printing::json(out, &seen.shown)?;
-                writeln!(out)?;
+                printing::json_line(out, &seen.shown)?;
             }
             Some(Seen::Table(seen)) => waiting = Some((seen, Instant::now())),
             None => {}
