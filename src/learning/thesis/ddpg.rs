@@ -231,7 +231,9 @@ impl PlainDdpg {
         let lessons = drawn.len();
         drawn.extend(self.replay.sample(settings.batch - lessons, rng));
         if settings.symmetric {
-            drawn.iter_mut().for_each(|shot| *shot = seen(shot, rng.random_range(0..WAYS)));
+            for shot in &mut drawn {
+                *shot = seen(shot, rng.random_range(0..WAYS));
+            }
         }
         let batch = Batch::new(&drawn, settings.discount)?;
         self.networks.update_guided(&batch, &settings.guidance(lessons, self.shots))
@@ -307,7 +309,7 @@ impl Agent for PlainDdpg {
         let Self { shots, noise, .. } = *self;
         let lessons = self.settings.are_about_points().then(|| self.lessons.save(writer));
         let (updates, next) = (self.networks.updates(), self.replay.save(MEMORY, writer));
-        note_of(&PlainDdpgState { shots, noise, updates, next, lessons })
+        note_of(&PlainDdpgState { shots, updates, next, noise, lessons })
     }
 
     fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {

@@ -158,6 +158,7 @@ impl Change {
                 "range_pull": 0.3,
                 "symmetric": true,
                 "noise": noise,
+                "noise_falls_to": 0.05,
                 "learning_rate": 2e-3,
                 "learning_rate_falls_to": 0.05,
                 "falls_over": shots,
