@@ -6,6 +6,7 @@
 
 pub mod agents;
 mod calendar;
+mod cue_way;
 pub mod ddpg;
 pub mod evaluation;
 pub mod learner;

@@ -213,7 +213,7 @@ fn thesis_updates(
             next: std::array::from_fn(|_| number()),
         })
         .collect();
-    let batch = Batch::new(&drawn.iter().collect::<Vec<_>>(), 0.99)?;
+    let batch = Batch::new(&drawn, 0.99)?;
     updates_a_second(time, || agent.update(&batch))
 }
 

@@ -120,6 +120,58 @@ fn taken_up(agent: &str, bytes: &[u8]) -> Box<dyn Learner> {
 const AGENTS: [&str; 3] = ["q-learning", "dqn", "thesis-ddpg"];
 
 #[test]
+fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
+    // Layouts to be searched are left when it is put aside, and more lessons are found than are remembered.
+    let settings = json!({
+        "hindsight": 0.4, "demonstrations": 0.3, "demonstration_layouts": 330, "demonstration_tries": 60, "memory": 50,
+        "noise_falls_to": 0.5, "learning_rate_falls_to": 0.5, "falls_over": 400, "symmetric": true, "range_pull": 0.3,
+    });
+    let plan = TrainingPlan { reward: Reward::R3, seed: 5, shots: 650 };
+    let start = || {
+        (Line::named("thesis-ddpg").unwrap().start)(plan, Table::preset("thesis").unwrap(), settings.clone()).unwrap()
+    };
+    let (mut whole, mut parts) = (start(), start());
+    while !whole.is_finished() {
+        parts = taken_up("thesis-ddpg", &put_aside(parts.as_ref()));
+        assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
+    }
+    let bytes = put_aside(whole.as_ref());
+    assert!(bytes == put_aside(parts.as_ref()));
+    for name in ["hindsight", "demonstrations"] {
+        let (shape, _) = Reader::new(&bytes).unwrap().array(name).unwrap();
+        assert_eq!(shape[0], 50, "{name}");
+    }
+}
+
+#[test]
+fn a_run_from_before_there_were_lessons_is_still_read_and_goes_on_alike() {
+    let mut new = start("thesis-ddpg", json!({}));
+    new.iterate().unwrap();
+    new.iterate().unwrap();
+    let mut writer = Writer::default();
+    let mut note = new.save(&mut writer).unwrap();
+    let before = [
+        "episode",
+        "actor_layers",
+        "critic_layers",
+        "learning_rate",
+        "keep",
+        "gradient_clip",
+        "memory",
+        "discount",
+        "batch",
+        "warm_up",
+        "noise",
+        "noise_restarts",
+    ];
+    note["settings"].as_object_mut().unwrap().retain(|name, _| before.contains(&name.as_str()));
+    assert!(note["agent"].get("lessons").is_none(), "{note}");
+    let mut old = taken_up("thesis-ddpg", &writer.finish(&note).unwrap());
+    assert_eq!(old.iterate().unwrap(), new.iterate().unwrap());
+    assert!(put_aside(old.as_ref()) == put_aside(new.as_ref()));
+}
+
+#[test]
 fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
     for agent in AGENTS {
         // Seven does not divide a turn's hundred shots: agents are put aside in the middle of a game.
@@ -175,6 +227,9 @@ fn wrong_settings_are_named() {
         ("dqn", json!({ "layers": [16, 0] }), "layers = 0"),
         ("dqn", json!({ "episode": { "shots": 0 } }), "episode = 0"),
         ("thesis-ddpg", json!({ "keep": -0.1 }), "keep = -0.1"),
+        ("thesis-ddpg", json!({ "hindsight": 0.7, "demonstrations": 0.7 }), "hindsight + demonstrations = 1.4"),
+        ("thesis-ddpg", json!({ "demonstrations": 0.5 }), "use them with r3"),
+        ("thesis-ddpg", json!({ "noise_falls_to": 0.0 }), "noise_falls_to = 0"),
         ("thesis-ddpg", json!({ "noise": { "theta": 3.0, "sigma": 0.3, "dt": 1.0 } }), "noise.theta = 3"),
     ] {
         let error = (Line::named(agent).unwrap().start)(plan, Table::default(), settings).unwrap_err().to_string();

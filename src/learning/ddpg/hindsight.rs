@@ -1,7 +1,7 @@
 //! Hindsight transition replay (Andrychowicz et al. 2017; thesis 6.1.1): a shot that made no point would have made
 //! it had that ball lain on the cue ball's way. So it is put there, and the shot is remembered as a success.
 
-use std::{f64::consts::FRAC_PI_2, ops::ControlFlow};
+use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
 use rand::{Rng, RngExt};
@@ -11,8 +11,7 @@ use super::{
 };
 use crate::{
     game::Reward,
-    physics::strike,
-    simulation::{Event, EventKind, Observer, Segment, StepBudget, watch},
+    learning::cue_way::CueWay,
     table::{Layout, Table},
 };
 
@@ -27,8 +26,7 @@ pub fn relabel(
     rng: &mut (impl Rng + ?Sized),
 ) -> Option<Transition> {
     let cue = playable(table, layout, observation, action).ok()?;
-    let mut way = Way { met: None, last: 0.0, segments: Vec::new(), patience: StepBudget(patience) };
-    watch(table, layout, &strike(table, &cue), &mut way);
+    let way = CueWay::of(table, layout, &cue, patience);
     let (first, begin) = way.met?;
     // The ball that was not met is the one to move; the observation must call it the second.
     let second = 3 - first;
@@ -36,9 +34,7 @@ pub fn relabel(
         return None;
     }
     let time = begin + (way.last - begin) * rng.random::<f64>();
-    let (segment, _) = way.segments.iter().find(|(segment, end)| segment.start <= time && time <= *end)?;
-    let (position, velocity) =
-        (segment.position_after(time - segment.start), segment.velocity_after(time - segment.start));
+    let [position, velocity] = way.at(time)?;
     let side = rng.random_range(-FRAC_PI_2..FRAC_PI_2);
     let target = position + 2.0 * table.radius * DVec2::from_angle(side).rotate(velocity.try_normalize()?);
     let mut moved = *layout;
@@ -49,41 +45,6 @@ pub fn relabel(
     let is_same = playable(table, &moved, &observation, action) == Ok(cue);
     let success = is_same && reward.within(table, &moved, &cue, patience) >= 1.0;
     success.then_some(Transition { observation, conditions: Conditions::default(), action, success: 1.0 })
-}
-
-/// Keeps the cue ball's way after it has met its first ball.
-struct Way {
-    /// The ball that it met first, and when.
-    met: Option<(usize, f64)>,
-    /// When the last segment ends, s.
-    last: f64,
-    /// Pieces of the way and when they end, s.
-    segments: Vec<(Segment, f64)>,
-    patience: StepBudget,
-}
-
-impl Observer for Way {
-    const SEGMENTS: bool = true;
-
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        if let EventKind::BallBall(0, ball) = event.kind
-            && self.met.is_none()
-        {
-            self.met = Some((ball, event.time));
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
-        if ball == 0 && self.met.is_some() {
-            self.segments.push((segment.clone(), end));
-            self.last = end;
-        }
-    }
-
-    fn contact_step(&mut self) -> ControlFlow<()> {
-        self.patience.step()
-    }
 }
 
 #[cfg(test)]

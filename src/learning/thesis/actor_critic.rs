@@ -1,6 +1,6 @@
 //! A plain actor and its critic, and how they learn (thesis Algorithm 4): candle's modules, optimiser and gradients.
 
-use candle_core::{Result, Tensor, bail};
+use candle_core::{Device, Result, Tensor, bail};
 use candle_nn::{Module, Optimizer, loss::mse};
 use rand::Rng;
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,46 @@ pub struct Rates {
 impl Rates {
     const fn adam(&self) -> AdamConfig {
         AdamConfig { learning_rate: self.learning_rate, gradient_clip: self.gradient_clip }
+    }
+}
+
+/// How the actor learns beside climbing the critic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guidance {
+    /// Weight of the critic's slope.
+    pub climbing: f64,
+    /// The first rows of a batch, so many, are lessons: the actor goes towards what was done there.
+    pub lessons: usize,
+    /// Weight of that.
+    pub cloning: f64,
+    /// How near a lesson must be to the actor's own action to count, in direction and speed: of several ways to make a point the
+    /// nearest is followed, not the mean of all, which makes none.
+    pub width: [f64; 2],
+    /// How strongly actions outside the range are pulled back to it.
+    pub pull: f64,
+}
+
+impl Guidance {
+    /// Nothing but the critic.
+    pub const NONE: Self = Self { climbing: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], pull: 0.0 };
+
+    /// What the actor's step goes down, from the mean `value` of its `actions`.
+    fn loss(&self, value: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
+        let mut loss = (value * -self.climbing)?;
+        let rows = actions.dim(0)? as f64;
+        if self.lessons > 0 {
+            // Climbing a bell around each lesson climbs the success of an action with noise of that width.
+            let [own, shown] = [actions, &batch.actions].map(|actions| actions.narrow(0, 0, self.lessons));
+            let scale = Tensor::new(&self.width.map(|width| (1.0 / width) as f32), &Device::Cpu)?;
+            let apart = (own? - shown?)?.broadcast_mul(&scale)?.sqr()?.sum(1)?;
+            let near = (apart * -0.5)?.exp()?.sum_all()?;
+            loss = (loss - (near * (self.cloning * self.width[0] / rows))?)?;
+        }
+        if self.pull > 0.0 {
+            let beyond = (actions - actions.detach().clamp(-1f32, 1f32)?)?;
+            loss = (loss + (beyond.sqr()?.sum_all()? * (0.5 * self.pull / rows))?)?;
+        }
+        Ok(loss)
     }
 }
 
@@ -169,11 +209,26 @@ impl ActorCritic {
         self.online.actor.forward_frozen(states)
     }
 
+    /// Learns from now on at `share` of its learning rate.
+    pub fn slow_down(&mut self, share: f64) {
+        for optimiser in [&mut self.actor_optimiser, &mut self.critic_optimiser] {
+            optimiser.set_learning_rate(share * self.rates.learning_rate);
+        }
+    }
+
     /// One update: the critic's step, the actor's step and both soft updates.
     ///
     /// # Errors
     /// Where the networks no longer give finite numbers.
     pub fn update(&mut self, batch: &Batch) -> Result<UpdateStats> {
+        self.update_guided(batch, &Guidance::NONE)
+    }
+
+    /// As [`ActorCritic::update`], the actor's step guided by more than the critic.
+    ///
+    /// # Errors
+    /// Where the networks no longer give finite numbers.
+    pub fn update_guided(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
         let Pair { actor, critic } = &self.online;
         // The critic comes nearer to what it should have said: the reward and, where the episode went on, the value of the
         // target actor's action thereafter in the target critic's eyes (equations 57 and 58).
@@ -184,10 +239,10 @@ impl ActorCritic {
         let loss = mse(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &wanted)?;
         self.critic_optimiser.backward_step(&loss)?;
 
-        // The actor climbs the critic (the deterministic policy gradient).
+        // The actor climbs the critic (the deterministic policy gradient), and may be guided.
         let actions = actor.forward(&batch.states)?;
         let value = critic.forward_frozen(&Tensor::cat(&[&batch.states, &actions], 1)?)?.mean_all()?;
-        self.actor_optimiser.backward_step(&value.neg()?)?;
+        self.actor_optimiser.backward_step(&guidance.loss(&value, &actions, batch)?)?;
 
         for (target, online) in self.target.networks().into_iter().zip(self.online.networks()) {
             soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.keep)?;
@@ -243,7 +298,7 @@ mod tests {
                 }
             })
             .collect();
-        Batch::new(&drawn.iter().collect::<Vec<_>>(), 0.99).unwrap()
+        Batch::new(&drawn, 0.99).unwrap()
     }
 
     #[test]
@@ -300,6 +355,42 @@ mod tests {
                 largest = largest.max(ours.abs());
             }
             assert!(largest > 0.05, "a gradient of nought agrees with anything");
+        }
+    }
+
+    #[test]
+    fn the_actor_goes_to_the_nearest_lesson_and_back_into_its_range() {
+        let layers = layers(&[16; 3], &[32; 3]);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+        let mut agent = ActorCritic::random(&layers, RATES, &mut rng).unwrap();
+        let state = [0.3, -0.2, 0.5, 0.1, -0.7, 0.4];
+        let lesson = |direction| StoredTransition {
+            state,
+            action: [direction, 0.5],
+            index: 0,
+            reward: 1.0,
+            goes_on: false,
+            next: state,
+        };
+        let states = Tensor::from_slice(&state, (1, STATES), &Device::Cpu).unwrap();
+        let act = |agent: &ActorCritic| agent.act(&states).unwrap().flatten_all().unwrap().to_vec1::<f32>().unwrap();
+        let own = act(&agent)[0];
+        let (near, far) = (own + 0.25, own - 0.6);
+        let guidance = Guidance { climbing: 0.0, lessons: 4, cloning: 1.0, width: [0.2, 0.5], pull: 0.0 };
+        // Their mean lies on the other side.
+        let batch = Batch::new(&[lesson(near), lesson(far), lesson(near), lesson(far)], 0.0).unwrap();
+        for _ in 0..400 {
+            agent.update_guided(&batch, &guidance).unwrap();
+        }
+        assert!((act(&agent)[0] - near).abs() < 0.03 && (act(&agent)[1] - 0.5).abs() < 0.03, "{:?}", act(&agent));
+        let outside = Batch::new(&[lesson(1.8)], 0.0).unwrap();
+        let far = Guidance { width: [9.0; 2], lessons: 1, ..guidance };
+        let back = Guidance { lessons: 0, pull: 1.0, ..guidance };
+        for (guidance, within) in [(far, 1.2..2.0), (back, 0.8..1.05)] {
+            for _ in 0..1000 {
+                agent.update_guided(&outside, &guidance).unwrap();
+            }
+            assert!(within.contains(&act(&agent)[0]), "{guidance:?}: {:?}", act(&agent));
         }
     }
 

@@ -53,6 +53,11 @@ pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeO
     /// Learning rate.
     fn learning_rate(&self) -> f64;
 
+    /// Whether they are about points: of no use with a reward that says anything else.
+    fn are_about_points(&self) -> bool {
+        false
+    }
+
     /// Checks every setting.
     ///
     /// # Errors
@@ -100,6 +105,16 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     /// # Errors
     /// Whatever candle reports.
     fn best(&self, seen: &Observation) -> Result<Choice, Error>;
+
+    /// Looks for lessons before a shot is played, which only some agents do.
+    fn study(
+        &mut self,
+        _environment: &impl Environment,
+        _seen: &Observation,
+        _action: Action,
+        _rng: &mut Xoshiro256PlusPlus,
+    ) {
+    }
 
     /// Remembers a shot and learns from those that it remembers; nothing as long as these are too few.
     ///
@@ -158,6 +173,7 @@ impl Progress {
         }
         let before = environment.observe();
         let choice = agent.explore(&before, rng)?;
+        agent.study(environment, &before, choice.action, rng);
         let outcome = environment.act(choice.action);
         let (reward, goes_on, after) = (outcome.reward, !outcome.over, environment.observe());
         self.running = goes_on;

@@ -31,7 +31,7 @@ impl Batch {
     ///
     /// # Errors
     /// Whatever candle reports.
-    pub fn new(drawn: &[&StoredTransition], discount: f64) -> Result<Self> {
+    pub fn new(drawn: &[StoredTransition], discount: f64) -> Result<Self> {
         let rows = drawn.len();
         let matrix = |values: Vec<f32>, columns: usize| Tensor::from_vec(values, (rows, columns), &Device::Cpu);
         let discounts = drawn.iter().map(|drawn| if drawn.goes_on { discount as f32 } else { 0.0 });

@@ -5,9 +5,13 @@ use std::ops::ControlFlow;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
-use super::environment::{Action, Environment, Observation, Outcome, direction_and_speed};
+use super::{
+    environment::{Action, Environment, Observation, Outcome, State, direction_and_speed},
+    hindsight,
+};
 use crate::{
     game::{Reward, Tally},
+    learning::evaluation::CONTACT_STEPS,
     physics::{CueInputs, strike},
     simulation::{Event, Observer, simulate},
     table::{Layout, Table},
@@ -94,6 +98,15 @@ impl Carom {
 }
 
 impl Environment for Carom {
+    fn would_earn(&self, action: Action) -> f64 {
+        self.reward.within(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
+    }
+
+    fn in_hindsight(&self, action: Action, rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
+        let moved = hindsight::layouts(&self.table, self.reward, &self.layout, &cue_inputs(action), rng);
+        moved.iter().map(|layout| self.observation(layout).state).collect()
+    }
+
     fn begin(&mut self, rng: &mut Xoshiro256PlusPlus) {
         self.layout = Layout::random(&self.table, rng);
         self.shots = 0;

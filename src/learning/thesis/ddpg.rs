@@ -2,18 +2,22 @@
 //! example that comes with keras-rl.
 
 use candle_core::{Device, Error, Tensor};
+use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    actor_critic::{ActorCritic, Layers, Rates},
+    actor_critic::{ActorCritic, Guidance, Layers, Rates},
     agent::{Agent, Choice, Settings, Transition, UpdateStats},
+    batch::Batch,
     carom::Episode,
-    environment::{Action, Observation, STATES},
+    environment::{Action, Environment, Observation, STATES},
     exploration::OrnsteinUhlenbeck,
+    lessons::{Lessons, LessonsState, Sought},
     q_learning::check_episode,
-    replay::{ReplayBuffer, StoredTransition},
+    replay::{MEMORY, ReplayBuffer, StoredTransition},
+    symmetry::{WAYS, seen},
 };
 use crate::learning::settings::{
     SettingError, check, check_batch, check_count, check_layers, check_positive, check_share,
@@ -52,6 +56,30 @@ pub struct PlainDdpgSettings {
     /// Whether the noise begins at nought with every episode, as in keras-rl. With one shot an episode that leaves
     /// white noise of a standard deviation of `sigma sqrt(dt)`.
     pub noise_restarts: bool,
+    /// Share of the noise that is left in the end.
+    pub noise_falls_to: f64,
+    /// Share of the learning rate that is left in the end.
+    pub learning_rate_falls_to: f64,
+    /// Shots over which these two and `cloning_width` fall, each by the same part with every shot.
+    pub falls_over: u64,
+    /// Share of a batch that is shots seen in hindsight (thesis 6.1.1). For rewards of points only, as the next.
+    pub hindsight: f64,
+    /// Share of a batch that is demonstrations (thesis 6.1.2): shots that make the point, found by chance.
+    pub demonstrations: f64,
+    /// Layouts, the first that are played, on which demonstrations are sought.
+    pub demonstration_layouts: u64,
+    /// Shots tried on each of them, beside those that the agent plays.
+    pub demonstration_tries: u32,
+    /// Weight of the actor's step towards such shots.
+    pub cloning: f64,
+    /// How near they must be to its own action, first and last: a standard deviation in half turns of direction.
+    pub cloning_width: [f64; 2],
+    /// Weight of the actor's step up the critic.
+    pub climbing: f64,
+    /// How strongly actions out of range are pulled back.
+    pub range_pull: f64,
+    /// Whether every shot is learnt from in any of the eight ways that a level table's symmetry and equal object balls allow.
+    pub symmetric: bool,
 }
 
 impl Default for PlainDdpgSettings {
@@ -69,6 +97,18 @@ impl Default for PlainDdpgSettings {
             warm_up: 100,
             noise: OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 0.01 },
             noise_restarts: true,
+            noise_falls_to: 1.0,
+            learning_rate_falls_to: 1.0,
+            falls_over: 400_000,
+            hindsight: 0.0,
+            demonstrations: 0.0,
+            demonstration_layouts: 10_000,
+            demonstration_tries: 300,
+            cloning: 1.0,
+            cloning_width: [0.2, 0.015],
+            climbing: 1.0,
+            range_pull: 0.0,
+            symmetric: false,
         }
     }
 }
@@ -80,6 +120,10 @@ impl Settings for PlainDdpgSettings {
 
     fn learning_rate(&self) -> f64 {
         self.learning_rate
+    }
+
+    fn are_about_points(&self) -> bool {
+        self.hindsight > 0.0 || self.demonstrations > 0.0
     }
 
     fn validate(&self) -> Result<(), SettingError> {
@@ -95,7 +139,26 @@ impl Settings for PlainDdpgSettings {
         check_share("noise.dt", self.noise.dt)?;
         let kept = self.noise.theta * self.noise.dt;
         check("noise.theta", self.noise.theta, (0.0..2.0).contains(&kept), "0 to 2 / dt")?;
-        check("noise.sigma", self.noise.sigma, (0.0..=1e3).contains(&self.noise.sigma), "0 to 1000")
+        check("noise.sigma", self.noise.sigma, (0.0..=1e3).contains(&self.noise.sigma), "0 to 1000")?;
+        for (name, share) in
+            [("noise_falls_to", self.noise_falls_to), ("learning_rate_falls_to", self.learning_rate_falls_to)]
+        {
+            check_positive(name, share)?;
+            check_share(name, share)?;
+        }
+        check("falls_over", self.falls_over as f64, self.falls_over > 0, "at least 1")?;
+        check_share("hindsight", self.hindsight)?;
+        check_share("demonstrations", self.demonstrations)?;
+        check_share("hindsight + demonstrations", self.hindsight + self.demonstrations)?;
+        check_count("demonstration_tries", self.demonstration_tries as usize)?;
+        for width in self.cloning_width {
+            check_positive("cloning_width", width)?;
+        }
+        for (name, weight) in [("cloning", self.cloning), ("climbing", self.climbing), ("range_pull", self.range_pull)]
+        {
+            check(name, weight, (0.0..=1e3).contains(&weight), "0 to 1000")?;
+        }
+        Ok(())
     }
 }
 
@@ -108,7 +171,35 @@ impl PlainDdpgSettings {
         let Self { learning_rate, keep, gradient_clip, .. } = *self;
         Rates { learning_rate, keep, gradient_clip }
     }
+
+    /// What is left after `shots` of something of which `last` is left in the end.
+    fn left(&self, last: f64, shots: u64) -> f64 {
+        last.powf((shots as f64 / self.falls_over as f64).min(1.0))
+    }
+
+    fn guidance(&self, lessons: usize, shots: u64) -> Guidance {
+        let [first, last] = self.cloning_width;
+        let width = first * self.left(last / first, shots);
+        let speed = (SPEED_WIDTH * width).min(WIDEST);
+        let Self { climbing, cloning, range_pull: pull, .. } = *self;
+        Guidance { climbing, lessons, cloning, width: [width, speed], pull }
+    }
+
+    fn sought(&self) -> Sought {
+        let layouts = if self.demonstrations > 0.0 { self.demonstration_layouts } else { 0 };
+        Sought { hindsight: self.hindsight > 0.0, layouts, tries: self.demonstration_tries }
+    }
+
+    /// Rows of a batch for lessons of both kinds.
+    fn lesson_rows(&self) -> [usize; 2] {
+        [self.hindsight, self.demonstrations].map(|share| (share * self.batch as f64) as usize)
+    }
 }
+
+/// A point asks less of the speed than of the direction: lessons may be so many times farther in speed,
+const SPEED_WIDTH: f64 = 10.0;
+/// and at most so far, of a range of two.
+const WIDEST: f64 = 0.5;
 
 /// The agent.
 #[derive(Debug)]
@@ -116,6 +207,7 @@ pub struct PlainDdpg {
     settings: PlainDdpgSettings,
     networks: ActorCritic,
     replay: ReplayBuffer,
+    lessons: Lessons,
     noise: Action,
     shots: u64,
 }
@@ -126,11 +218,25 @@ struct PlainDdpgState {
     updates: u32,
     next: usize,
     noise: Action,
+    /// Those of an agent that has none are not written, as they were not before there were any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    lessons: Option<LessonsState>,
 }
 
 impl PlainDdpg {
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
-        self.networks.update(&self.replay.batch(self.settings.batch, self.settings.discount, rng)?)
+        let settings = &self.settings;
+        self.networks.slow_down(settings.left(settings.learning_rate_falls_to, self.shots));
+        let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
+        let lessons = drawn.len();
+        drawn.extend(self.replay.sample(settings.batch - lessons, rng));
+        if settings.symmetric {
+            for shot in &mut drawn {
+                *shot = seen(shot, rng.random_range(0..WAYS));
+            }
+        }
+        let batch = Batch::new(&drawn, settings.discount)?;
+        self.networks.update_guided(&batch, &settings.guidance(lessons, self.shots))
     }
 }
 
@@ -141,8 +247,8 @@ impl Agent for PlainDdpg {
 
     fn new(settings: PlainDdpgSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
         let networks = ActorCritic::random(&settings.layers(), settings.rates(), rng)?;
-        let replay = ReplayBuffer::new(settings.memory);
-        Ok(Self { settings, networks, replay, noise: Action::default(), shots: 0 })
+        let (replay, lessons) = (ReplayBuffer::new(settings.memory), Lessons::new(settings.memory));
+        Ok(Self { settings, networks, replay, lessons, noise: Action::default(), shots: 0 })
     }
 
     fn settings(&self) -> &PlainDdpgSettings {
@@ -154,7 +260,8 @@ impl Agent for PlainDdpg {
     }
 
     fn exploration(&self) -> f64 {
-        self.settings.noise.deviation(self.settings.noise_restarts)
+        let left = self.settings.left(self.settings.noise_falls_to, self.shots);
+        left * self.settings.noise.deviation(self.settings.noise_restarts)
     }
 
     fn replay_fill(&self) -> Option<f64> {
@@ -163,9 +270,10 @@ impl Agent for PlainDdpg {
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         self.noise = self.settings.noise.step(self.noise, rng);
+        let left = self.settings.left(self.settings.noise_falls_to, self.shots) as f32;
         let mut choice = self.best(seen)?;
         for (value, noise) in choice.action.iter_mut().zip(self.noise) {
-            *value += noise;
+            *value += left * noise;
         }
         Ok(choice)
     }
@@ -174,6 +282,16 @@ impl Agent for PlainDdpg {
         let state = Tensor::from_slice(&seen.state, (1, STATES), &Device::Cpu)?;
         let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
         Ok(Choice { action: std::array::from_fn(|index| action[index]), index: 0 })
+    }
+
+    fn study(
+        &mut self,
+        environment: &impl Environment,
+        seen: &Observation,
+        action: Action,
+        rng: &mut Xoshiro256PlusPlus,
+    ) {
+        self.lessons.seek(self.settings.sought(), environment, seen, action, rng);
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
@@ -189,16 +307,21 @@ impl Agent for PlainDdpg {
         let values = self.networks.values()?;
         writer.add("networks", &[values.len()], &values);
         let Self { shots, noise, .. } = *self;
-        note_of(&PlainDdpgState { shots, noise, updates: self.networks.updates(), next: self.replay.save(writer) })
+        let lessons = self.settings.are_about_points().then(|| self.lessons.save(writer));
+        let (updates, next) = (self.networks.updates(), self.replay.save(MEMORY, writer));
+        note_of(&PlainDdpgState { shots, updates, next, noise, lessons })
     }
 
     fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let PlainDdpgState { shots, updates, next, noise } =
+        let PlainDdpgState { shots, updates, next, noise, lessons } =
             serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
         let (_, values) = reader.array("networks")?;
         let networks = ActorCritic::from_values(&settings.layers(), settings.rates(), &values, updates)?;
-        let replay = ReplayBuffer::restore(settings.memory, reader, next)?;
-        Ok(Self { settings, networks, replay, noise, shots })
+        let replay = ReplayBuffer::restore(settings.memory, reader, MEMORY, next)?;
+        let memory = settings.memory;
+        let lessons =
+            lessons.map_or_else(|| Ok(Lessons::new(memory)), |state| Lessons::restore(memory, reader, state))?;
+        Ok(Self { settings, networks, replay, lessons, noise, shots })
     }
 
     /// The learning networks become both the learning ones and the targets; the optimisers start again.

@@ -14,7 +14,7 @@ use super::{
     environment::{DISCRETE_ACTIONS, Observation, STATES, discrete_action},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
-    replay::{ReplayBuffer, StoredTransition},
+    replay::{MEMORY, ReplayBuffer, StoredTransition},
 };
 use crate::learning::settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share};
 use crate::learning::{
@@ -194,7 +194,7 @@ impl Agent for Dqn {
         writer.add_network("online", &self.online)?;
         writer.add_network("target", &self.target)?;
         writer.add_optimiser("", &self.optimiser)?;
-        note_of(&DqnState { shots: self.shots, updates: self.updates, next: self.replay.save(writer) })
+        note_of(&DqnState { shots: self.shots, updates: self.updates, next: self.replay.save(MEMORY, writer) })
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
@@ -203,7 +203,7 @@ impl Agent for Dqn {
         Ok(Self {
             target: network(&settings, reader, "target")?,
             optimiser: reader.optimiser("", &online, settings.adam(), updates)?,
-            replay: ReplayBuffer::restore(settings.memory, reader, next)?,
+            replay: ReplayBuffer::restore(settings.memory, reader, MEMORY, next)?,
             online,
             settings,
             shots,

@@ -70,6 +70,16 @@ pub trait Environment {
 
     /// Carries out an action.
     fn act(&mut self, action: Action) -> Outcome;
+
+    /// What an action would earn now, by itself: nothing is carried out. Nought where nobody can tell.
+    fn would_earn(&self, _action: Action) -> f64 {
+        0.0
+    }
+
+    /// States, much like the present one, in which an action would succeed. None where nobody can tell.
+    fn in_hindsight(&self, _action: Action, _rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
+        Vec::new()
+    }
 }
 
 #[cfg(test)]

@@ -44,6 +44,10 @@ fn start<A: Agent + 'static>(
     let settings: A::Settings =
         serde_json::from_value(settings).map_err(|error| StartError::Settings(error.to_string()))?;
     settings.validate().map_err(|error| StartError::Settings(error.to_string()))?;
+    if settings.are_about_points() && plan.reward.rule().is_none() {
+        let refused = "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+        return Err(StartError::Settings(refused.to_owned()));
+    }
     Ok(Box::new(TrainingLoop::<A>::new(plan, table, settings)?))
 }
 

@@ -27,6 +27,9 @@ pub struct StoredTransition {
     pub next: State,
 }
 
+/// The name of a library of one's own shots in a file.
+pub const MEMORY: &str = "memory";
+
 /// Numbers of a transition in a file.
 const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
 
@@ -88,19 +91,23 @@ impl ReplayBuffer {
         if self.held.is_empty() { None } else { Some(&self.held[rng.random_range(0..self.held.len())]) }
     }
 
+    /// So many transitions, each drawn uniformly; none from an empty ring.
+    pub fn sample(&self, rows: usize, rng: &mut (impl Rng + ?Sized)) -> Vec<StoredTransition> {
+        (0..rows).filter_map(|_| self.draw(rng).copied()).collect()
+    }
+
     /// A batch of so many transitions, each drawn uniformly from a ring that holds some.
     ///
     /// # Errors
     /// Whatever candle reports.
     pub fn batch(&self, rows: usize, discount: f64, rng: &mut (impl Rng + ?Sized)) -> Result<Batch, Error> {
-        let drawn: Vec<&StoredTransition> = (0..rows).filter_map(|_| self.draw(rng)).collect();
-        Batch::new(&drawn, discount)
+        Batch::new(&self.sample(rows, rng), discount)
     }
 
-    /// Adds what is held to a file; returns where the next one goes.
-    pub fn save(&self, writer: &mut Writer) -> usize {
+    /// Adds what is held to a file under `name`; returns where the next one goes.
+    pub fn save(&self, name: &str, writer: &mut Writer) -> usize {
         let numbers: Vec<f32> = self.held.iter().flat_map(StoredTransition::numbers).collect();
-        writer.add("memory", &[self.held.len(), NUMBERS], &numbers);
+        writer.add(name, &[self.held.len(), NUMBERS], &numbers);
         self.next
     }
 
@@ -108,12 +115,12 @@ impl ReplayBuffer {
     ///
     /// # Errors
     /// Where the file has none.
-    pub fn restore(capacity: usize, reader: &Reader<'_>, next: usize) -> Result<Self, WeightsError> {
+    pub fn restore(capacity: usize, reader: &Reader<'_>, name: &str, next: usize) -> Result<Self, WeightsError> {
         let capacity = capacity.max(1);
-        let (shape, numbers) = reader.array("memory")?;
+        let (shape, numbers) = reader.array(name)?;
         if shape.len() != 2 || shape[1] != NUMBERS || shape[0] > capacity {
             let expected = format!("at most {capacity} rows of {NUMBERS} values");
-            return Err(WeightsError::Array { name: "memory".to_owned(), expected });
+            return Err(WeightsError::Array { name: name.to_owned(), expected });
         }
         let held = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
         Ok(Self { held, capacity, next: next % capacity })
@@ -145,9 +152,9 @@ mod tests {
         assert!(replay.draw(&mut rng).is_none());
         (0..5).for_each(|number| replay.push(transition(number)));
         let mut writer = Writer::default();
-        let next = replay.save(&mut writer);
+        let next = replay.save(MEMORY, &mut writer);
         let bytes = writer.finish(&"").unwrap();
-        let mut again = ReplayBuffer::restore(3, &Reader::new(&bytes).unwrap(), next).unwrap();
+        let mut again = ReplayBuffer::restore(3, &Reader::new(&bytes).unwrap(), MEMORY, next).unwrap();
         for ring in [&mut replay, &mut again] {
             ring.push(transition(5));
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
@@ -156,6 +163,6 @@ mod tests {
             drawn.dedup();
             assert_eq!(drawn, [transition(3), transition(4), transition(5)]);
         }
-        assert!(ReplayBuffer::restore(2, &Reader::new(&bytes).unwrap(), 0).is_err());
+        assert!(ReplayBuffer::restore(2, &Reader::new(&bytes).unwrap(), MEMORY, 0).is_err());
     }
 }

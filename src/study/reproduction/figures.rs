@@ -43,6 +43,10 @@ pub struct Figure {
     pub shots: u64,
     /// Where the thesis' curve ends, where it says so.
     pub thesis: Option<f64>,
+    /// Its curves.
+    pub readings: &'static [Reading],
+    /// Seeds with which each curve is drawn.
+    pub seeds: u64,
 }
 
 const fn figure(
@@ -53,11 +57,11 @@ const fn figure(
     shots: u64,
     thesis: Option<f64>,
 ) -> Figure {
-    Figure { name, title, agent, reward, measure, shots, thesis }
+    Figure { name, title, agent, reward, measure, shots, thesis, readings: &READINGS, seeds: 1 }
 }
 
-/// All figures, in the thesis' order.
-pub const FIGURES: [Figure; 10] = {
+/// All figures, in the thesis' order; then DDPG with r1 and other noise, and the thesis' future work.
+pub const FIGURES: [Figure; 12] = {
     use Measure::{Loss, MeanQ, MeanReward};
     const DDPG: &str = "thesis-ddpg";
     [
@@ -78,10 +82,26 @@ pub const FIGURES: [Figure; 10] = {
         figure(("r2", "DDPG, r2"), DDPG, Reward::R2, MeanReward, 200_000, None),
         figure(("29", "Figure 29: DDPG, r3"), DDPG, Reward::R3, MeanReward, 200_000, Some(0.05)),
         figure(("30", "Figure 30: DDPG, r4"), DDPG, Reward::R4, MeanReward, 200_000, None),
+        Figure {
+            readings: &NOISES,
+            seeds: 3,
+            ..figure(("noise", "DDPG, r1, by noise"), DDPG, Reward::R1, MeanReward, 200_000, Some(0.8))
+        },
+        Figure {
+            readings: &FUTURE_WORK,
+            seeds: 3,
+            ..figure(("future-work", "DDPG, r3, with lessons"), DDPG, Reward::R3, MeanReward, 200_000, Some(0.05))
+        },
     ]
 };
 
 impl Figure {
+    /// Every curve: what it reads, and which of its seeds it is drawn with, from nought.
+    pub fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64)> + use<> {
+        let seeds = self.seeds;
+        self.readings.iter().flat_map(move |reading| (0..seeds).map(move |seed| (reading, seed)))
+    }
+
     /// The figure called `name`.
     ///
     /// # Errors
@@ -105,7 +125,49 @@ impl Figure {
 #[error("there is no figure \"{0}\"; use {list}", list = FIGURES.map(|figure| figure.name).join(", "))]
 pub struct UnknownFigure(String);
 
-/// A reading of the thesis' word "episode", of which it says no more. All are tried.
+/// What a curve has that the thesis' agent has not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// Nothing.
+    None,
+    /// White noise of a standard deviation of 0.1, constant.
+    StrongNoise,
+    /// The same, falling to a twentieth.
+    FallingNoise,
+    /// Shots that make the point beside its own (thesis 6.1.1 and 6.1.2).
+    Lessons {
+        /// Share of a batch that is shots seen in hindsight.
+        hindsight: f64,
+        /// Share of a batch that is demonstrations.
+        demonstrations: f64,
+    },
+}
+
+impl Change {
+    /// Its settings for a training of so many shots.
+    fn settings(self, shots: u64) -> Value {
+        let noise = json!({ "theta": 0.15, "sigma": 1.0, "dt": 0.01 });
+        match self {
+            Self::None => json!({}),
+            Self::StrongNoise => json!({ "noise": noise }),
+            Self::FallingNoise => json!({ "noise": noise, "noise_falls_to": 0.05, "falls_over": shots }),
+            Self::Lessons { hindsight, demonstrations } => json!({
+                "hindsight": hindsight,
+                "demonstrations": demonstrations,
+                "climbing": 0.0,
+                "range_pull": 0.3,
+                "symmetric": true,
+                "noise": noise,
+                "noise_falls_to": 0.05,
+                "learning_rate": 2e-3,
+                "learning_rate_falls_to": 0.05,
+                "falls_over": shots,
+            }),
+        }
+    }
+}
+
+/// A reading of the thesis' word "episode", of which it says no more, or another change to its agent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Its name in the legend and in the table.
@@ -114,13 +176,38 @@ pub struct Reading {
     pub color: &'static str,
     /// When an episode is over.
     pub episode: Episode,
+    /// What else is other than in the thesis.
+    pub change: Change,
 }
+
+const fn reading(name: &'static str, color: &'static str, episode: Episode) -> Reading {
+    Reading { name, color, episode, change: Change::None }
+}
+
+const fn changed(name: &'static str, color: &'static str, change: Change) -> Reading {
+    Reading { name, color, episode: Episode::OneShot, change }
+}
+
+/// Noise on DDPG's actions: 0.03, as the thesis' source leaves it with one shot an episode, 0.1, and 0.1 falling.
+const NOISES: [Reading; 3] = [
+    changed("0.03", "#d1242f", Change::None),
+    changed("0.1", "#0969da", Change::StrongNoise),
+    changed("0.1 falling to 0.005", "#1a7f37", Change::FallingNoise),
+];
+
+/// The thesis' future work: neither, each alone, and both.
+const FUTURE_WORK: [Reading; 4] = [
+    changed("neither", "#d1242f", Change::None),
+    changed("hindsight", "#0969da", Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
+    changed("demonstrations", "#1a7f37", Change::Lessons { hindsight: 0.0, demonstrations: 1.0 }),
+    changed("both", "#8250df", Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),
+];
 
 /// One shot each; a game of twenty shots; a game until a miss, of at most twenty shots.
 pub const READINGS: [Reading; 3] = [
-    Reading { name: "one shot", color: "#d1242f", episode: Episode::OneShot },
-    Reading { name: "20 shots", color: "#0969da", episode: Episode::Shots(20) },
-    Reading { name: "until a miss", color: "#1a7f37", episode: Episode::UntilMiss(20) },
+    reading("one shot", "#d1242f", Episode::OneShot),
+    reading("20 shots", "#0969da", Episode::Shots(20)),
+    reading("until a miss", "#1a7f37", Episode::UntilMiss(20)),
 ];
 
 impl Reading {
@@ -133,9 +220,11 @@ impl Reading {
         }
     }
 
-    /// Settings of an agent that reads it so; everything else is as the agent's defaults.
-    pub fn settings(&self) -> Value {
-        json!({ "episode": self.episode })
+    /// Settings of an agent that reads it so and plays so many shots; everything else is as the agent's defaults.
+    pub fn settings(&self, shots: u64) -> Value {
+        let mut settings = self.change.settings(shots);
+        settings["episode"] = json!(self.episode);
+        settings
     }
 }
 
@@ -149,12 +238,14 @@ mod tests {
         for figure in FIGURES {
             assert_eq!(Figure::named(figure.name), Ok(figure));
             let agent = learner::Agent::named(figure.agent).unwrap();
-            for reading in READINGS {
+            for reading in figure.readings {
                 let plan = learner::TrainingPlan { reward: figure.reward, seed: 1, shots: 1 };
-                let learner = (agent.start)(plan, Table::default(), reading.settings()).unwrap();
-                assert_eq!(learner.settings()["episode"], reading.settings()["episode"]);
+                let learner = (agent.start)(plan, Table::default(), reading.settings(1)).unwrap();
+                for (name, value) in reading.settings(1).as_object().unwrap() {
+                    assert_eq!(learner.settings()[name], *value, "{name}");
+                }
             }
         }
-        assert!(Figure::named("31").unwrap_err().to_string().contains("29, 30"));
+        assert!(Figure::named("31").unwrap_err().to_string().contains("29, 30, noise"));
     }
 }

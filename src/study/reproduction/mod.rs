@@ -6,6 +6,6 @@ mod picture;
 mod session;
 
 pub use curves::{Curve, EXAMINED, INTERVAL, Point, Training, random_play};
-pub use figures::{FIGURES, Figure, Measure, READINGS, Reading, UnknownFigure};
+pub use figures::{Change, FIGURES, Figure, Measure, READINGS, Reading, UnknownFigure};
 pub use picture::picture;
 pub use session::{Drawn, Session, SessionError, csv, summary};

@@ -2,10 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{
-    curves::Curve,
-    figures::{Figure, READINGS},
-};
+use super::{curves::Curve, figures::Figure};
 use crate::study::chart::{FONTS, GRID, INK, escaped};
 
 /// Size of the picture and the frame within: left, top, right, bottom.
@@ -70,7 +67,7 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> Strin
             legend.push((color, " stroke-dasharray=\"6 4\"", format!("{name}: {}", short(value, y_step / 10.0))));
         }
     }
-    for (index, (reading, curve)) in READINGS.iter().zip(curves).enumerate() {
+    for (index, ((reading, seed), curve)) in figure.curves().zip(curves).enumerate() {
         let mut path = String::new();
         for point in &curve.points {
             let letter = if path.is_empty() { 'M' } else { 'L' };
@@ -78,13 +75,16 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> Strin
             let at = y(point.of(figure.measure)).clamp(-9_999.0, 9_999.0);
             let _ = write!(path, "{letter}{:.1} {at:.1}", x(point.shots as f64));
         }
-        let color = reading.color;
+        let (color, width) = (reading.color, if figure.seeds == 1 { "2" } else { "1.2" });
         let _ = writeln!(
             svg,
-            r#"<path d="{path}" fill="none" stroke="{color}" stroke-width="2" clip-path="url(#frame)"/>"#
+            r#"<path d="{path}" fill="none" stroke="{color}" stroke-width="{width}" clip-path="url(#frame)"/>"#
         );
         let ending = if curve.broke_down.is_some() { " (broke down)" } else { "" };
-        legend.insert(index, (color, " stroke-width=\"2\"", format!("{}{ending}", reading.name)));
+        if seed == 0 {
+            let place = index / figure.seeds.max(1) as usize;
+            legend.insert(place, (color, " stroke-width=\"2\"", format!("{}{ending}", reading.name)));
+        }
     }
     let _ = writeln!(
         svg,

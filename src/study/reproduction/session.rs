@@ -9,7 +9,7 @@ use std::{
 
 use super::{
     curves::{Curve, Training, random_play},
-    figures::{Figure, Measure, READINGS},
+    figures::{Figure, Measure},
 };
 use crate::{learning::learner::StartError, table::Table};
 
@@ -33,7 +33,7 @@ pub struct Session {
 pub struct Drawn {
     /// The figure.
     pub figure: Figure,
-    /// A curve for each of [`READINGS`].
+    /// A curve for each of [`Figure::curves`].
     pub curves: Vec<Curve>,
     /// Mean reward of random play.
     pub random: f64,
@@ -66,7 +66,7 @@ impl Session {
 
     fn trainings_of(&self, figure: &Figure) -> impl Iterator<Item = Training> {
         let (figure, shots, seed) = (*figure, self.shots.unwrap_or(figure.shots), self.seed);
-        READINGS.into_iter().map(move |reading| Training::of(&figure, reading, shots, seed))
+        figure.curves().map(move |(reading, more)| Training::of(&figure, *reading, shots, seed.wrapping_add(more)))
     }
 
     /// Shots of all trainings.
@@ -141,17 +141,22 @@ struct Shared {
     left: Vec<Figure>,
 }
 
+/// The names of a figure's curves.
+fn names(figure: &Figure) -> impl Iterator<Item = String> {
+    let seeds = figure.seeds;
+    figure.curves().map(move |(reading, seed)| {
+        if seeds == 1 { reading.name.to_owned() } else { format!("{} ({} of {seeds} seeds)", reading.name, seed + 1) }
+    })
+}
+
 /// All points of a figure's curves as CSV.
 pub fn csv(drawn: &Drawn) -> String {
     let mut text = "episode,shots,mean_reward,mean_q,loss\n".to_owned();
-    for (reading, curve) in READINGS.iter().zip(&drawn.curves) {
+    for (name, curve) in names(&drawn.figure).zip(&drawn.curves) {
         for point in &curve.points {
             // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{},{:.5},{:.5},{:.6}",
-                reading.name, point.shots, point.mean_reward, point.mean_q, point.loss
-            );
+            let _ =
+                writeln!(text, "{name},{},{:.5},{:.5},{:.6}", point.shots, point.mean_reward, point.mean_q, point.loss);
         }
     }
     text
@@ -160,9 +165,9 @@ pub fn csv(drawn: &Drawn) -> String {
 /// One line for each curve of a figure of rewards: where it ended, and what the agent then earns without exploration.
 pub fn summary(drawn: &Drawn) -> Vec<String> {
     let Drawn { figure, curves, random } = drawn;
-    let lines = READINGS.iter().zip(curves).map(|(reading, curve)| {
+    let lines = names(figure).zip(curves).map(|(name, curve)| {
         let last = curve.points.last().map_or(f64::NAN, |point| point.of(figure.measure));
-        let mut line = format!("{}, {}: {} {last:.3} at last", figure.title, reading.name, figure.measure.label());
+        let mut line = format!("{}, {name}: {} {last:.3} at last", figure.title, figure.measure.label());
         if let Some(reward) = curve.held_out.filter(|_| figure.measure == Measure::MeanReward) {
             let _ = write!(line, ", {reward:.3} without exploration, random play {random:.3}");
         }

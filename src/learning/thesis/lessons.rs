@@ -1,0 +1,103 @@
+//! Shots that make a point, from which the plain actor learns beside its own: seen in hindsight (thesis 6.1.1) or
+//! demonstrated (6.1.2). Each kind has a memory of its own and a share of every batch.
+
+use rand::{Rng, RngExt};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    environment::{Action, Environment, Observation, State},
+    replay::{ReplayBuffer, StoredTransition},
+};
+use crate::learning::nn::weights::{Reader, WeightsError, Writer};
+
+/// What is sought, and how much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sought {
+    /// Whether shots are seen in hindsight.
+    pub hindsight: bool,
+    /// Layouts, the first that are played, on which shots are tried at random.
+    pub layouts: u64,
+    /// Shots tried on each of them.
+    pub tries: u32,
+}
+
+/// Both memories.
+#[derive(Debug)]
+pub struct Lessons {
+    hindsight: ReplayBuffer,
+    demonstrations: ReplayBuffer,
+    layouts: u64,
+}
+
+/// What a checkpoint says of them beside arrays.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct LessonsState {
+    next: [usize; 2],
+    layouts: u64,
+}
+
+/// Names of the memories in a checkpoint.
+const NAMES: [&str; 2] = ["hindsight", "demonstrations"];
+
+impl Lessons {
+    /// Empty memories for `capacity` lessons each.
+    pub fn new(capacity: usize) -> Self {
+        let empty = || ReplayBuffer::new(capacity);
+        Self { hindsight: empty(), demonstrations: empty(), layouts: 0 }
+    }
+
+    /// Looks for lessons before `action` is played: where it would have made the point, and what makes it here.
+    pub fn seek(
+        &mut self,
+        sought: Sought,
+        environment: &impl Environment,
+        seen: &Observation,
+        action: Action,
+        rng: &mut Xoshiro256PlusPlus,
+    ) {
+        if sought.hindsight {
+            for state in environment.in_hindsight(action, rng) {
+                self.hindsight.push(lesson(state, action));
+            }
+        }
+        if self.layouts < sought.layouts {
+            self.layouts += 1;
+            for _ in 0..sought.tries {
+                let tried: Action = std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
+                if environment.would_earn(tried) >= 1.0 {
+                    self.demonstrations.push(lesson(seen.state, tried));
+                }
+            }
+        }
+    }
+
+    /// So many lessons of each kind, drawn uniformly; none of a kind of which there is none yet.
+    pub fn sample(&self, rows: [usize; 2], rng: &mut (impl Rng + ?Sized)) -> Vec<StoredTransition> {
+        let [hindsight, demonstrations] = rows;
+        let mut drawn = self.hindsight.sample(hindsight, rng);
+        drawn.extend(self.demonstrations.sample(demonstrations, rng));
+        drawn
+    }
+
+    /// Adds both memories to a file and returns everything else.
+    pub fn save(&self, writer: &mut Writer) -> LessonsState {
+        let next = [self.hindsight.save(NAMES[0], writer), self.demonstrations.save(NAMES[1], writer)];
+        LessonsState { next, layouts: self.layouts }
+    }
+
+    /// The memories that [`Lessons::save`] wrote.
+    ///
+    /// # Errors
+    /// Where the file has none.
+    pub fn restore(capacity: usize, reader: &Reader<'_>, state: LessonsState) -> Result<Self, WeightsError> {
+        let memory = |kind: usize| ReplayBuffer::restore(capacity, reader, NAMES[kind], state.next[kind]);
+        Ok(Self { hindsight: memory(0)?, demonstrations: memory(1)?, layouts: state.layouts })
+    }
+}
+
+/// A shot that makes the point. Actions out of range are carried out as the nearest inside, so that is what is learnt.
+fn lesson(state: State, action: Action) -> StoredTransition {
+    let action = action.map(|value| value.clamp(-1.0, 1.0));
+    StoredTransition { state, action, index: 0, reward: 1.0, goes_on: false, next: state }
+}
