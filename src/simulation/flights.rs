@@ -227,8 +227,7 @@ mod tests {
         let mut engine = Engine::<All, Count>::new(table, &layout, &mut count);
         let n = DVec3::new(angle.sin(), 0.0, angle.cos());
         let position = other.extend(0.0) + 2.0 * table.radius * n;
-        let flow =
-            engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
+        let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
         assert!(flow.is_continue() && engine.look_ahead_of(0.0, 0).is_continue());
         let time = engine.play_on(flow);
         let end = engine.finish(time);
@@ -239,13 +238,17 @@ mod tests {
     /// it crept where it was, in ever shorter bounces without end.
     #[test]
     fn a_ball_slides_off_anothers_top_however_softly_it_comes_to_lie_there() {
-        for (preset, restitution) in [("match", 0.5), ("textbook", 0.5), ("thesis", 0.5), ("match", 0.0), ("match", 0.99)] {
-            let table = Table { flight: Some(Flight { restitution, friction: None }), ..Table::preset(preset).unwrap() };
+        for (preset, restitution) in
+            [("match", 0.5), ("textbook", 0.5), ("thesis", 0.5), ("match", 0.0), ("match", 0.99)]
+        {
+            let table =
+                Table { flight: Some(Flight { restitution, friction: None }), ..Table::preset(preset).unwrap() };
             let slowest = Constants::of(&table).tolerance.slowest_in_air;
             for (angle, most) in [(1e-6, 3500), (1e-3, 2000), (0.03, 1500), (0.3, 700), (0.8, 500)] {
                 for (down, across) in [(slowest, 0.0), (0.6 * slowest, 1e-4), (3.0 * slowest, -1e-3), (0.0, 0.02)] {
                     let (count, end) = let_go(&table, angle, |n| across * DVec3::Y - down * n);
-                    let what = format!("{preset}, e_c = {restitution}, {angle} rad, {across}, {down} m/s: {count}, {end:?}");
+                    let what =
+                        format!("{preset}, e_c = {restitution}, {angle} rad, {across}, {down} m/s: {count}, {end:?}");
                     assert!(count < most && end.time < 60.0, "{what}");
                     let [one, other, _] = end.balls.map(|ball| ball.position);
                     assert!(one.distance(other) > 2.0 * table.radius - 1e-9, "{what}");

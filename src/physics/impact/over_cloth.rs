@@ -98,7 +98,13 @@ mod tests {
     use crate::table::{Flight, PRESETS, Table};
 
     /// Energy over mass before and after, and how fast the balls approach and part, where the lower one stays on the cloth.
-    fn soft(table: &Table, angle: f64, velocities: [DVec3; 2], spins: [DVec3; 2], slowest: f64) -> ([f64; 2], [f64; 2]) {
+    fn soft(
+        table: &Table,
+        angle: f64,
+        velocities: [DVec3; 2],
+        spins: [DVec3; 2],
+        slowest: f64,
+    ) -> ([f64; 2], [f64; 2]) {
         let (law, cloth) = (BallImpact::of(table), Cloth::of(table).unwrap());
         let n = DVec3::new(0.6 * angle.sin(), 0.8 * angle.sin(), angle.cos());
         let mut upper = SpatialState { position: 2.0 * table.radius * n, velocity: velocities[0], spin: spins[0] };
@@ -141,7 +147,8 @@ mod tests {
 
     #[test]
     fn a_ball_that_comes_down_softly_on_another_rebounds_as_softly_and_keeps_its_motion_across() {
-        let table = Table { flight: Some(Flight::default()), ball_friction: Some(0.0), ..Table::preset("textbook").unwrap() };
+        let table =
+            Table { flight: Some(Flight::default()), ball_friction: Some(0.0), ..Table::preset("textbook").unwrap() };
         let slowest = 2e-3;
         let down = DVec3::new(0.0, 0.0, -1.5e-3);
         let ([before, after], [closing, opening]) = soft(&table, 0.02, [down, DVec3::ZERO], [DVec3::ZERO; 2], slowest);

@@ -146,8 +146,8 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
             } else {
                 shift(&mut other, gap);
             }
-            let met = held_meet(numbers, &mut one, &mut other)
-                .unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
+            let met =
+                held_meet(numbers, &mut one, &mut other).unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
             (balls[first], balls[second]) = (one, other);
             met
         }

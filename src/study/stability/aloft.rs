@@ -55,12 +55,7 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
         let Some(hops) = segment.hops() else {
             let [c3, c4, c5] = segment.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
             let place = [segment.position, segment.velocity, segment.half_acceleration, c3, c4, c5];
-            found.push(Stretch {
-                begin: segment.start,
-                end: *end,
-                place: place.map(|c| c.extend(0.0)),
-                motion,
-            });
+            found.push(Stretch { begin: segment.start, end: *end, place: place.map(|c| c.extend(0.0)), motion });
             continue;
         };
         for landings in 0..MOST_LANDINGS {

@@ -3,7 +3,9 @@
 use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
-    study::reference_engine::{Ball, Contact, Motion, Numbers, Vector, balls_collide, collide_aloft, rail_collides, rail_normal},
+    study::reference_engine::{
+        Ball, Contact, Motion, Numbers, Vector, balls_collide, collide_aloft, rail_collides, rail_normal,
+    },
     table::{BALLS, Table},
 };
 
