@@ -244,7 +244,7 @@ mod tests {
             let table =
                 Table { flight: Some(Flight { restitution, friction: None }), ..Table::preset(preset).unwrap() };
             let slowest = Constants::of(&table).tolerance.slowest_in_air;
-            for (angle, most) in [(1e-6, 3500), (1e-3, 2000), (0.03, 1500), (0.3, 700), (0.8, 500)] {
+            for (angle, most) in [(1e-6, 6000), (1e-3, 4000), (0.03, 2000), (0.3, 1000), (0.8, 700)] {
                 for (down, across) in [(slowest, 0.0), (0.6 * slowest, 1e-4), (3.0 * slowest, -1e-3), (0.0, 0.02)] {
                     let (count, end) = let_go(&table, angle, |n| across * DVec3::Y - down * n);
                     let what =

@@ -140,8 +140,9 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
         Contact::Balls(first, second) => {
             let (mut one, mut other) = (balls[first], balls[second]);
             let gap = contact.normal(balls) * contact.gap(numbers, balls);
-            // Only what is in the air is moved: the cloth stays where it is.
-            if one.motion == Motion::Flying {
+            // Only what is in the air is moved, the upper of two: the cloth stays where it is, and what is on it.
+            let is_upper = one.position.z > other.position.z;
+            if is_upper || (one.motion == Motion::Flying && one.position.z == other.position.z) {
                 shift(&mut one, -gap);
             } else {
                 shift(&mut other, gap);

@@ -9,8 +9,8 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Landings slower than this take less than rounding does, m/s.
-const LAST_LANDING: f64 = 1e-12;
+/// Landings slower than this take less than rounding does, m/s: of a slip they take in proportion to their speed.
+const LAST_LANDING: f64 = 1e-18;
 
 /// Energy per mass of a ball, m²/s²: on the cloth just that of its motion along it and of its spin.
 pub fn energy(table: &Table, ball: &SpatialState) -> f64 {

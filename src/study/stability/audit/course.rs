@@ -57,9 +57,9 @@ impl<'a> Course<'a> {
         self.piece().map(|piece| &piece.segment).filter(|segment| segment.motion == Motion::Resting)
     }
 
-    /// Whether the ball is in the air.
+    /// Whether the ball is in the air, or the stroke lifts it.
     pub fn flies(&self) -> bool {
-        self.piece().is_some_and(|piece| piece.segment.motion == Motion::Flying)
+        self.piece().map_or(self.before.velocity.z > 0.0, |piece| piece.segment.motion == Motion::Flying)
     }
 
     /// Where the ball is at time `now`, s.

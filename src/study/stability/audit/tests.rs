@@ -6,6 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
 use crate::{
+    physics::BallState,
     simulation::{Course, Rail},
     study::stability::{Shot, Stroke, cases, random},
     table::{Flight, JUDGED, Layout},
