@@ -92,7 +92,6 @@ rows_as_tests! {
     tiny_and_huge_balls => "balls of one millimetre and of one metre",
     grazing_from_above => "grazing a ball from above, relative depth 1e-12 to 1e-3",
     raised_cue => "random shots with the cue raised by up to 60°",
-    raised_cue_at_hard_places => "balls that touch or almost touch, the cue raised by up to 60°",
     landing_on_the_nose => "landing on the nose of a cushion",
     landing_on_top => "landing exactly on a ball's top",
     endless_hops => "endless hops, e_c = 0.99",

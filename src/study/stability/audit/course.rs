@@ -31,6 +31,8 @@ impl<'a> Course<'a> {
         let mut before = SpatialState::from(BallState::at_rest(trace.end.balls[ball].position));
         if ball == 0 {
             let Impulse { velocity, spin, lift } = trace.impulse;
+            // A stroke that lifts a ball no faster than this leaves it on the cloth.
+            let lift = if lift > trace.constants.tolerance.slowest_in_air { lift } else { 0.0 };
             (before.velocity, before.spin) = (velocity.extend(lift), spin);
         }
         let energy = energy(table, &before);

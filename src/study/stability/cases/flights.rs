@@ -8,7 +8,7 @@ use super::{Case, Size, variant};
 use crate::{
     physics::{Cushions, strike},
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Stroke, Trace, adversarial, draw},
+    study::stability::{Limits, Shot, Stroke, Trace, draw},
     table::{Flight, Layout, Table},
 };
 
@@ -32,10 +32,6 @@ pub const CASES: &[Case] = &[
         )
     },
     Case { size: Size::Adversarial, ..case("random shots with the cue raised by up to 60°", "", flying, raised) },
-    Case {
-        size: Size::Adversarial,
-        ..case("balls that touch or almost touch, the cue raised by up to 60°", "", flying, raised_at_hard_places)
-    },
     case("landing on the nose of a cushion", "", flying, on_the_nose),
     case("landing exactly on a ball's top", "", flying, on_top),
     case("endless hops, e_c = 0.99", "", lively, hops),
@@ -151,12 +147,6 @@ const STEEPEST: f64 = 60.0;
 fn raised(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let theta_deg = rng.random_range(0.0..STEEPEST);
     Shot { layout: Layout::random(table, rng), cue: Stroke { theta_deg, ..draw::stroke(rng) } }
-}
-
-fn raised_at_hard_places(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let theta_deg = rng.random_range(0.0..STEEPEST);
-    let Shot { layout, cue } = adversarial::shot(table, rng);
-    Shot { layout, cue: Stroke { theta_deg, ..cue } }
 }
 
 fn hops(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
