@@ -64,10 +64,15 @@ impl Cloth {
             return;
         }
         let push = -(1.0 + self.restitution) * ball.velocity.z;
+        ball.velocity.z *= -self.restitution;
+        self.rub(radius, push, ball);
+    }
+
+    /// What friction does to a ball that is pressed into the cloth by the impulse `push` per mass, m/s.
+    pub fn rub(&self, radius: f64, push: f64, ball: &mut SpatialState) {
         let u = slip(radius, ball.velocity.truncate(), ball.spin);
         let size = u.length();
         let friction = (self.friction * push).min(2.0 / 7.0 * size);
-        ball.velocity.z *= -self.restitution;
         if size > 0.0 {
             let against = u * (-friction / size);
             ball.velocity += against.extend(0.0);

@@ -176,6 +176,12 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         if flow.is_continue() {
             flow = self.look_ahead_of(0.0, 0);
         }
+        self.play_on(flow)
+    }
+
+    /// Plays from the stroke to the end; returns the time of the last event.
+    #[inline(always)]
+    pub(super) fn play_on(&mut self, mut flow: ControlFlow<()>) -> f64 {
         let mut now = 0.0;
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
@@ -304,7 +310,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         }
     }
 
-    fn finish(mut self, time: f64) -> End {
+    pub(super) fn finish(mut self, time: f64) -> End {
         for index in 0..BALLS {
             self.close(index, time);
         }

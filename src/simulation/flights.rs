@@ -141,14 +141,15 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             }
         });
         let slowest = c.tolerance.slowest_in_air;
-        let approach = self.law.balls.resolve_in_space(c.radius, slowest, &mut one, &mut other);
+        // Where a ball is in the air there is a cloth that it has left.
+        let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
+        let approach = self.law.balls.resolve_over_cloth(c.radius, slowest, &cloth, &mut one, &mut other);
         for index in [first, second] {
             self.close(index, now);
         }
         let told = self.is_told(now, &Contact::of_balls(first, second), approach);
         self.tell_impact(now, EventKind::BallBall(first, second), told)?;
-        for (index, state) in [(first, &mut one), (second, &mut other)] {
-            self.answer(state);
+        for (index, state) in [(first, &one), (second, &other)] {
             self.launch_in_space(index, now, state)?;
             if !told && self.is_on_cloth(index) && self.balls[index].mode == ContactMode::Free {
                 self.balls[index].mode = ContactMode::Bouncing;
@@ -178,7 +179,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        simulation::{All, Event},
+        simulation::{All, Constants, End, Event},
         table::{Flight, Layout, Table},
     };
 
@@ -201,6 +202,67 @@ mod tests {
         let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
         engine.balls[0].segment.motion
+    }
+
+    /// Events and bounces.
+    #[derive(Default)]
+    struct Count(u32);
+
+    impl Observer for Count {
+        fn event(&mut self, _: Event) -> ControlFlow<()> {
+            self.0 += 1;
+            ControlFlow::Continue(())
+        }
+
+        fn bounce(&mut self, _: Event) {
+            self.0 += 1;
+        }
+    }
+
+    /// What follows when a ball that leans on another's top by so much, rad, is let go with a velocity, m/s.
+    fn let_go(table: &Table, angle: f64, velocity: impl Fn(DVec3) -> DVec3) -> (u32, End) {
+        let other = DVec2::new(0.3, 0.2);
+        let layout = Layout::new([DVec2::ZERO, other, DVec2::new(-0.5, 0.1)]);
+        let mut count = Count::default();
+        let mut engine = Engine::<All, Count>::new(table, &layout, &mut count);
+        let n = DVec3::new(angle.sin(), 0.0, angle.cos());
+        let position = other.extend(0.0) + 2.0 * table.radius * n;
+        let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
+        assert!(flow.is_continue() && engine.look_ahead_of(0.0, 0).is_continue());
+        let time = engine.play_on(flow);
+        let end = engine.finish(time);
+        (count.0, end)
+    }
+
+    /// What a soft blow made the lower ball's was lost in the cloth, and what the upper one needed to rise came out of its motion across:
+    /// it crept where it was, in ever shorter bounces without end.
+    #[test]
+    fn a_ball_slides_off_anothers_top_however_softly_it_comes_to_lie_there() {
+        for (preset, restitution) in
+            [("match", 0.5), ("textbook", 0.5), ("thesis", 0.5), ("match", 0.0), ("match", 0.99)]
+        {
+            let table =
+                Table { flight: Some(Flight { restitution, friction: None }), ..Table::preset(preset).unwrap() };
+            let slowest = Constants::of(&table).tolerance.slowest_in_air;
+            for (angle, most) in [(1e-6, 6000), (1e-3, 4000), (0.03, 2000), (0.3, 1000), (0.8, 700)] {
+                for (down, across) in [(slowest, 0.0), (0.6 * slowest, 1e-4), (3.0 * slowest, -1e-3), (0.0, 0.02)] {
+                    let (count, end) = let_go(&table, angle, |n| across * DVec3::Y - down * n);
+                    let what =
+                        format!("{preset}, e_c = {restitution}, {angle} rad, {across}, {down} m/s: {count}, {end:?}");
+                    assert!(count < most && end.time < 60.0, "{what}");
+                    let [one, other, _] = end.balls.map(|ball| ball.position);
+                    assert!(one.distance(other) > 2.0 * table.radius - 1e-9, "{what}");
+                    assert!(end.balls.iter().all(|ball| ball.velocity == DVec2::ZERO), "{what}");
+                }
+            }
+        }
+    }
+
+    /// Without any motion there is nothing from which it could rise.
+    #[test]
+    fn a_ball_that_is_put_on_anothers_top_ends_the_shot_where_it_is() {
+        let (count, end) = let_go(&Table::default(), 1e-9, |_| DVec3::ZERO);
+        assert!(count >= 20_000 && end.time < 1.0 && end.balls[0].position.is_finite(), "{count} {end:?}");
     }
 
     #[test]

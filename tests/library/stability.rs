@@ -91,6 +91,7 @@ rows_as_tests! {
     huge_table => "a table of one kilometre",
     tiny_and_huge_balls => "balls of one millimetre and of one metre",
     grazing_from_above => "grazing a ball from above, relative depth 1e-12 to 1e-3",
+    raised_cue => "random shots with the cue raised by up to 60°",
     landing_on_the_nose => "landing on the nose of a cushion",
     landing_on_top => "landing exactly on a ball's top",
     endless_hops => "endless hops, e_c = 0.99",

@@ -61,18 +61,12 @@ impl BallImpact {
         if approach < 0.0 {
             return approach;
         }
-        let restitution = self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach));
         let across = apart + approach * n;
-        let opening = opening_in_space(approach, restitution, slowest);
+        let opening = opening_in_space(approach, self.restitution_at(approach), slowest);
         let normal = 0.5 * (approach + opening);
         // Equation (21), of which the part along n is none.
         let slip = across - radius * (first.spin + second.spin).cross(n);
-        let size = slip.length();
-        let friction = self.by_slip.map_or(self.friction, |law| Some(law.at(size)));
-        let factor = match friction {
-            Some(mu) if 7.0 * mu * normal < size => mu * normal / size,
-            _ => 1.0 / 7.0,
-        };
+        let factor = self.friction_factor(normal, slip.length());
         let after = across - 2.0 * factor * slip;
         let change = normal * n - factor * slip + 0.5 * raised(opening, slowest, after, n);
         first.velocity += change;
@@ -81,6 +75,18 @@ impl BallImpact {
         first.spin += twist;
         second.spin += twist;
         approach
+    }
+
+    pub(super) fn restitution_at(&self, approach: f64) -> f64 {
+        self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach))
+    }
+
+    /// The friction's impulse over the slip, m/s, for a normal impulse: Coulomb's law up to the no-slip limit.
+    pub(super) fn friction_factor(&self, normal: f64, slip: f64) -> f64 {
+        match self.by_slip.map_or(self.friction, |law| Some(law.at(slip))) {
+            Some(mu) if 7.0 * mu * normal < slip => mu * normal / slip,
+            _ => 1.0 / 7.0,
+        }
     }
 
     #[inline(never)]

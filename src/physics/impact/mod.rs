@@ -2,6 +2,7 @@
 
 mod ball_ball;
 mod cushion;
+mod over_cloth;
 mod simultaneous;
 
 use glam::{DVec2, DVec3};

@@ -42,10 +42,17 @@ impl<R: Real> Change<R> {
 pub fn press<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
     let Some(flight) = numbers.flight.filter(|_| ball.velocity.z < R::zero()) else { return R::zero() };
     let push = (R::of(1.0) + flight.restitution) * -ball.velocity.z;
+    let upwards = Change { linear: Vector::up() * push, angular: Vector::zero() }.apply(numbers, ball);
+    upwards + rubbed_by_cloth(numbers, push, ball)
+}
+
+/// The cloth's friction on a ball that is pressed into it by the impulse `push` over mass, and the energy over mass that it takes.
+fn rubbed_by_cloth<R: Real>(numbers: &Numbers<R>, push: R, ball: &mut Ball<R>) -> R {
+    let Some(flight) = numbers.flight else { return R::zero() };
     let slip = ball.slip(numbers);
-    let rub = slip * -coulomb(Some(flight.friction), push, slip.length(), R::ratio(2.0, 7.0));
-    let angular = (Vector::up() * -numbers.radius).cross(rub) * numbers.turnability;
-    Change { linear: rub + Vector::up() * push, angular }.apply(numbers, ball)
+    let linear = slip * -coulomb(Some(flight.friction), push, slip.length(), R::ratio(2.0, 7.0));
+    let angular = (Vector::up() * -numbers.radius).cross(linear) * numbers.turnability;
+    Change { linear, angular }.apply(numbers, ball)
 }
 
 /// What a ball does after a stroke or a blow: on the cloth it is pressed, and stays there if it is thrown up no faster than a
@@ -133,13 +140,15 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
         Contact::Balls(first, second) => {
             let (mut one, mut other) = (balls[first], balls[second]);
             let gap = contact.normal(balls) * contact.gap(numbers, balls);
-            // Only what is in the air is moved: the cloth stays where it is.
-            if one.motion == Motion::Flying {
+            // Only what is in the air is moved, the upper of two: the cloth stays where it is, and what is on it.
+            let is_upper = one.position.z > other.position.z;
+            if is_upper || (one.motion == Motion::Flying && one.position.z == other.position.z) {
                 shift(&mut one, -gap);
             } else {
                 shift(&mut other, gap);
             }
-            let met = balls_meet(numbers, &mut one, &mut other);
+            let met =
+                held_meet(numbers, &mut one, &mut other).unwrap_or_else(|| balls_meet(numbers, &mut one, &mut other));
             (balls[first], balls[second]) = (one, other);
             met
         }
@@ -207,6 +216,54 @@ fn balls_meet<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut B
     let one = Change { linear, angular }.apply(numbers, first);
     let other = Change { linear: -linear, angular }.apply(numbers, second);
     (approach, one + other)
+}
+
+/// A ball in the air meets one on the cloth so softly that it stays there: the cloth holds that one from below, so that it gives way
+/// along the table only, and what the balls and then the cloth give back is the upper ball's. Returns what [`balls_meet`] does;
+/// `None` where the lower ball is thrown up again, or the two part by themselves.
+fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<R>) -> Option<(R, R)> {
+    let flight = numbers.flight?;
+    let (mut first, mut second) = (*one, *other);
+    let (approach, _) = balls_meet(numbers, &mut first, &mut second);
+    settle(numbers, &mut first);
+    settle(numbers, &mut second);
+    let (upper, lower, after) = match (one.motion == Motion::Flying, other.motion == Motion::Flying) {
+        (true, false) => (one, other, [first, second]),
+        (false, true) => (other, one, [second, first]),
+        _ => return None,
+    };
+    let mut n = (upper.position - lower.position).direction();
+    let parts = (after[0].velocity - after[1].velocity).dot(n);
+    let is_thrown_up = after[1].motion == Motion::Flying;
+    if approach < R::zero() || is_thrown_up || (approach > flight.slowest && parts >= flight.slowest) {
+        return None;
+    }
+    if n.flat() == Vector::zero() {
+        n.x = R::of(f64::EPSILON);
+    }
+    let still = Vector::zero();
+    let given_back = numbers.ball_restitution_at(approach) * flight.restitution;
+    let opens = (given_back * approach).max(approach.min(flight.slowest));
+    let push = (approach + opens) / (R::of(1.0) + n.flat().dot(n.flat()));
+    let mut work = Change { linear: n * push, angular: still }.apply(numbers, upper)
+        + Change { linear: n.flat() * -push, angular: still }.apply(numbers, lower);
+    let relative = upper.velocity - lower.velocity;
+    let slip = relative - n * relative.dot(n) + n.cross(upper.spin + lower.spin) * numbers.radius;
+    let rub = slip * -coulomb(numbers.ball_friction_at(slip.length()), push, slip.length(), R::ratio(1.0, 7.0));
+    let angular = (n * -numbers.radius).cross(rub) * numbers.turnability;
+    work = work
+        + Change { linear: rub, angular }.apply(numbers, upper)
+        + Change { linear: -rub.flat(), angular }.apply(numbers, lower)
+        + rubbed_by_cloth(numbers, (push * n.z + rub.z).max(R::zero()), lower);
+    let (rises, pushed) = (upper.velocity.dot(n), lower.velocity.dot(n));
+    if rises - pushed < R::of(0.5) * flight.slowest {
+        let (across, energy) = (upper.velocity - n * rises, upper.velocity.dot(upper.velocity));
+        let raised = (pushed + flight.slowest).min(energy.sqrt());
+        let left = (energy - raised * raised).max(R::zero()).sqrt();
+        let linear = n * raised + across.direction() * left - upper.velocity;
+        work = work + Change { linear, angular: still }.apply(numbers, upper);
+    }
+    Some((approach, work))
 }
 
 /// A ball meets a nose, from which `n` points to its centre; returns the speed of the approach, and the energy over mass that it

@@ -38,9 +38,11 @@ mod vector;
 #[cfg(test)]
 mod tests;
 
+pub use contact::Contact;
 pub use cue::{Stroke, strike};
 pub use double_double::DoubleDouble;
 pub use engine::{Shot, Unjudged, play};
+pub use flight::{Met, collide as collide_aloft};
 pub use impact::{balls_collide, rail_collides};
 pub use motion::{Ball, Motion};
 pub use rails::Cushion;

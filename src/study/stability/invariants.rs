@@ -49,6 +49,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
     order(trace, &mut figures);
     if trace.has_flights() {
         aloft::measure(table, shot, trace, &mut figures);
+        audit(table, trace, &mut figures);
         return figures;
     }
     jumps(shot, trace, &mut figures);

@@ -186,8 +186,9 @@ long as they would. Balls that never slip lose their slip where they begin to re
 What counts as explained besides: rounding (32 ε of the energy, and frictions times the rounding of time), \
 speeds below 1e-7 m/s that are stopped (1e-14 m²/s² a ball), and in resting contacts errors of 1e-10 m/s, of 1e-10 m and of a \
 hundred-thousandth of the work. The columns give the largest that was left in an event, on the way to the next or in a whole shot, in \
-multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, the courses of all balls, landings and \
-gains are audited like that, but not yet what impacts and resting contacts take.";
+multiples of what is explained and in m²/s² (energy over a ball's mass). Where balls fly, \
+heights count, too: each landing takes what the cloth's restitution and friction say, worked out hop by hop, and impacts in the air take, one \
+after another, what the formulas of the second engine say. A ball that leaves the table takes its energy along.";
 
 /// A page of Markdown around the table.
 pub fn page(plan: &Plan, rows: &[Row]) -> String {

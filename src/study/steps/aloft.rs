@@ -136,7 +136,8 @@ impl<O: Observer> Stepper<'_, O> {
     pub(super) fn collide_in_space(&mut self, first: usize, second: usize) -> ControlFlow<()> {
         let (mut one, mut other) = (self.balls[first].state, self.balls[second].state);
         let slowest = self.constants.tolerance.slowest_in_air;
-        self.law.balls.resolve_in_space(self.constants.radius, slowest, &mut one, &mut other);
+        let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
+        self.law.balls.resolve_over_cloth(self.constants.radius, slowest, &cloth, &mut one, &mut other);
         self.observer.event(Event { time: self.now, kind: EventKind::BallBall(first, second) })?;
         self.send_off(first, one)?;
         self.send_off(second, other)

@@ -1,8 +1,8 @@
 //! One ball's course as the audit walks along it, piece by piece.
 
-use super::{Motion, moment::Bounces};
+use super::{Motion, aloft::energy, moment::Bounces};
 use crate::{
-    physics::BallState,
+    physics::{BallState, Impulse, SpatialState},
     simulation::{Constants, Segment},
     study::stability::trace::{Piece, Trace},
     table::Table,
@@ -16,7 +16,7 @@ pub struct Course<'a> {
     /// How many pieces have begun; one more when the last has ended.
     begun: usize,
     /// State at the end of the last piece that has begun, or after the stroke.
-    pub before: BallState,
+    pub before: SpatialState,
     /// Energy at that end, at that piece's start, and the largest that entered either, m²/s².
     pub energy: f64,
     pub first_energy: f64,
@@ -28,11 +28,14 @@ pub struct Course<'a> {
 impl<'a> Course<'a> {
     /// A course that the stroke begins.
     pub fn new(table: &Table, trace: &'a Trace, ball: usize) -> Self {
-        let mut before = BallState::at_rest(trace.end.balls[ball].position);
+        let mut before = SpatialState::from(BallState::at_rest(trace.end.balls[ball].position));
         if ball == 0 {
-            (before.velocity, before.spin) = (trace.impulse.velocity, trace.impulse.spin);
+            let Impulse { velocity, spin, lift } = trace.impulse;
+            // A stroke that lifts a ball no faster than this leaves it on the cloth.
+            let lift = if lift > trace.constants.tolerance.slowest_in_air { lift } else { 0.0 };
+            (before.velocity, before.spin) = (velocity.extend(lift), spin);
         }
-        let energy = before.specific_energy(table.radius);
+        let energy = energy(table, &before);
         let pieces = &trace.pieces[ball];
         Self { ball, pieces, begun: 0, before, energy, first_energy: energy, largest: energy, bounces: None }
     }
@@ -56,20 +59,25 @@ impl<'a> Course<'a> {
         self.piece().map(|piece| &piece.segment).filter(|segment| segment.motion == Motion::Resting)
     }
 
+    /// Whether the ball is in the air, or the stroke lifts it.
+    pub fn flies(&self) -> bool {
+        self.piece().map_or(self.before.velocity.z > 0.0, |piece| piece.segment.motion == Motion::Flying)
+    }
+
     /// Where the ball is at time `now`, s.
-    pub fn state(&self, constants: &Constants, now: f64) -> BallState {
-        self.piece().map_or(self.before, |piece| piece.segment.state_after(constants, now - piece.segment.start))
+    pub fn state(&self, constants: &Constants, now: f64) -> SpatialState {
+        self.piece().map_or(self.before, |piece| piece.segment.spatial_after(constants, now - piece.segment.start))
     }
 
     /// Begins the next piece, or the rest after the last one, and returns the state at its start.
-    pub fn begin(&mut self, table: &Table, trace: &Trace) -> BallState {
+    pub fn begin(&mut self, table: &Table, trace: &Trace) -> SpatialState {
         self.begun += 1;
-        let Some(piece) = self.piece() else { return trace.end.balls[self.ball] };
-        let first = piece.segment.state_after(&trace.constants, 0.0);
-        self.before = piece.segment.state_after(&trace.constants, piece.end - piece.segment.start);
+        let Some(piece) = self.piece() else { return trace.end.balls[self.ball].into() };
+        let first = piece.segment.spatial_after(&trace.constants, 0.0);
+        self.before = piece.segment.spatial_after(&trace.constants, piece.end - piece.segment.start);
         let last = self.energy;
-        self.first_energy = first.specific_energy(table.radius);
-        self.energy = self.before.specific_energy(table.radius);
+        self.first_energy = energy(table, &first);
+        self.energy = energy(table, &self.before);
         self.largest = last.max(self.first_energy).max(self.energy);
         first
     }

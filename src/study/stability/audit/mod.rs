@@ -4,6 +4,7 @@
 //! laws say what is taken, or between which bounds it lies; what the recorded course loses beside that is unexplained,
 //! whether it is too much or too little. Nor does anything gain energy.
 
+mod aloft;
 mod course;
 mod doubt;
 mod laws;
@@ -14,7 +15,7 @@ mod on_cushion;
 mod pressed;
 
 use crate::{
-    physics::{BallState, Motion},
+    physics::{Motion, SpatialState},
     simulation::{Event, EventKind},
     table::{BALLS, Table},
 };
@@ -24,8 +25,8 @@ use super::{
     trace::{Piece, Trace},
 };
 use course::Course;
-pub(super) use doubt::Doubt;
-pub(super) use laws::free_loss;
+use doubt::Doubt;
+use laws::free_loss;
 use moment::{Moment, Taken};
 use motion::Contact;
 
@@ -90,9 +91,10 @@ impl Audit<'_> {
     fn moment(&mut self, now: f64, told: &[Event], figures: &mut Figures) {
         let changed: [bool; BALLS] = std::array::from_fn(|ball| self.courses[ball].changes() == now);
         let rested = self.courses.map(|course| course.resting().is_some());
-        let before = self.courses.map(|course| course.before);
+        let flew = self.courses.map(|course| course.flies());
+        let in_space = self.courses.map(|course| course.before);
         let before_energy = self.courses.map(|course| course.energy);
-        let after: [BallState; BALLS] = std::array::from_fn(|ball| {
+        let after_in_space: [SpatialState; BALLS] = std::array::from_fn(|ball| {
             if changed[ball] {
                 self.courses[ball].begin(self.table, self.trace)
             } else {
@@ -100,8 +102,11 @@ impl Audit<'_> {
             }
         });
         let rests = self.courses.map(|course| course.resting().is_some());
+        let flies = self.courses.map(|course| course.flies());
+        let [before, after] = [&in_space, &after_in_space].map(|balls| balls.map(|ball| ball.seen_from_above()));
         let mut closed = Contact::all(self.table.radius, self.trace.constants.reach, &after, self.gap);
-        closed.retain(|contact| changed[contact.first] && contact.second.is_none_or(|second| changed[second]));
+        let can_touch = |ball: usize| changed[ball] && !flies[ball];
+        closed.retain(|contact| can_touch(contact.first) && contact.second.is_none_or(can_touch));
         let impacts = told.iter().filter_map(|event| match event.kind {
             EventKind::BallBall(first, second) => Some(Contact::of_balls(first, second, &after)),
             EventKind::BallRail(ball, rail) => Some(Contact::with_rail(ball, rail)),
@@ -116,6 +121,10 @@ impl Audit<'_> {
             let group = moment.group(ball, changed);
             let members = || (0..BALLS).filter(|&member| group[member]);
             members().for_each(|member| seen[member] = true);
+            if told.iter().any(|event| event.kind == EventKind::LeavesTable(ball)) {
+                // It takes its energy along.
+                continue;
+            }
             let moved = || members().map(|member| before[member].position.distance(after[member].position));
             let doubt = Doubt {
                 energy: members().map(|member| self.courses[member].largest).sum(),
@@ -124,7 +133,16 @@ impl Audit<'_> {
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.gap) },
             };
-            let Taken { mut unexplained, bounces } = moment.taken(group);
+            let energy = |balls: &[SpatialState; BALLS]| -> f64 {
+                members().map(|member| aloft::energy(self.table, &balls[member])).sum()
+            };
+            let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&after_in_space);
+            let Taken { mut unexplained, bounces } = if members().any(|member| flew[member] || flies[member]) {
+                let taken = aloft::impacts_loss(self.table, &in_space, flew, group, told);
+                Taken { unexplained: lost - taken, bounces: None }
+            } else {
+                moment.taken(group)
+            };
             let mut returned = 0.0;
             for member in members().filter(|&member| rested[member] && !rests[member]) {
                 if let Some((since, bounces)) = self.courses[member].bounces.take() {
@@ -137,10 +155,6 @@ impl Audit<'_> {
             if let Some(bounces) = bounces {
                 self.courses[bounces.ball].bounces = Some((now, bounces));
             }
-            let energy = |balls: &[BallState; BALLS]| -> f64 {
-                members().map(|member| balls[member].specific_energy(self.table.radius)).sum()
-            };
-            let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&moment.after);
             self.note(figures, lost + returned, unexplained, &doubt, doubt.at_a_change(self.table));
         }
     }
@@ -156,9 +170,15 @@ impl Audit<'_> {
                 *place = Some(piece);
                 continue;
             }
-            let state = piece.segment.state_after(&self.trace.constants, 0.0);
             let lost = course.first_energy - course.energy;
-            let taken = free_loss(self.table, &state, piece.segment.motion, piece.end - now);
+            let lasts = piece.end - now;
+            let taken = if let Some(hops) = piece.segment.hops() {
+                let start = piece.segment.spatial_after(&self.trace.constants, 0.0);
+                aloft::landings_loss(self.table, &start, hops.landings(lasts))
+            } else {
+                let state = piece.segment.state_after(&self.trace.constants, 0.0);
+                free_loss(self.table, &state, piece.segment.motion, lasts)
+            };
             let doubt = Doubt { energy: course.first_energy, time: piece.end, ..Doubt::default() };
             self.note(figures, lost, lost - taken, &doubt, doubt.on_the_way(self.table, taken));
         }

@@ -6,9 +6,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::*;
 use crate::{
+    physics::BallState,
     simulation::{Course, Rail},
     study::stability::{Shot, Stroke, cases, random},
-    table::{JUDGED, Layout},
+    table::{Flight, JUDGED, Layout},
 };
 
 /// The largest that is unexplained in a shot, in multiples of what is explained, after somebody has tampered with it.
@@ -136,6 +137,33 @@ fn a_resting_contact_that_takes_too_much_is_seen() {
     };
     let left = unexplained(&table, &shot, drag);
     assert!(left > 10.0, "{left}");
+}
+
+/// A raised stroke upon a ball near by, by the laws of one table and by those of another.
+#[test]
+fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
+    let flight = Flight { restitution: 0.5, friction: Some(0.2) };
+    let table = Table { flight: Some(flight), ..Table::preset("textbook").unwrap() };
+    let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.36, 0.01), DVec2::new(1.0, 0.5)]);
+    let shot = Shot { layout, cue: Stroke { theta_deg: 20.0, ..Stroke::centre(0.0, 3.0) } };
+    let mut trace = Trace::new(&table);
+    trace.play(&table, &shot);
+    assert!(trace.events.iter().any(|event| event.kind == EventKind::BallBall(0, 1)));
+    let left = |table: &Table| {
+        let mut figures = Figures::default();
+        audit(table, &trace, &mut figures);
+        figures.unexplained.value
+    };
+    assert!(left(&table) < 1.0, "{}", left(&table));
+    let others = [
+        Table { flight: Some(Flight { restitution: 0.5 + 1e-7, ..flight }), ..table.clone() },
+        Table { flight: Some(Flight { friction: Some(0.2 - 1e-7), ..flight }), ..table.clone() },
+        Table { ball_restitution: table.ball_restitution - 1e-7, ..table.clone() },
+        Table { ball_friction: table.ball_friction.map(|friction| friction + 1e-7), ..table.clone() },
+    ];
+    for other in &others {
+        assert!(left(other) > 100.0, "{}", left(other));
+    }
 }
 
 /// A ball that hits a cushion with 1 mm/s and is left without any speed across it.

@@ -31,6 +31,7 @@ pub const CASES: &[Case] = &[
             graze,
         )
     },
+    Case { size: Size::Adversarial, ..case("random shots with the cue raised by up to 60°", "", flying, raised) },
     case("landing on the nose of a cushion", "", flying, on_the_nose),
     case("landing exactly on a ball's top", "", flying, on_top),
     case("endless hops, e_c = 0.99", "", lively, hops),
@@ -138,6 +139,14 @@ fn on_top(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
             return Shot { layout: draw::with_others(table, &[from, ball], rng), cue: stroke };
         }
     }
+}
+
+/// A cue that people raise: seldom steeper.
+const STEEPEST: f64 = 60.0;
+
+fn raised(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let theta_deg = rng.random_range(0.0..STEEPEST);
+    Shot { layout: Layout::random(table, rng), cue: Stroke { theta_deg, ..draw::stroke(rng) } }
 }
 
 fn hops(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {

@@ -1,0 +1,158 @@
+//! A ball in the air meets another that lies on the cloth: the cloth answers to what is pressed into it, or holds it from below.
+//!
+//! In a hard blow the balls part first, and the cloth throws the lower one up again. In a soft one it stays, and with it what the
+//! upper ball had to rebound with: the two would press each other in ever shorter bounces, each of which takes the motion
+//! across, and a ball would never slide off another's top. There the cloth holds the lower ball during the impact: that one
+//! gives way along the table only, and the upper ball slides off in bounces that lose nothing.
+
+use super::{super::SpatialState, BallImpact};
+use crate::physics::Cloth;
+
+impl BallImpact {
+    /// Velocities and spins after a collision of two balls of which one at least is in the air, with the answer of the `cloth`. In
+    /// a soft one they part with the speed `slowest`, m/s, as far as the energy suffices. Returns the speed with which they have
+    /// approached, m/s, negative if they do not.
+    pub fn resolve_over_cloth(
+        &self,
+        radius: f64,
+        slowest: f64,
+        cloth: &Cloth,
+        first: &mut SpatialState,
+        second: &mut SpatialState,
+    ) -> f64 {
+        let before = [*first, *second];
+        let approach = self.resolve_in_space(radius, slowest, first, second);
+        for ball in [&mut *first, &mut *second] {
+            if ball.position.z <= 0.0 {
+                cloth.answer(radius, ball);
+            }
+        }
+        let first_is_lower = first.position.z < second.position.z;
+        let [upper, lower] = if first_is_lower { [second, first] } else { [first, second] };
+        let [upper_before, lower_before] = if first_is_lower { [before[1], before[0]] } else { before };
+        let lies = lower.position.z <= 0.0 && upper.position.z > 0.0 && lower_before.velocity.z <= 0.0;
+        if !lies || approach < 0.0 || lower.velocity.z > slowest {
+            return approach;
+        }
+        let n = (upper.position - lower.position).normalize();
+        let opening = upper.velocity.dot(n) - lower.velocity.truncate().dot(n.truncate());
+        if approach <= slowest || opening < slowest {
+            (*upper, *lower) = (upper_before, lower_before);
+            self.resolve_held(radius, slowest, cloth, upper, lower);
+        }
+        approach
+    }
+
+    /// A collision in which the cloth holds the `lower` ball from below.
+    fn resolve_held(
+        &self,
+        radius: f64,
+        slowest: f64,
+        cloth: &Cloth,
+        upper: &mut SpatialState,
+        lower: &mut SpatialState,
+    ) {
+        let mut n = (upper.position - lower.position).normalize();
+        if n.truncate() == glam::DVec2::ZERO {
+            n.x = f64::EPSILON;
+        }
+        lower.velocity.z = 0.0;
+        let along_table = n.with_z(0.0);
+        let approach = (lower.velocity - upper.velocity).dot(n);
+        // What the balls and then the cloth give back, and nothing lost of a slow one.
+        let restitution = self.restitution_at(approach) * cloth.restitution;
+        let opening = (restitution * approach).max(approach.min(slowest));
+        let push = (approach + opening) / (1.0 + along_table.length_squared());
+        upper.velocity += push * n;
+        lower.velocity -= push * along_table;
+        let apart = upper.velocity - lower.velocity;
+        let slip = apart - apart.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
+        let factor = self.friction_factor(push, slip.length());
+        let rub = -factor * slip;
+        upper.velocity += rub;
+        lower.velocity -= rub.with_z(0.0);
+        let twist = (2.5 / radius * factor) * n.cross(slip);
+        upper.spin += twist;
+        lower.spin += twist;
+        cloth.rub(radius, (push * n.z + rub.z).max(0.0), lower);
+        // One that has hardly approached is raised by what its own motion across has.
+        let along = upper.velocity.dot(n);
+        let pushed = lower.velocity.dot(n);
+        if along - pushed < 0.5 * slowest {
+            let across = upper.velocity - along * n;
+            let energy = upper.velocity.length_squared();
+            let wanted = (pushed + slowest).min(energy.sqrt());
+            let left = (energy - wanted * wanted).max(0.0);
+            let had = across.length_squared();
+            upper.velocity = wanted * n + if had > 0.0 { (left / had).sqrt() * across } else { glam::DVec3::ZERO };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::table::{Flight, PRESETS, Table};
+
+    /// Energy over mass before and after, and how fast the balls approach and part, where the lower one stays on the cloth.
+    fn soft(
+        table: &Table,
+        angle: f64,
+        velocities: [DVec3; 2],
+        spins: [DVec3; 2],
+        slowest: f64,
+    ) -> ([f64; 2], [f64; 2]) {
+        let (law, cloth) = (BallImpact::of(table), Cloth::of(table).unwrap());
+        let n = DVec3::new(0.6 * angle.sin(), 0.8 * angle.sin(), angle.cos());
+        let mut upper = SpatialState { position: 2.0 * table.radius * n, velocity: velocities[0], spin: spins[0] };
+        let mut lower = SpatialState { position: DVec3::ZERO, velocity: velocities[1].with_z(0.0), spin: spins[1] };
+        let energy = |upper: &SpatialState, lower: &SpatialState| {
+            [upper, lower].map(|ball| ball.specific_energy(table.radius, table.gravity)).iter().sum()
+        };
+        let apart = |upper: &SpatialState, lower: &SpatialState| (upper.velocity - lower.velocity.with_z(0.0)).dot(n);
+        let (before, closing) = (energy(&upper, &lower), -apart(&upper, &lower));
+        law.resolve_over_cloth(table.radius, slowest, &cloth, &mut upper, &mut lower);
+        ([before, energy(&upper, &lower)], [closing, apart(&upper, &lower)])
+    }
+
+    proptest! {
+        #[test]
+        fn no_blow_on_a_ball_on_the_cloth_gives_energy_and_a_soft_one_on_a_ball_at_rest_opens(
+            angle in 0.0..1.5f64,
+            size in -4.0..0.0f64,
+            v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0],
+            w in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0],
+            restitution in prop_oneof![Just(0.0), Just(0.5), Just(0.99)],
+        ) {
+            let slowest = 2e-3;
+            for name in PRESETS {
+                let flight = Some(Flight { restitution, friction: None });
+                let table = Table { flight, ..Table::preset(name).unwrap() };
+                let speed = 10_f64.powf(size);
+                let velocities = [DVec3::new(v[0], v[1], v[2]) * speed, DVec3::new(v[3], v[4], 0.0) * speed];
+                let spins = [DVec3::new(w[0], w[1], w[2]), DVec3::new(w[3], w[4], w[5])].map(|w| w * speed / table.radius);
+                let ([before, after], _) = soft(&table, angle, velocities, spins, slowest);
+                prop_assert!(after <= before * (1.0 + 1e-14), "{name}: {before} {after}");
+                let [velocity, spin] = [[velocities[0], DVec3::ZERO], [spins[0], DVec3::ZERO]];
+                let (_, [closing, opening]) = soft(&table, angle, velocity, spin, slowest);
+                if closing > 0.0 && closing < slowest {
+                    prop_assert!(opening > 0.1 * closing, "{name}: {opening}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_ball_that_comes_down_softly_on_another_rebounds_as_softly_and_keeps_its_motion_across() {
+        let table =
+            Table { flight: Some(Flight::default()), ball_friction: Some(0.0), ..Table::preset("textbook").unwrap() };
+        let slowest = 2e-3;
+        let down = DVec3::new(0.0, 0.0, -1.5e-3);
+        let ([before, after], [closing, opening]) = soft(&table, 0.02, [down, DVec3::ZERO], [DVec3::ZERO; 2], slowest);
+        assert!((opening - closing).abs() < 1e-3 * closing, "{closing} {opening}");
+        assert!((after - before).abs() < 1e-3 * 1.5e-3 * 1.5e-3, "{before} {after}");
+    }
+}
