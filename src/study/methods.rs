@@ -83,8 +83,8 @@ impl Method {
         }
     }
 
-    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep, and for courses in
-    /// the air, of which no account is kept.
+    /// Share of the energy for which friction and impacts do not account; `None` for shots too long to keep, and for the steps'
+    /// courses in the air, of which no account is kept.
     pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
         let mut trace = Trace::new(table);
         match self {
@@ -93,10 +93,13 @@ impl Method {
             }
             Self::Steps(steps) => {
                 trace.record(&shot.impulse, |trace| steps.simulate(table, &shot.layout, &shot.impulse, trace).end);
+                if trace.has_flights() {
+                    return None;
+                }
             }
             _ => return run.unaccounted,
         }
-        if trace.has_flights() || trace.kept_until < f64::INFINITY {
+        if trace.kept_until < f64::INFINITY {
             return None;
         }
         let account = account(table, &trace);

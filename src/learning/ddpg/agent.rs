@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn a_saturated_actor_comes_back_where_that_costs_something() {
         let outputs = |penalty: f64| {
-            let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::Full);
+            let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::Full, 21);
             agent.hyper.saturation_penalty = penalty;
             let bias = vec![5.0; agent.hyper.heads * ActionSpace::Full.actions()];
             agent.online.actor = agent.online.actor.duplicate().unwrap().with_output_bias(&bias).unwrap();
@@ -184,8 +184,8 @@ mod tests {
     }
 
     /// An agent with an opinion, and a batch for it.
-    fn agent_and_batch(space: ActionSpace) -> (Ddpg, ObservationBatch, Vec<Action>, Vec<f32>) {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);
+    fn agent_and_batch(space: ActionSpace, seed: u64) -> (Ddpg, ObservationBatch, Vec<Action>, Vec<f32>) {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let layers = vec![24, 24];
         let hyper = Hyperparameters {
             actor_layers: layers.clone(),
@@ -215,12 +215,12 @@ mod tests {
         (agent, ObservationBatch::on(&table, space, observations).unwrap(), actions, successes)
     }
 
-    /// The slope of `goal` along its own gradient is the gradient's length; moving the parameters shows it, as well as 32-bit
-    /// numbers and kinks of rectified units let it.
-    fn assert_is_gradient(network: &Mlp, goal: impl Fn() -> Tensor) {
+    /// How far the slope of `goal` along its own gradient, by moving the parameters, is from the gradient's length; as a share.
+    fn error_of_gradient(network: &Mlp, goal: impl Fn() -> Tensor) -> f64 {
         let gradients = goal().backward().unwrap();
         let gradient = gradients.get(network.parameters()).unwrap();
         let length = gradient.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
+        assert!(length > 1e-3);
         let start = network.parameters().copy().unwrap();
         let at = |step: f32| {
             let moved = (&start + (gradient * f64::from(step / length)).unwrap()).unwrap();
@@ -229,22 +229,32 @@ mod tests {
         };
         let slope = (at(1e-3) - at(-1e-3)) / 2e-3;
         network.parameters().set(&start).unwrap();
-        assert!(length > 1e-3 && (slope / f64::from(length) - 1.0).abs() < 0.005, "{slope} against {length}");
+        (slope / f64::from(length) - 1.0).abs()
     }
 
     #[test]
     fn both_gradients_are_slopes_of_what_is_learnt() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let (agent, observed, actions, successes) = agent_and_batch(space);
-            let Networks { actor, critic } = &agent.online;
-            assert_is_gradient(critic, || agent.critic_loss(&observed, &actions, &successes).unwrap());
-            assert_is_gradient(actor, || agent.actor_goal(&observed).unwrap().0);
+            let errors = (21..26).map(|seed| {
+                let (agent, observed, actions, successes) = agent_and_batch(space, seed);
+                let Networks { actor, critic } = &agent.online;
+                [
+                    error_of_gradient(critic, || agent.critic_loss(&observed, &actions, &successes).unwrap()),
+                    error_of_gradient(actor, || agent.actor_goal(&observed).unwrap().0),
+                ]
+            });
+            let errors: Vec<_> = errors.collect();
+            for which in 0..2 {
+                // Where a rectified unit happens to be at its kink, the slope is the mean of two.
+                let close = errors.iter().filter(|errors| errors[which] < 0.005).count();
+                assert!(close >= 3 && errors.iter().all(|errors| errors[which] < 0.05), "{space}: {errors:?}");
+            }
         }
     }
 
     #[test]
     fn the_actor_leaves_the_critic_as_it_is() {
-        let (agent, observed, ..) = agent_and_batch(ActionSpace::Full);
+        let (agent, observed, ..) = agent_and_batch(ActionSpace::Full, 21);
         let gradients = agent.actor_goal(&observed).unwrap().0.backward().unwrap();
         assert!(gradients.get(agent.online.critic.parameters()).is_none());
         assert!(gradients.get(agent.online.actor.parameters()).is_some());
@@ -299,7 +309,7 @@ mod tests {
 
     #[test]
     fn a_batch_of_unequal_parts_is_refused() {
-        let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::PhiV);
+        let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::PhiV, 21);
         assert!(agent.update(&observed, &actions[1..], &successes, 1.0).is_err());
     }
 }
