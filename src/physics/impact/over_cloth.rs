@@ -97,14 +97,15 @@ mod tests {
     use super::*;
     use crate::table::{Flight, PRESETS, Table};
 
-    /// Energy over mass before and after, and how fast the balls approach and part, where the lower one stays on the cloth.
+    /// Energy over mass before and after, and how fast the balls approach and part; not where friction has pressed the lower one into
+    /// the cloth, which has thrown it up again.
     fn soft(
         table: &Table,
         angle: f64,
         velocities: [DVec3; 2],
         spins: [DVec3; 2],
         slowest: f64,
-    ) -> ([f64; 2], [f64; 2]) {
+    ) -> ([f64; 2], Option<[f64; 2]>) {
         let (law, cloth) = (BallImpact::of(table), Cloth::of(table).unwrap());
         let n = DVec3::new(0.6 * angle.sin(), 0.8 * angle.sin(), angle.cos());
         let mut upper = SpatialState { position: 2.0 * table.radius * n, velocity: velocities[0], spin: spins[0] };
@@ -115,12 +116,13 @@ mod tests {
         let apart = |upper: &SpatialState, lower: &SpatialState| (upper.velocity - lower.velocity.with_z(0.0)).dot(n);
         let (before, closing) = (energy(&upper, &lower), -apart(&upper, &lower));
         law.resolve_over_cloth(table.radius, slowest, &cloth, &mut upper, &mut lower);
-        ([before, energy(&upper, &lower)], [closing, apart(&upper, &lower)])
+        let stays = lower.velocity.z <= slowest;
+        ([before, energy(&upper, &lower)], stays.then(|| [closing, apart(&upper, &lower)]))
     }
 
     proptest! {
         #[test]
-        fn no_blow_on_a_ball_on_the_cloth_gives_energy_and_a_soft_one_on_a_ball_at_rest_opens(
+        fn no_blow_on_a_ball_on_the_cloth_gives_energy_and_a_soft_one_without_spin_opens(
             angle in 0.0..1.5f64,
             size in -4.0..0.0f64,
             v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0],
@@ -136,9 +138,8 @@ mod tests {
                 let spins = [DVec3::new(w[0], w[1], w[2]), DVec3::new(w[3], w[4], w[5])].map(|w| w * speed / table.radius);
                 let ([before, after], _) = soft(&table, angle, velocities, spins, slowest);
                 prop_assert!(after <= before * (1.0 + 1e-14), "{name}: {before} {after}");
-                let [velocity, spin] = [[velocities[0], DVec3::ZERO], [spins[0], DVec3::ZERO]];
-                let (_, [closing, opening]) = soft(&table, angle, velocity, spin, slowest);
-                if closing > 0.0 && closing < slowest {
+                let (_, speeds) = soft(&table, angle, [velocities[0], DVec3::ZERO], [DVec3::ZERO; 2], slowest);
+                if let Some([closing, opening]) = speeds.filter(|[closing, _]| (0.0..slowest).contains(closing)) {
                     prop_assert!(opening > 0.1 * closing, "{name}: {opening}");
                 }
             }
@@ -151,7 +152,8 @@ mod tests {
             Table { flight: Some(Flight::default()), ball_friction: Some(0.0), ..Table::preset("textbook").unwrap() };
         let slowest = 2e-3;
         let down = DVec3::new(0.0, 0.0, -1.5e-3);
-        let ([before, after], [closing, opening]) = soft(&table, 0.02, [down, DVec3::ZERO], [DVec3::ZERO; 2], slowest);
+        let ([before, after], speeds) = soft(&table, 0.02, [down, DVec3::ZERO], [DVec3::ZERO; 2], slowest);
+        let [closing, opening] = speeds.unwrap();
         assert!((opening - closing).abs() < 1e-3 * closing, "{closing} {opening}");
         assert!((after - before).abs() < 1e-3 * 1.5e-3 * 1.5e-3, "{before} {after}");
     }
