@@ -54,6 +54,7 @@ impl BallImpact {
     ) {
         let mut n = (upper.position - lower.position).normalize();
         if n.truncate() == glam::DVec2::ZERO {
+            // A ball exactly on the top would stay there for ever.
             n.x = f64::EPSILON;
         }
         lower.velocity.z = 0.0;

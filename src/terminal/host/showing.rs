@@ -41,10 +41,14 @@ impl Showing {
 
     /// When something is to be written; `None` where nothing is.
     pub fn due(&self, app: &App) -> Option<Instant> {
-        match (app.shown_table(), &self.open) {
+        self.due_for(app.shown_table().as_ref())
+    }
+
+    fn due_for(&self, now: Option<&ShownTable>) -> Option<Instant> {
+        match (now, &self.open) {
             (None, None) => None,
             (Some(now), Some(open)) => {
-                let is_seen = |seen: &ShownTable| !seen.is_outdated_by(open.when.elapsed(), &now);
+                let is_seen = |seen: &ShownTable| !seen.is_outdated_by(open.when.elapsed(), now);
                 (!open.written.as_ref().is_some_and(is_seen)).then(|| open.when + INTERVAL)
             }
             _ => Some(Instant::now()),
@@ -56,10 +60,11 @@ impl Showing {
     /// # Errors
     /// A sentence why it cannot be shown; nothing is then.
     pub fn write(&mut self, app: &App) -> Result<(), String> {
-        if self.due(app).is_none_or(|due| due > Instant::now()) {
+        let now = app.shown_table();
+        if self.due_for(now.as_ref()).is_none_or(|due| due > Instant::now()) {
             return Ok(());
         }
-        let Some(now) = app.shown_table() else {
+        let Some(now) = now else {
             self.end();
             return Ok(());
         };

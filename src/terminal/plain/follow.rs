@@ -17,7 +17,7 @@ use crate::{
     terminal::{
         plain::speech,
         shown::{Author, Doing},
-        tasks::onlooker::{Onlooker, Seen, SeenTable},
+        tasks::onlooker::{Onlooker, Seen, SeenTable, damage_words},
         words::percent,
     },
 };
@@ -49,11 +49,12 @@ pub fn follow_in_lines(
             Some(Seen::Nothing) => return Ok(()),
             Some(Seen::Damaged) => {
                 waiting = None;
-                tell_damage(name, json, out)?;
+                // Programs are told of tables alone.
+                if !json {
+                    writeln!(out, "{}", damage_words(name))?;
+                }
             }
-            Some(Seen::Table(seen)) if json => {
-                printing::json_line(out, &seen.shown)?;
-            }
+            Some(Seen::Table(seen)) if json => printing::json_line(out, &seen.shown)?,
             Some(Seen::Table(seen)) => waiting = Some((seen, Instant::now())),
             None => {}
         }
@@ -69,14 +70,6 @@ pub fn follow_in_lines(
         thread::sleep(INTERVAL);
     }
     Ok(())
-}
-
-/// Says that the table cannot be read; programs are told nothing.
-fn tell_damage(name: &str, json: bool, out: &mut impl Write) -> io::Result<()> {
-    if json {
-        return Ok(());
-    }
-    writeln!(out, "The table of {name} cannot be read: it is damaged, or of another version of carom.")
 }
 
 /// What was told last.

@@ -29,6 +29,11 @@ pub enum Seen {
     Table(Box<SeenTable>),
 }
 
+/// What is said where the table of the player `name` is [`Seen::Damaged`].
+pub fn damage_words(name: &str) -> String {
+    format!("The table of {name} cannot be read: it is damaged, or of another version of carom.")
+}
+
 /// Somebody else's table.
 #[derive(Clone, Debug)]
 pub struct SeenTable {

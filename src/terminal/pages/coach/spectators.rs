@@ -9,7 +9,7 @@ use crate::{
         pages::coach::{CoachPage, Position},
         shot::{History, WhatIf},
         shown::{Author, Doing, ShownShot, ShownTable},
-        tasks::onlooker::{Seen, SeenTable},
+        tasks::onlooker::{Seen, SeenTable, damage_words},
         ui::Message,
     },
 };
@@ -52,9 +52,7 @@ impl Followed {
             Seen::Nothing => {
                 Some(format!("{name} shows no table at the moment. It comes back here as soon as they show it again."))
             }
-            Seen::Damaged => {
-                Some(format!("The table of {name} cannot be read: it is damaged, or of another version of carom."))
-            }
+            Seen::Damaged => Some(damage_words(name)),
             Seen::Table(_) => None,
         }
     }
