@@ -32,7 +32,7 @@ const MOST_PULL: f64 = 8.0;
 const GRIPPED_SLIP: f64 = 7.0;
 
 /// Slow bounces of one contact that are told one by one; those that follow belong to its chatter.
-const TOLD: u32 = 8;
+const TOLD: u32 = 4;
 
 /// Flights that shrink more slowly are no sign of a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;

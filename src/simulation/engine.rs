@@ -27,8 +27,9 @@ const MOST_WORK: u32 = 6_000;
 /// ten events, and one in a chatter some hundred.
 const MOST_EVENTS: u32 = 20_000;
 
-/// Bounces that take as long as one step of a resting contact.
+/// Bounces that take as long as one step of a resting contact, and as one whose forces have not been found.
 const STEP_WORK: u32 = 4;
+const UNSOLVED_WORK: u32 = 200;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -285,9 +286,9 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
         self.work = MOST_WORK + 1;
     }
 
-    /// Takes note of a step of resting contacts.
-    pub(super) fn contact_step(&mut self) -> ControlFlow<()> {
-        self.work += STEP_WORK;
+    /// Takes note of a step of resting contacts, and of whether the forces of the last one were found.
+    pub(super) fn contact_step(&mut self, was_solved: bool) -> ControlFlow<()> {
+        self.work += if was_solved { STEP_WORK } else { UNSOLVED_WORK };
         self.observer.contact_step()
     }
 

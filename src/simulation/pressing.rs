@@ -22,7 +22,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         if !self.is_exhausted() && resting.go_on(self.table) {
-            self.contact_step()?;
+            self.contact_step(resting.is_solved())?;
             let members = resting.members;
             self.resting = Some(resting);
             for index in (0..BALLS).filter(|&index| members[index]) {
@@ -111,7 +111,8 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             }),
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        self.contact_step()?;
+        let last = self.resting.as_ref().or(self.ended.as_ref());
+        self.contact_step(last.is_none_or(|last| last.is_solved()))?;
         let previous = self.resting.take().or(self.ended.take());
         if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
             previous.contacts.as_slice().iter().for_each(|contact| chatters.rest(contact, now));

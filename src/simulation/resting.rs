@@ -150,6 +150,11 @@ impl Resting {
         Ended { contacts: &self.contacts, set: &self.set, forces: &self.last, interrupted: self.interrupted }
     }
 
+    /// Whether the forces at both ends of the step obey all laws to rounding.
+    pub const fn is_solved(&self) -> bool {
+        self.first.converged && self.last.converged
+    }
+
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
         if self.goes_on && !stand_on_slope(&self.constants, &self.end, |ball| self.members[ball]) {

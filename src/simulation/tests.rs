@@ -10,7 +10,7 @@ use super::{
     simulate,
 };
 use crate::{
-    physics::{BallState, Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip},
+    physics::{BallState, CueInputs, Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip, strike},
     table::{Layout, OneRail, RailModel, Rails, Table},
 };
 
@@ -272,4 +272,41 @@ fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
     };
     assert!(rests(0.0) && rests(constants.tolerance.opening));
     assert!(!rests(2.5e-10));
+}
+
+/// The steps of resting contacts that a shot takes.
+#[derive(Default)]
+struct Steps(usize);
+
+impl Observer for Steps {
+    fn event(&mut self, _: Event) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.0 += 1;
+        ControlFlow::Continue(())
+    }
+}
+
+/// A ball presses two others into a corner, one of which begins to roll next to not at all: no forces are found that obey all laws
+/// to rounding, and each search for them takes as long as hundreds of bounces.
+#[test]
+fn a_shot_whose_forces_are_not_found_is_brought_to_its_end() {
+    let table = Table { ball_restitution: 0.3, rail_restitution: 0.3, ..Table::preset("textbook").unwrap() };
+    let balls = [
+        DVec2::new(0.887_635_992_145_478_8, 0.229_628_755_329_131_96),
+        DVec2::new(-1.389_249_999_999_960_3, 0.679_249_999_999_484_7),
+        DVec2::new(-1.389_249_999_999_960_3, 0.617_749_999_537_395_6),
+    ];
+    let cue = CueInputs {
+        a: 1.163_330_422_004_582_5e-16,
+        b: 0.4,
+        theta: 0.0,
+        phi: 170.326_261_199_960_3_f64.to_radians(),
+        speed: 1.932_482_233_407_031_5,
+    };
+    let mut steps = Steps::default();
+    simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
+    assert!(steps.0 < 1_000, "{}", steps.0);
 }

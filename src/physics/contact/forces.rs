@@ -34,6 +34,8 @@ pub struct Forces {
     pub normal: [f64; MAX_CONTACTS],
     /// By how much all laws hold, m/s²: negative where the active set that was asked for has ended.
     pub slack: f64,
+    /// Whether all laws hold to rounding where forces have been sought.
+    pub converged: bool,
     /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
     pub(super) friction: [DVec2; MAX_CONTACTS],
     /// The cloth's forces per ball mass where they hold a ball, against slip, against rolling and against spin, m/s².
@@ -58,8 +60,6 @@ pub struct Resolved {
     /// Whether each of the contacts that were asked about never slips, and cannot rest: what holds its slip parts the
     /// balls, and what parts brings them back.
     pub paradox: [bool; MAX_CONTACTS],
-    /// Whether all laws hold to rounding.
-    pub converged: bool,
 }
 
 impl Resolved {
@@ -87,11 +87,10 @@ pub fn resolve(
     let mut resolved = Resolved {
         contacts: *contacts,
         set: *set,
-        forces: Forces::of(table.radius, &problem, &solution.sizes, &accelerations),
+        forces: Forces::of(table.radius, &problem, &solution, &accelerations),
         shared: false,
         sticking: None,
         paradox: [false; MAX_CONTACTS],
-        converged: solution.converged,
     };
     let mut kept = [Friction::Sticks; MAX_CONTACTS];
     let mut count = 0;
@@ -190,7 +189,7 @@ pub fn yielding(
 ) -> Forces {
     let (problem, solution) = solved(table, balls, contacts, set, Some(similar));
     let accelerations = problem.accelerations(&solution.sizes);
-    let mut forces = Forces::of(table.radius, &problem, &solution.sizes, &accelerations);
+    let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
     forces.slack = spin_slack(table.radius, balls, set);
     for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
         let friction = match unknown.place {
@@ -242,14 +241,15 @@ impl Forces {
         angular: [DVec3::ZERO; BALLS],
         normal: [0.0; MAX_CONTACTS],
         slack: f64::INFINITY,
+        converged: true,
         friction: [DVec2::ZERO; MAX_CONTACTS],
         cloth: [DVec2::ZERO; BALLS],
         roll: [DVec2::ZERO; BALLS],
         spin: [0.0; BALLS],
     };
 
-    fn of(radius: f64, problem: &Problem, sizes: &[f64], accelerations: &Row) -> Self {
-        let mut forces = Self::NONE;
+    fn of(radius: f64, problem: &Problem, Solution { sizes, converged, .. }: &Solution, accelerations: &Row) -> Self {
+        let mut forces = Self { converged: *converged, ..Self::NONE };
         for ball in 0..BALLS {
             let (linear, angular) = accelerations.of_ball(ball);
             forces.linear[ball] = linear;
@@ -344,7 +344,7 @@ mod tests {
         let resolved = resolved(ball, &[contact]).unwrap();
         let balls = [ball, BallState::at_rest(DVec2::new(0.5, 0.0)), BallState::at_rest(DVec2::new(-0.5, 0.0))];
         let held = forces(&table, &balls, &[contact], &resolved.set, None).unwrap();
-        assert!(resolved.converged && held.distance(&resolved.forces, table.radius) < 1e-12);
+        assert!(resolved.forces.converged && held.distance(&resolved.forces, table.radius) < 1e-12);
     }
 
     #[test]

@@ -123,7 +123,7 @@ mod tests {
         contacts.push(Contact::of_balls(0, 1));
         let set = ActiveSet::of(&table, &balls, contacts.as_slice(), 1e-10);
         let resolved = resolve(&table, &balls, &contacts, &set, 1e-11, None).unwrap();
-        assert!(resolved.converged && !resolved.shared);
+        assert!(resolved.forces.converged && !resolved.shared);
         assert!(resolved.forces.slack > 1e-3 * table.gravity, "{}", resolved.forces.slack);
         assert!(resolved.forces.linear[1].length() < 1e-10);
     }

@@ -28,6 +28,10 @@ const MOST_HALVINGS: i32 = 14;
 const ATTEMPTS: u32 = 7;
 const FIRST_SWEEPS: usize = 8;
 
+/// Errors below this share of the largest force that a round has not halved are left as they are: such forces are at the edge of what
+/// may hold them, and no round finds better ones.
+const NEARLY: f64 = 1e-7;
+
 /// Added to the system's diagonal, whose entries are 1 to 10. A ball that sticks to several things at once is held more
 /// often than needed, so that forces are not unique; this picks those nearest to what they were. Further steps take its
 /// effect out again.
@@ -73,6 +77,7 @@ fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
     let mut best = (f64::INFINITY, *guess);
     let mut sizes = *guess;
     for attempt in 0..attempts {
+        let error_before = best.0;
         let (mut residual, mut sides) = system.residual(&sizes);
         for _ in 0..NEWTON_STEPS {
             let error = length(&residual);
@@ -103,6 +108,9 @@ fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32) -> Solution {
             (sizes, residual, sides) = (there, left, now);
         }
         sizes = best.1;
+        if best.0 > 0.5 * error_before && best.0 <= NEARLY * system.scale(&sizes) {
+            break;
+        }
         for _ in 0..FIRST_SWEEPS << attempt {
             system.sweep(&mut sizes);
         }

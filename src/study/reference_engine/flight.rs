@@ -167,10 +167,11 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
     Met { events, work, is_slow: approach <= slow }
 }
 
-/// Takes what rounding has left of a gap out of the place of a ball in the air.
+/// Takes what rounding has left of a gap out of the place of a ball in the air; one that is just being lifted is still on the cloth.
 fn shift<R: Real>(ball: &mut Ball<R>, by: Vector<R>) {
+    let lies = ball.position.z <= R::zero();
     ball.position = ball.position + by;
-    ball.position.z = ball.position.z.max(R::zero());
+    ball.position.z = if lies { R::zero() } else { ball.position.z.max(R::zero()) };
 }
 
 /// Relative velocity after an impact with restitution, which was `across - approach n`, but for its friction, which takes `rub`
@@ -232,6 +233,9 @@ fn held_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut Ball<
         (false, true) => (other, one, [second, first]),
         _ => return None,
     };
+    if upper.position.z <= R::zero() {
+        return None;
+    }
     let mut n = (upper.position - lower.position).direction();
     let parts = (after[0].velocity - after[1].velocity).dot(n);
     let is_thrown_up = after[1].motion == Motion::Flying;

@@ -297,7 +297,7 @@ mod tests {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let mut output = Vec::new();
-        let settings = Settings { think_ms: 100, ..Settings::default() };
+        let settings = Settings { think_ms: 1_000, ..Settings::default() };
         converse(Coach::new(table).unwrap(), layout, &settings, 1, lines.as_bytes(), &mut output, "").unwrap();
         String::from_utf8(output).unwrap()
     }

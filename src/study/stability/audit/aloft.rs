@@ -39,15 +39,15 @@ pub fn landings_loss(table: &Table, start: &SpatialState, landings: u32) -> f64 
     lost
 }
 
-/// What the impacts that are told of a `group` of balls take one after another, m²/s²; `flew` are those that have been in the air until
-/// now.
+/// What the impacts that are told of a `group` of balls take one after another, m²/s², and how far that takes balls out of what they
+/// overlap, m; `flew` are those that have been in the air until now.
 pub fn impacts_loss(
     table: &Table,
     before: &[SpatialState; BALLS],
     flew: [bool; BALLS],
     group: [bool; BALLS],
     told: &[Event],
-) -> f64 {
+) -> [f64; 2] {
     let numbers = Numbers::<f64>::of(table);
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
@@ -82,5 +82,9 @@ pub fn impacts_loss(
             ball.motion = Motion::Flying;
         }
     }
-    work
+    let moved = balls.iter().zip(before).map(|(ball, before)| {
+        let Vector { x, y, z } = ball.position;
+        before.position.distance(glam::DVec3::new(x, y, z))
+    });
+    [work, moved.fold(0.0, f64::max)]
 }

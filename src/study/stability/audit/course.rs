@@ -28,7 +28,9 @@ pub struct Course<'a> {
 impl<'a> Course<'a> {
     /// A course that the stroke begins.
     pub fn new(table: &Table, trace: &'a Trace, ball: usize) -> Self {
-        let mut before = SpatialState::from(BallState::at_rest(trace.end.balls[ball].position));
+        let pieces = &trace.pieces[ball];
+        let place = pieces.first().map_or(trace.end.balls[ball].position, |piece| piece.segment.position);
+        let mut before = SpatialState::from(BallState::at_rest(place));
         if ball == 0 {
             let Impulse { velocity, spin, lift } = trace.impulse;
             // A stroke that lifts a ball no faster than this leaves it on the cloth.
@@ -36,7 +38,6 @@ impl<'a> Course<'a> {
             (before.velocity, before.spin) = (velocity.extend(lift), spin);
         }
         let energy = energy(table, &before);
-        let pieces = &trace.pieces[ball];
         Self { ball, pieces, begun: 0, before, energy, first_energy: energy, largest: energy, bounces: None }
     }
 

@@ -126,7 +126,7 @@ impl Audit<'_> {
                 continue;
             }
             let moved = || members().map(|member| before[member].position.distance(after[member].position));
-            let doubt = Doubt {
+            let mut doubt = Doubt {
                 energy: members().map(|member| self.courses[member].largest).sum(),
                 time: now,
                 rests: members().any(|member| rested[member] || rests[member]) || moment.ends_a_chatter(group),
@@ -138,7 +138,13 @@ impl Audit<'_> {
             };
             let lost = members().map(|member| before_energy[member]).sum::<f64>() - energy(&after_in_space);
             let Taken { mut unexplained, bounces } = if members().any(|member| flew[member] || flies[member]) {
-                let taken = aloft::impacts_loss(self.table, &in_space, flew, group, told);
+                // Whether rounding has left a height is told by the engine's answer.
+                let at_impact = std::array::from_fn(|ball| SpatialState {
+                    position: after_in_space[ball].position,
+                    ..in_space[ball]
+                });
+                let [taken, moved] = aloft::impacts_loss(self.table, &at_impact, flew, group, told);
+                doubt.moved = doubt.moved.max(moved.min(self.gap));
                 Taken { unexplained: lost - taken, bounces: None }
             } else {
                 moment.taken(group)

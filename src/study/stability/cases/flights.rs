@@ -8,8 +8,8 @@ use super::{Case, Size, variant};
 use crate::{
     physics::{Cushions, strike},
     simulation::{EventKind, Rail},
-    study::stability::{Limits, Shot, Stroke, Trace, draw},
-    table::{Flight, Layout, Table},
+    study::stability::{Limits, Shot, Stroke, Trace, adversarial, draw},
+    table::{Flight, Layout, Rails, Table},
 };
 
 const fn case(
@@ -32,6 +32,15 @@ pub const CASES: &[Case] = &[
         )
     },
     Case { size: Size::Adversarial, ..case("random shots with the cue raised by up to 60°", "", flying, raised) },
+    Case {
+        size: Size::Adversarial,
+        ..case(
+            "balls that touch or almost touch, the cue raised by up to 60°",
+            "",
+            flying_by_thesis,
+            raised_at_touching,
+        )
+    },
     case("landing on the nose of a cushion", "", flying, on_the_nose),
     case("landing exactly on a ball's top", "", flying, on_top),
     case("endless hops, e_c = 0.99", "", lively, hops),
@@ -49,6 +58,11 @@ fn with(restitution: f64) -> Vec<Table> {
 
 fn flying() -> Vec<Table> {
     with(0.5)
+}
+
+/// Tables on which several impacts at once follow the thesis' laws, which the audit knows.
+fn flying_by_thesis() -> Vec<Table> {
+    flying().into_iter().filter(|table| table.rail == Rails::default()).collect()
 }
 
 fn lively() -> Vec<Table> {
@@ -147,6 +161,12 @@ const STEEPEST: f64 = 60.0;
 fn raised(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let theta_deg = rng.random_range(0.0..STEEPEST);
     Shot { layout: Layout::random(table, rng), cue: Stroke { theta_deg, ..draw::stroke(rng) } }
+}
+
+fn raised_at_touching(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
+    let theta_deg = rng.random_range(0.0..STEEPEST);
+    let shot = adversarial::shot(table, rng);
+    Shot { cue: Stroke { theta_deg, ..shot.cue }, ..shot }
 }
 
 fn hops(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
