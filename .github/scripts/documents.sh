@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Writes what packages hold besides the program: manual pages and completions, from the program itself.
+# Writes what packages hold besides the program: manual pages and completions, from the program itself, and the licences of
+# what it is made of. It needs python3.
 # Use: documents.sh PROGRAM FOLDER
 set -euo pipefail
 program=$1
@@ -17,3 +18,4 @@ done
 "$program" completions zsh > "$folder/completions/_carom"
 "$program" completions fish > "$folder/completions/carom.fish"
 "$program" completions powershell > "$folder/completions/carom.ps1"
+python3 .github/scripts/licences.py > "$folder/LICENCES.txt"

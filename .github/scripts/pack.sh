@@ -15,7 +15,7 @@ rm -rf "$folder"
 mkdir -p "$folder" "$out"
 cp "target/$target/release/$program" LICENSE README.md CHANGELOG.md "$folder"
 if [ -d target/documents ]; then
-    cp -r target/documents/man target/documents/completions "$folder"
+    cp -r target/documents/* "$folder"
 fi
 case $target in
 *windows*)

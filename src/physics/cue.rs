@@ -156,7 +156,7 @@ impl CueInputs {
     /// thesis equation 9. For a level cue it is `a² + b²`. A place on the far side, which no cue reaches but through the ball,
     /// is as far off as can be: 1.
     pub fn offset_across_squared(&self) -> f64 {
-        let (sin, cos) = self.theta.sin_cos();
+        let (sin, cos) = libm::sincos(self.theta);
         let c = (1.0 - self.tip_offset_squared()).max(0.0).sqrt();
         let lever = self.b * cos - c * sin;
         let faces_cue = c * cos + self.b * sin > 0.0;
@@ -237,7 +237,7 @@ pub fn squirt(table: &Table, a: f64) -> f64 {
     table.cue_end_mass.map_or(0.0, |end| {
         let rest = 1.0 - a * a;
         let along = 1.0 + table.ball_mass / end + 2.5 * rest;
-        -(2.5 * a * rest.max(0.0).sqrt() / along).atan()
+        -libm::atan(2.5 * a * rest.max(0.0).sqrt() / along)
     })
 }
 
@@ -247,8 +247,8 @@ pub fn squirt(table: &Table, a: f64) -> f64 {
 pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     let (a, b) = (cue.a, cue.b);
     let c = (1.0 - cue.tip_offset_squared()).max(0.0).sqrt();
-    let (sin_theta, cos_theta) = cue.theta.sin_cos();
-    let (sin_phi, cos_phi) = (cue.phi + squirt(table, a)).sin_cos();
+    let (sin_theta, cos_theta) = libm::sincos(cue.theta);
+    let (sin_phi, cos_phi) = libm::sincos(cue.phi + squirt(table, a));
     // (9) per ball mass. Its last three terms are the square of b cos - c sin.
     let lever = b * cos_theta - c * sin_theta;
     let force = 2.0 * cue.speed / (1.0 + table.ball_mass / table.cue_mass + 2.5 * (a * a + lever * lever));

@@ -98,7 +98,7 @@ pub fn least_elevation(table: &Table, layout: &Layout, cue: &CueInputs) -> Resul
 /// Whether the cue has room for a stroke as it is.
 pub fn has_room(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     Stick::of(table, layout, cue).is_none_or(|stick| {
-        let (sin, cos) = cue.theta.sin_cos();
+        let (sin, cos) = libm::sincos(cue.theta);
         stick.needs(layout).all(|(_, need)| need.is_met(sin, cos))
     })
 }
@@ -165,11 +165,11 @@ impl Need {
     fn least(self) -> Option<f64> {
         let least = match self {
             Self::Above { x, y, z } => {
-                let share = z / x.hypot(y);
+                let share = z / libm::hypot(x, y);
                 // Smaller than -1: whatever the elevation.
-                (share <= 1.0).then(|| if share <= -1.0 { 0.0 } else { y.atan2(x) + share.asin() })
+                (share <= 1.0).then(|| if share <= -1.0 { 0.0 } else { libm::atan2(y, x) + libm::asin(share) })
             }
-            Self::Clear { share, rise } => Some(share.min(1.0).acos().max(rise.asin())),
+            Self::Clear { share, rise } => Some(libm::acos(share.min(1.0)).max(libm::asin(rise))),
             Self::Never => None,
         };
         least.map(|theta| theta.max(0.0)).filter(|theta| *theta < FRAC_PI_2)
@@ -183,7 +183,8 @@ impl Stick {
         let room = table.room?;
         let (a, b) = (cue.a, cue.b);
         let c = (1.0 - cue.tip_offset_squared()).max(0.0).sqrt();
-        let forward = DVec2::from_angle(cue.phi);
+        let (sin, cos) = libm::sincos(cue.phi);
+        let forward = DVec2::new(cos, sin);
         let place = layout.balls[0] + table.radius * (a * forward.perp() - c * forward);
         let growth = 0.5 * room.taper;
         let cos = 1.0 / (1.0 + growth * growth).sqrt();

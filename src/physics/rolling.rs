@@ -72,7 +72,7 @@ mod tests {
     /// Length and time of a roll to rest: exactly, and band by band.
     fn roll(rolling: &Rolling, speed: f64) -> ([f64; 2], [f64; 2], usize) {
         let Rolling { least, growth } = *rolling;
-        let time = (1.0 + growth * speed / least).ln() / growth;
+        let time = libm::log(1.0 + growth * speed / least) / growth;
         let exact = [(speed - least * time) / growth, time];
         let (mut bands, mut v, mut count) = ([0.0; 2], speed, 0);
         while v > 0.0 {

@@ -42,7 +42,7 @@ pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch
     let (left, lost) = (end / speed, 1.0 - end / speed);
     // The means over the band of what friction leaves of the pull across, for the way and for the speed at the end.
     let (for_way, for_speed) = if end > 0.0 {
-        let fall = left.ln();
+        let fall = libm::log(left);
         (2.0 * (0.25 - 0.25 * left * left + 0.5 * left * left * fall) / (lost * lost), -left * fall / lost)
     } else {
         (0.5, 0.0)

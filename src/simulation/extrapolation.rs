@@ -116,7 +116,7 @@ pub fn extrapolate(
             // An error of this round falls with the power 2 round + 1 of the length.
             best.error = distance(&newer, &row[round - 1], members, radius);
             let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
-            let growth = room.powf(1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
+            let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
             let work = done / growth;
             if work < least_work {
                 // Where another round would have paid, too, it is tried next time.

@@ -86,13 +86,13 @@ impl Hops {
         if count <= FEW {
             (0..count).fold(0.0, |sum, _| sum * e + 1.0)
         } else {
-            -self.power(count).exp_m1() / (1.0 - e)
+            -libm::expm1(self.power(count)) / (1.0 - e)
         }
     }
 
     /// The restitution's logarithm.
     fn decay(&self) -> f64 {
-        (self.cloth.restitution - 1.0).ln_1p()
+        libm::log1p(self.cloth.restitution - 1.0)
     }
 
     /// `n ln e`.
@@ -105,7 +105,7 @@ impl Hops {
         if count <= FEW {
             (0..count).fold(1.0, |power, _| power * self.cloth.restitution)
         } else {
-            self.power(count).exp()
+            libm::exp(self.power(count))
         }
     }
 
@@ -122,7 +122,7 @@ impl Hops {
             return None;
         }
         // The logarithm may be off by one.
-        let near = (left.ln() / self.decay()).ceil().min(1e6) as u32;
+        let near = (libm::log(left) / self.decay()).ceil().min(1e6) as u32;
         (near.saturating_sub(2)..=near + 1).find(|&landing| self.powers(landing + 1) >= least)
     }
 
@@ -217,7 +217,7 @@ impl Hops {
         }
         let since = (t - self.first) / (self.per_speed() * self.landing * e);
         let left = (1.0 - e).mul_add(-since, 1.0);
-        if left <= 0.0 { u32::MAX } else { 1 + (left.ln() / self.decay()).floor().clamp(0.0, 1e9) as u32 }
+        if left <= 0.0 { u32::MAX } else { 1 + (libm::log(left) / self.decay()).floor().clamp(0.0, 1e9) as u32 }
     }
 
     /// Position, velocity and spin `t` seconds after the start.

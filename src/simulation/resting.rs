@@ -346,7 +346,7 @@ impl Resting {
     fn longest_step(&mut self, radius: f64) -> f64 {
         self.time_scale = None;
         let sliding = self.constants.sliding;
-        let strays = |force: f64, turn: f64| (2000.0 * STRAY / force * turn.powi(4)).powf(1.0 / 6.0);
+        let strays = |force: f64, turn: f64| libm::pow(2000.0 * STRAY / force * turn.powi(4), 1.0 / 6.0);
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, None);
         self.slips(radius, &self.begin, &self.first, |place, slip, rate| {
@@ -380,7 +380,7 @@ impl Resting {
         }
         self.time_scale = time_scale;
         let share = 1.0 - longest / soonest;
-        if share > 0.0 { soonest * FALL.min(-share.ln()) } else { FALL * soonest }
+        if share > 0.0 { soonest * FALL.min(-libm::log(share)) } else { FALL * soonest }
     }
 
     /// How fast time runs in rescaled time.

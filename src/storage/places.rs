@@ -53,8 +53,8 @@ impl Places {
     /// the user has no home, under the working directory.
     pub fn of_this_user() -> Self {
         let Some(dirs) = ProjectDirs::from("", "", "carom") else {
-            let data = Path::new("carom-data");
-            return Self::in_folders(data, data, PathBuf::from("carom-config.toml"));
+            let data = Path::new("./carom-data");
+            return Self::in_folders(data, data, PathBuf::from("./carom-config.toml"));
         };
         let state = dirs.state_dir().unwrap_or_else(|| dirs.data_local_dir());
         Self::in_folders(dirs.data_dir(), state, dirs.config_dir().join(SETTINGS))

@@ -137,7 +137,7 @@ impl SlipFriction {
     /// The coefficient at a slip of `slip` m/s.
     #[inline]
     pub fn at(&self, slip: f64) -> f64 {
-        self.least + self.rise * (-self.fade * slip).exp()
+        self.least + self.rise * libm::exp(-self.fade * slip)
     }
 }
 

@@ -107,7 +107,8 @@ pub fn resolve(
         let rate = DVec2::from_array(rates(&problem, &solution, index)).length();
         let holds = rate <= DEPARTING * table.gravity;
         resolved.shared |= holds;
-        let size = solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| size.hypot(*x));
+        let size =
+            solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| libm::hypot(size, *x));
         let starts = match unknown.count {
             1 => Friction::Slips(-force),
             _ if rate < SLOW_START * size => Friction::Yields,
@@ -204,7 +205,7 @@ pub fn yielding(
             Side::Holds if friction == Friction::Yields => -slack_of_one(unknown, &solution.sizes),
             Side::Holds => slack_of_one(unknown, &solution.sizes),
             Side::Limited(_) if friction == Friction::Yields => f64::INFINITY,
-            _ => -rows.iter().fold(0.0_f64, |rate, row| rate.hypot(row.dot(&accelerations))),
+            _ => -rows.iter().fold(0.0_f64, |rate, row| libm::hypot(rate, row.dot(&accelerations))),
         };
         forces.slack = forces.slack.min(slack);
     }
@@ -219,7 +220,7 @@ fn slack_of(problem: &Problem, sizes: &[f64]) -> f64 {
 
 fn slack_of_one(unknown: &Unknown, sizes: &[f64]) -> f64 {
     let own = &sizes[unknown.first..][..unknown.count];
-    let size = own.iter().fold(0.0_f64, |length, x| length.hypot(*x));
+    let size = own.iter().fold(0.0_f64, |length, x| libm::hypot(length, *x));
     match (unknown.place, unknown.limit) {
         (Place::Normal(_), _) => own[0],
         (_, Limit::Fixed(limit)) => limit - size,

@@ -428,7 +428,7 @@ pub fn forces(
         (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
         limit(normal, 0.0);
         if system.joints[index].unknowns == 3 && !never_slips(table, contact) {
-            limit(coefficient(table, contact) * normal, along.hypot(up));
+            limit(coefficient(table, contact) * normal, libm::hypot(along, up));
         }
     }
     Some(forces)

@@ -99,7 +99,7 @@ impl BallImpact {
             Some(law) => {
                 let (t, spin) = (n.perp(), first.spin + second.spin);
                 let along = apart.dot(t) - radius * spin.z;
-                Some(law.at(along.hypot(radius * spin.truncate().dot(t))))
+                Some(law.at(libm::hypot(along, radius * spin.truncate().dot(t))))
             }
         };
         collide_balls(radius, restitution, friction, first, second)

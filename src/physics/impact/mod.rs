@@ -27,7 +27,7 @@ fn raised(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
     }
     let (had, left) = (across.length_squared(), across.length_squared() - missing);
     if left <= 0.0 {
-        return (opening.hypot(had.sqrt()) - opening) * n - across;
+        return (libm::hypot(opening, had.sqrt()) - opening) * n - across;
     }
     (slowest - opening) * n - (1.0 - (left / had).sqrt()) * across
 }

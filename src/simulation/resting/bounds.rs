@@ -25,7 +25,7 @@ impl Resting {
         let strays = self.strays(trial) / MOST_STRAY;
         if strays > 1.0 {
             // It falls with the sixth power of the step.
-            return Some((0.5 / strays).powf(1.0 / 6.0) * trial.span);
+            return Some(libm::pow(0.5 / strays, 1.0 / 6.0) * trial.span);
         }
         let yielded = self.yielded(table, &trial.step.end.balls) / tolerance.yielding;
         (yielded > MOST_YIELDED).then(|| (1.0 / yielded).max(0.1) * trial.span)

@@ -39,7 +39,7 @@ impl StickSlip {
             }
             Self::Smooth { most } => {
                 // The hyperbolic tangent at half the price of the library's; beyond that it is one.
-                let grown = (2.0 * push / (most * slip)).exp();
+                let grown = libm::exp(2.0 * push / (most * slip));
                 if grown < 1e17 { most * (grown - 1.0) / (grown + 1.0) } else { most }
             }
         }
