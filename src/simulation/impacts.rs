@@ -152,7 +152,6 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
-        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         for contact in contacts.as_slice() {
             // Exactly at the cushion, as in a single impact.
             let n = contact.cushion_normal;
@@ -163,6 +162,11 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
         }
         let law = if collapsed { self.law.inelastic() } else { self.law.clone() };
         let impulses = collide_together(c.radius, &law, &mut states, contacts.as_slice());
+        if impulses.iter().all(|impulse| *impulse <= 0.0) {
+            // Balls that stand where they touch: what has met now is something else.
+            return ControlFlow::Continue(false);
+        }
+        let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let mut told = [false; MAX_CONTACTS];
         for (index, contact) in contacts.as_slice().iter().enumerate() {
             if impulses[index] > 0.0 {

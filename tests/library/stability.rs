@@ -92,6 +92,7 @@ rows_as_tests! {
     tiny_and_huge_balls => "balls of one millimetre and of one metre",
     grazing_from_above => "grazing a ball from above, relative depth 1e-12 to 1e-3",
     raised_cue => "random shots with the cue raised by up to 60°",
+    raised_cue_at_touching => "balls that touch or almost touch, the cue raised by up to 60°",
     landing_on_the_nose => "landing on the nose of a cushion",
     landing_on_top => "landing exactly on a ball's top",
     endless_hops => "endless hops, e_c = 0.99",
@@ -119,7 +120,8 @@ fn every_known_row_is_in_the_document() {
     }
 }
 
-/// Shots of the table that failed once, each for the cause that it names.
+/// Shots of the table that failed once, each for the cause that it names; one that is said to fail again is taken off that list when it
+/// holds.
 #[test]
 fn shots_that_failed_hold() {
     let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).collect();
@@ -133,7 +135,7 @@ fn shots_that_failed_hold() {
         let figures = examine(table, &shot, &mut Trace::new(table));
         // How long it takes is for the table to tell.
         let violations = figures.violations(&Limits { seconds: f64::INFINITY, ..Limits::STRICT.on(table) });
-        assert!(violations.is_empty(), "{}: {violations:?}", line["cause"]);
+        assert_eq!(violations.is_empty(), line.get("fails_again").is_none(), "{}: {violations:?}", line["cause"]);
     }
 }
 
