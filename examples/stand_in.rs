@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let doubt: Doubt = words.next().map_or(Ok(Doubt::FULL), |word| word.parse())?;
     let first: usize = words.next().map_or(Ok(0), |word| word.parse())?;
     let advised = Table::default();
-    let coach = Coach::new(advised.clone())?;
+    let coach = Coach::new(advised.clone());
     let stand_ins = models().into_iter().filter(|(_, table)| *table != advised).collect::<Vec<_>>();
     let mut claimed = 0.0;
     let mut made = vec![0.0; stand_ins.len()];

@@ -36,3 +36,14 @@ train match-three-cushion --from "$folder/match-three-cushion-fourth" --seed 63 
 train thesis-r3 --table thesis --reward r3 --seed 1 --steps 4000000
 train thesis-one-cushion --table thesis --reward one-cushion --seed 1 --steps 3000000
 train thesis-three-cushion --table thesis --reward three-cushion --seed 1 --steps 2500000
+# Networks that know the table and the player. They take the critics of those above and begin with actors of their own.
+context() {
+    train "$@" --set context=true --set ranking=0.6 --set critic_chooses=0.15 --set saturation_penalty=0.1 --set attempts=8 --set new_actor=true
+}
+wide="exploration={ noise = [0.015, 0.05, 0.2], uniform = 0.05 }"
+# Stopped by hand after 1,239,360 shots.
+context context-three-cushion-first --from "$folder/match-three-cushion" --seed 72 --steps 3500000 --set "$wide"
+context context-three-cushion --from "$folder/context-three-cushion-first" --seed 81 --steps 17000000 --set critic_learning_rate=0.0012
+context context-r3 --from "$folder/match-r3" --seed 82 --steps 8000000 --set critic_learning_rate=0.0012
+# Stopped by hand after 4,570,176 shots.
+context context-one-cushion --from "$folder/match-one-cushion" --seed 83 --steps 5500000 --set critic_learning_rate=0.0012

@@ -34,7 +34,7 @@ const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let count: usize = env::args().nth(1).ok_or("say how many layouts a rule: ease 1600")?.parse()?;
-    let coach = Coach::new(Table::default())?;
+    let coach = Coach::new(Table::default());
     for rule in Rule::ALL {
         let layouts = gather(&coach, rule, count)?;
         let samples = layouts.iter().map(|layout| sample(&coach, layout, rule)).collect::<Result<Vec<_>, _>>()?;

@@ -1,7 +1,7 @@
 //! The recommender: from a layout and a request to the shot that this player makes most often.
 
 use std::{
-    sync::atomic::AtomicBool,
+    sync::{Arc, OnceLock, atomic::AtomicBool},
     time::{Duration, Instant},
 };
 
@@ -17,8 +17,8 @@ use super::{
     trial::{CONTACT_STEPS, ENDLESS, Task},
 };
 use crate::{
-    game::{Reward, Rule},
-    learning::{Policy, PolicyError, evaluation::SuccessRate},
+    game::Rule,
+    learning::{Policy, evaluation::SuccessRate},
     physics::CueInputs,
     table::{Layout, LayoutError, Table},
 };
@@ -51,36 +51,48 @@ const WORTH_LISTING: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub struct Coach {
     table: Table,
-    policies: Vec<Policy>,
+    policies: Policies,
+}
+
+/// What a coach may ask.
+#[derive(Clone, Debug)]
+enum Policies {
+    None,
+    /// One policy, whatever the rule is: a shot that makes some point is a good start of a search.
+    One(Box<Policy>),
+    /// Those that are bundled for its table, each read when it is first asked: by rule, for players without errors and others.
+    Bundled(Arc<[[OnceLock<Option<Policy>>; 2]; Rule::ALL.len()]>),
 }
 
 impl Coach {
     /// A coach with the policies that are bundled for this table, if there are any; without, it searches.
-    ///
-    /// # Errors
-    /// Where a bundled policy is damaged.
-    pub fn new(table: Table) -> Result<Self, PolicyError> {
-        let bundled = Rule::ALL.into_iter().filter_map(|rule| Policy::bundled(&table, rule));
-        let policies = bundled.collect::<Result<_, _>>()?;
-        Ok(Self { table, policies })
+    pub fn new(table: Table) -> Self {
+        Self { table, policies: Policies::Bundled(Arc::default()) }
     }
 
     /// A coach that has no policy: it searches.
     pub const fn without_policy(table: Table) -> Self {
-        Self { table, policies: Vec::new() }
+        Self { table, policies: Policies::None }
     }
 
     /// The same coach with one other policy, which it asks whatever the rule is.
     #[must_use]
     pub fn with_policy(self, policy: Policy) -> Self {
-        Self { policies: vec![policy], ..self }
+        Self { policies: Policies::One(Box::new(policy)), ..self }
     }
 
-    /// The policy that it asks under `rule`: the one that was trained for it, else any, for a shot that makes some point is
-    /// a good start of a search.
-    pub fn policy(&self, rule: Rule) -> Option<&Policy> {
-        let trained_for = |policy: &&Policy| policy.origin().reward == Reward::for_rule(rule);
-        self.policies.iter().find(trained_for).or(self.policies.first())
+    /// The policy that it asks under `rule` for a player of this skill.
+    pub fn policy(&self, rule: Rule, skill: &Skill) -> Option<&Policy> {
+        match &self.policies {
+            Policies::None => None,
+            Policies::One(policy) => Some(policy),
+            Policies::Bundled(policies) => {
+                let errs = !skill.is_perfect();
+                // A test rules out that one of them is damaged.
+                let read = || Policy::bundled_for(&self.table, rule, errs)?.ok();
+                policies[rule as usize][usize::from(errs)].get_or_init(read).as_ref()
+            }
+        }
     }
 
     /// The table that it knows.
@@ -90,7 +102,7 @@ impl Coach {
 
     /// The policy's own shot under `rule` for a player of this skill, unchecked; `None` where there is no policy.
     pub fn policy_shot(&self, layout: &Layout, rule: Rule, skill: &Skill) -> Option<CueInputs> {
-        self.policy(rule).map(|policy| policy.propose(&self.table, layout, skill))
+        self.policy(rule, skill).map(|policy| policy.propose(&self.table, layout, skill))
     }
 
     /// Looks for the shot that the player makes most often, or with [`Request::plan`] the one after which the next is
@@ -127,7 +139,7 @@ impl Coach {
             until: clock.moment(1.0),
             patience: CONTACT_STEPS,
         };
-        let policy = self.policy(request.rule);
+        let policy = self.policy(request.rule, &request.skill);
         let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
         let found = Attempt::new(task).run(&strokes, request.seed);

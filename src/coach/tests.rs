@@ -28,7 +28,7 @@ use crate::{
 };
 
 fn coach() -> Coach {
-    Coach::new(Table::default()).unwrap()
+    Coach::new(Table::default())
 }
 
 /// A request that simulations end, not time.
@@ -40,7 +40,7 @@ fn request(rule: Rule, simulations: u64) -> Request {
 fn what_is_called_solved_makes_the_point_under_every_rule() {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);
     for name in ["match", "thesis"] {
-        let coach = Coach::new(Table::preset(name).unwrap()).unwrap();
+        let coach = Coach::new(Table::preset(name).unwrap());
         for rule in Rule::ALL {
             let layout = Layout::random(coach.table(), &mut rng);
             for skill in [Skill::PERFECT, Skill::CLUB] {
@@ -171,7 +171,7 @@ fn a_search_that_is_cancelled_ends_with_the_best_so_far() {
 
 #[test]
 fn time_is_kept_where_contacts_are_stiff() {
-    let coach = Coach::new(Table::preset("thesis").unwrap()).unwrap();
+    let coach = Coach::new(Table::preset("thesis").unwrap());
     for layout in held_out_layouts(coach.table(), 5, 2) {
         let budget = Duration::from_millis(60);
         let request = Request { skill: Skill::EXPERT, rule: Rule::StraightRail, budget, ..Request::default() };
@@ -184,7 +184,7 @@ fn time_is_kept_where_contacts_are_stiff() {
 /// Nearly every stroke at these balls ends in a contact that takes long, and of a thousand hardly one makes the point.
 #[test]
 fn a_rare_shot_is_found_among_stiff_contacts() {
-    let coach = Coach::new(Table::preset("thesis").unwrap()).unwrap();
+    let coach = Coach::new(Table::preset("thesis").unwrap());
     let layout = Layout::parse("-0.9,0.1 0.3,0.3 0.6,-0.5", coach.table()).unwrap();
     for seed in 1..=5 {
         // Two seconds are enough where nothing else runs.
@@ -211,7 +211,7 @@ fn a_player_without_errors_never_misses() {
 #[test]
 fn advice_for_the_opening_of_a_umb_game_meets_the_red_ball_first_in_three_cushion_alone() {
     let table = Table { opening: Opening::Umb, ..Table::default() };
-    let coach = Coach::new(table.clone()).unwrap();
+    let coach = Coach::new(table.clone());
     for side in [Side::Left, Side::Right] {
         let layout = Layout::opening_on(&table, side);
         for skill in [Skill::EXPERT, Skill::PERFECT] {
@@ -253,7 +253,7 @@ fn many_layouts(table: &Table, count: usize) -> Vec<Layout> {
 /// rules and in a hurry too, go through a rail or a ball; and of how many.
 fn strokes_without_room(layouts: usize) -> (usize, usize) {
     let table = Table { room: Some(Room::default()), ..Table::default() };
-    let (with, without) = (Coach::new(table.clone()).unwrap(), Coach::without_policy(table.clone()));
+    let (with, without) = (Coach::new(table.clone()), Coach::without_policy(table.clone()));
     let (mut bad, mut all) = (0, 0);
     for (number, layout) in many_layouts(&table, layouts).iter().enumerate() {
         let coach = if number % 4 == 3 { &without } else { &with };
@@ -305,7 +305,7 @@ fn a_frozen_cue_ball_gets_advice_all_the_same_and_a_table_without_limits_gets_wh
 #[ignore = "a measurement: cargo test --profile quick --lib what_the_cues_room_costs -- --ignored --nocapture"]
 fn what_the_cues_room_costs() {
     let free = Table { room: None, ..Table::default() };
-    let coaches = [Some(Room::default()), None].map(|room| Coach::new(Table { room, ..free.clone() }).unwrap());
+    let coaches = [Some(Room::default()), None].map(|room| Coach::new(Table { room, ..free.clone() }));
     for rule in Rule::ALL {
         let mut ratios: Vec<f64> = held_out_layouts(&free, 40, 3)
             .iter()

@@ -75,7 +75,7 @@ mod tests {
     fn the_coach_makes_more_than_a_stroke_into_the_void() {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
-        let coach = Coach::new(table.clone()).unwrap();
+        let coach = Coach::new(table.clone());
         let skill = Skill::CLUB;
         let request = Request { skill, doubt: Doubt::FULL, budget: Duration::from_secs(2), ..Request::default() };
         let advice = advise(&coach, &layout, &request).unwrap().unwrap();

@@ -154,7 +154,10 @@ pub fn settles(
 ) -> Option<Contacts> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
-    if speed <= tolerance.slowest_bounce {
+    let restitution = law.restitution(contact);
+    // Bounces that lose nothing never fade.
+    let slowest = if restitution < 1.0 { tolerance.slowest_bounce } else { tolerance.slowest_lossless_bounce };
+    if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
         return Some(alone);
@@ -184,7 +187,6 @@ pub fn settles(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
-    let restitution = law.restitution(contact);
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };

@@ -18,18 +18,18 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Work after which a shot is brought to its end: so many bounces of chatters, of which a step of a resting contact takes as
+/// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting contact takes as
 /// long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from then on. The
 /// stability table counts the shots that come to it.
-const MOST_WORK: u32 = 6_000;
+const MOST_WORK: u32 = 12_000;
 
 /// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
 /// ten events, and one in a chatter some hundred.
-const MOST_EVENTS: u32 = 20_000;
+const MOST_EVENTS: u32 = 50_000;
 
 /// Bounces that take as long as one step of a resting contact, and as one whose forces have not been found.
-const STEP_WORK: u32 = 4;
-const UNSOLVED_WORK: u32 = 200;
+const STEP_WORK: u32 = 8;
+const UNSOLVED_WORK: u32 = 400;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,6 +114,9 @@ pub(super) struct Engine<'a, S, O> {
     pub(super) law: ImpactLaw,
     /// Whether nothing bounces on this table.
     pub(super) dead: bool,
+    /// Work that a bounce of a chatter on the cloth counts as. Where bounces lose nothing, a ball that is pressed bounces until its spin
+    /// has died down, and hardly ever next to others.
+    bounce_work: u32,
     /// The cloth, where balls can leave it.
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
@@ -144,6 +147,11 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
+            bounce_work: if table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution)) < 1.0 {
+                2
+            } else {
+                1
+            },
             dead: table.ball_restitution == 0.0 && table.rail.largest_restitution(table.rail_restitution) == 0.0,
             cloth: Cloth::of(table),
             observer,
@@ -284,6 +292,11 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     #[cfg(test)]
     pub(super) fn exhaust(&mut self) {
         self.work = MOST_WORK + 1;
+    }
+
+    /// Takes note of a bounce of a chatter on the cloth.
+    pub(super) const fn chatter_bounce(&mut self) {
+        self.work += self.bounce_work;
     }
 
     /// Takes note of a step of resting contacts, and of whether the forces of the last one were found.

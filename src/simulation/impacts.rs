@@ -132,7 +132,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// All contacts that close now collide together, if there are several.
     #[cold]
     pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
-        self.work += 1;
+        self.chatter_bounce();
         let members = self.freed_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
@@ -209,7 +209,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
     /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
-        self.work += 1;
+        self.chatter_bounce();
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) {
             return ControlFlow::Continue(true);

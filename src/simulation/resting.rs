@@ -6,20 +6,23 @@
 //! ends like an exponential and everything stays smooth.
 
 mod bounds;
+mod course;
 mod stiffness;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::{
     Constants, Rail,
     active_set::{Ended, lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    segment::Curve,
     tolerance::Tolerance,
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, forces, resolve, slip, yielding},
+    physics::{
+        ActiveSet, BallState, Contact, Contacts, Forces, Friction, Resolved, accelerations, forces, resolve, slip,
+        yielding,
+    },
     table::{BALLS, Table},
 };
 
@@ -45,6 +48,9 @@ const MOST_TURN: f64 = 0.03;
 
 /// Most guesses at the moment at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
+
+/// Linear accelerations of all balls, m/s², and angular ones, rad/s².
+type Accelerations<'a> = (&'a [DVec2; BALLS], &'a [DVec3; BALLS]);
 
 /// Where something slips: a ball on the cloth, its centre, or a contact, by index.
 #[derive(Clone, Copy, Debug)]
@@ -260,11 +266,19 @@ impl Resting {
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
+        let contacts = self.contacts.as_slice();
+        let yields = self.set.yields();
         let slope = |phase: &Phase| {
-            last = self.forces(table, &phase.balls, &last);
-            self.slope(table.radius, &phase.balls, &last)
+            let (linear, angular) = if yields {
+                last = yielding(table, &phase.balls, contacts, &self.set, &last);
+                (last.linear, last.angular)
+            } else {
+                accelerations(table, &phase.balls, contacts, &self.set, &self.first)
+                    .unwrap_or((self.first.linear, self.first.angular))
+            };
+            self.slope(table.radius, &phase.balls, (&linear, &angular))
         };
-        let first = self.slope(table.radius, &begin.balls, &from.forces);
+        let first = self.slope(table.radius, &begin.balls, (&from.forces.linear, &from.forces.angular));
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
         let stiff = self.stiff(table, from, length);
         let step = extrapolate(begin, &first, slope, stiff.as_ref(), self.members, length, (table.radius, tolerance));
@@ -454,12 +468,12 @@ impl Resting {
         forces(table, state, contacts, set, Some(&self.first)).unwrap_or(self.first)
     }
 
-    fn slope(&self, radius: f64, state: &State, forces: &Forces) -> Phase {
+    fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {
         let rate = self.time_rate(radius, state);
         let balls = std::array::from_fn(|ball| BallState {
             position: rate * state[ball].velocity,
-            velocity: rate * forces.linear[ball],
-            spin: rate * forces.angular[ball],
+            velocity: rate * linear[ball],
+            spin: rate * angular[ball],
         });
         Phase { balls, time: rate }
     }
@@ -472,28 +486,5 @@ impl Resting {
     /// Whether this cushion holds the ball.
     pub fn holds_at(&self, ball: usize, rail: Rail) -> bool {
         self.contacts.as_slice().contains(&Contact::with_cushion(ball, rail.normal()))
-    }
-
-    /// Half the acceleration at the start of the step, and the rest of a ball's course as polynomials.
-    pub fn course(&self, ball: usize) -> (DVec2, Curve) {
-        let h = self.step;
-        let (p0, p1) = (&self.begin[ball], &self.end[ball]);
-        let (a0, a1) = (self.first.linear[ball], self.last.linear[ball]);
-        let moved = p1.position - p0.position;
-        let (v0, v1) = (p0.velocity, p1.velocity);
-        let position = if h > self.constants.tolerance.shortest_quintic {
-            [
-                (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * h.powi(3)),
-                (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * h.powi(4)),
-                (12.0 * moved - 6.0 * h * (v1 + v0) - h * h * (a0 - a1)) / (2.0 * h.powi(5)),
-            ]
-        } else {
-            let mean = (v1 - v0) / h;
-            [(3.0 * mean - 2.0 * a0 - a1) / (3.0 * h), (a0 + a1 - 2.0 * mean) / (4.0 * h * h), DVec2::ZERO]
-        };
-        let (w0, w1) = (self.first.angular[ball], self.last.angular[ball]);
-        let mean = (p1.spin - p0.spin) / h;
-        let spin = [w0, (3.0 * mean - 2.0 * w0 - w1) / h, (w0 + w1 - 2.0 * mean) / (h * h)];
-        (0.5 * a0, Curve { position, spin })
     }
 }

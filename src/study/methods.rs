@@ -89,10 +89,12 @@ impl Method {
         let mut trace = Trace::new(table);
         match self {
             Self::Engine => {
-                trace.record(&shot.impulse, |trace| simulate(table, &shot.layout, &shot.impulse, trace));
+                trace.record(&shot.layout, &shot.impulse, |trace| simulate(table, &shot.layout, &shot.impulse, trace));
             }
             Self::Steps(steps) => {
-                trace.record(&shot.impulse, |trace| steps.simulate(table, &shot.layout, &shot.impulse, trace).end);
+                trace.record(&shot.layout, &shot.impulse, |trace| {
+                    steps.simulate(table, &shot.layout, &shot.impulse, trace).end
+                });
                 if trace.has_flights() {
                     return None;
                 }

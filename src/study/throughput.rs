@@ -41,9 +41,6 @@ const SEED: u64 = 7;
 /// Why the networks could not be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum ThroughputError {
-    /// The bundled policy is damaged.
-    #[error(transparent)]
-    Policy(#[from] crate::learning::PolicyError),
     /// The networks refuse to work.
     #[error("the networks cannot be measured: {0}")]
     Networks(#[from] candle_core::Error),
@@ -110,7 +107,7 @@ pub fn measure(time: Duration, mut tell: impl FnMut(&Figure)) -> Result<Vec<Figu
             |(layout, cue): &(Layout, CueInputs)| Recording::new(&table, layout, cue).map(|r| r.duration()).ok();
         note("recorded shots", None, &table, 1, rate(time, &shots, record));
     }
-    let coach = Coach::new(Table::default())?;
+    let coach = Coach::new(Table::default());
     let layouts: Vec<Layout> = shots(coach.table()).into_iter().map(|(layout, _)| layout).collect();
     let request = Request::default();
     let advise = |layout: &Layout| coach.recommend(layout, &request).is_ok();

@@ -27,7 +27,6 @@ use std::{
 use crate::{
     coach::Coach,
     drills::store::Store,
-    learning::PolicyError,
     printing,
     storage::{self, Places},
     table::{Layout, LayoutError, Table},
@@ -93,9 +92,6 @@ pub enum TerminalError {
     /// The first layout is not possible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
-    /// The bundled weights are damaged.
-    #[error(transparent)]
-    Policy(#[from] PolicyError),
     /// The terminal has failed.
     #[error("the terminal has failed: {0}")]
     Io(#[from] io::Error),
@@ -129,11 +125,11 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
 /// The coach as a conversation in lines, on the standard input and output.
 ///
 /// # Errors
-/// [`TerminalError`]: a layout that is not possible, damaged weights, or input or output that fails.
+/// [`TerminalError`]: a layout that is not possible, or input or output that fails.
 pub fn talk(table: Table, settings: &Settings) -> Result<(), TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
-    let coach = Coach::new(table)?;
+    let coach = Coach::new(table);
     Ok(plain::converse(coach, layout, settings, seed(), io::stdin().lock(), printing::stdout(), prompt)?)
 }
 

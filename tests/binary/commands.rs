@@ -185,7 +185,7 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
 fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
     let folder = tempfile::tempdir().unwrap();
     let cellar = folder.path().join("cellar.toml");
-    let table = include_str!("../../src/table/match.toml").replace("name = \"match\"", "name = \"cellar\"");
+    let table = include_str!("../../src/table/thesis.toml").replace("name = \"thesis\"", "name = \"cellar\"");
     std::fs::write(&cellar, table).unwrap();
     let cellar = cellar.to_str().unwrap();
     let cases: [(&[&str], &[&str]); 10] = [

@@ -24,7 +24,7 @@ fn a_new_user_has_nothing_wrong_and_nothing_is_made() {
     let test = &report["self_test"];
     assert_eq!((&test["engine"]["is_right"], &test["engine"]["shots"]), (&true.into(), &2000.into()));
     let networks = test["networks"].as_array().unwrap();
-    assert_eq!(networks.len(), 6, "three rules on two tables: {networks:?}");
+    assert_eq!(networks.len(), 9, "three rules on three tables: {networks:?}");
     assert!(networks.iter().all(|network| network["is_right"] == true), "{networks:?}");
     assert_eq!(report["screen"]["can_draw"], false);
     for place in report["places"].as_array().unwrap() {

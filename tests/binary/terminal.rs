@@ -24,6 +24,12 @@ pub fn carom() -> CommandBuilder {
     CommandBuilder::new(env!("CARGO_BIN_EXE_carom"))
 }
 
+pub fn guest(name: &str) -> CommandBuilder {
+    let mut command = carom();
+    command.args(["--guest", "--player", name]);
+    command
+}
+
 fn cells(count: u16) -> NonZero<u16> {
     NonZero::new(count).unwrap()
 }

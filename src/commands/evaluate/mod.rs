@@ -135,7 +135,8 @@ fn measure(args: &Args) -> Result<(Order, Records), Failure> {
     let player = if let Some(shots) = args.random_search {
         Player::RandomSearch(shots)
     } else if args.policy_only {
-        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default())?;
+        let is_told = args.drawn_tables || skill.is_some_and(|skill| !skill.is_perfect());
+        let policy = policy_named(&args.policy, &table, reward.rule().unwrap_or_default(), is_told)?;
         note_doubts(&policy, &table, reward.rule());
         Player::Policy(Box::new(policy))
     } else {
@@ -183,12 +184,12 @@ fn request(args: &Args, skill: Skill) -> Request {
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
 }
 
-/// The bundled policy for `rule` on `table`, or the one in the file.
-fn policy_named(name: &str, table: &Table, rule: Rule) -> Result<Policy, Failure> {
+/// The bundled policy for `rule` on `table`, rather one that is told table and player where that matters, or the one in the file.
+fn policy_named(name: &str, table: &Table, rule: Rule, is_told: bool) -> Result<Policy, Failure> {
     let policy = if name == "bundled" {
-        Policy::bundled(table, rule).ok_or_else(|| {
+        Policy::bundled_for(table, rule, is_told).ok_or_else(|| {
             Failure::wrong_input(format_args!(
-                "no policy is bundled for this table \"{}\"; use --table match or thesis, or --policy FILE with one from \
+                "no policy is bundled for this table \"{}\"; use --table match, textbook or thesis, or --policy FILE with one from \
                  `carom train`",
                 table.name
             ))
@@ -208,7 +209,12 @@ mod tests {
         assert!(table_named("snooker").unwrap_err().to_string().contains("snooker"));
         let mut own = Table::preset("thesis").unwrap();
         own.name = "cellar".to_owned();
-        assert!(policy_named("bundled", &own, Rule::OneCushion).unwrap_err().to_string().contains("cellar"));
-        assert!(policy_named("no/such/file", &own, Rule::OneCushion).unwrap_err().to_string().contains("no/such/file"));
+        assert!(policy_named("bundled", &own, Rule::OneCushion, true).unwrap_err().to_string().contains("cellar"));
+        assert!(
+            policy_named("no/such/file", &own, Rule::OneCushion, true)
+                .unwrap_err()
+                .to_string()
+                .contains("no/such/file")
+        );
     }
 }

@@ -202,7 +202,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// The coach for `table` with the bundled policy, or with that of a file.
 pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
-    let coach = Coach::new(table).map_err(Failure::failed)?;
+    let coach = Coach::new(table);
     if policy == "bundled" {
         return Ok(coach);
     }
@@ -226,7 +226,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     if args.policy_only {
         layout.validate(coach.table()).map_err(Failure::wrong_input)?;
         let start = Instant::now();
-        let policy = coach.policy(rule).ok_or_else(|| no_policy(coach.table()))?;
+        let policy = coach.policy(rule, &args.skill).ok_or_else(|| no_policy(coach.table()))?;
         note_doubts(policy, coach.table(), Some(rule));
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
         // Others speak of the shot as it is meant, whoever plays it.

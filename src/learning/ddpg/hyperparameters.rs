@@ -44,6 +44,9 @@ pub struct Hyperparameters {
     /// Share of them that are the averaged networks' own best proposals for a layout, several of each, played as they are: these
     /// are the shots between which they will have to choose.
     pub ranking: f64,
+    /// Attempts of whose success a remembered shot is the mean, where the player errs: one attempt tells little of a stroke that is
+    /// made one time in six.
+    pub attempts: usize,
     /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
     /// left behind.
     pub replay: usize,
@@ -83,6 +86,7 @@ impl Default for Hyperparameters {
             shots_per_update: 192,
             critic_chooses: 0.3,
             ranking: 0.0,
+            attempts: 1,
             replay: 1 << 17,
             hindsight: 0.0,
             demonstrations: 0.0,
@@ -121,6 +125,7 @@ impl Hyperparameters {
         check_batch("batch", self.batch)?;
         check_batch("actor_batch", self.actor_batch)?;
         check_batch("shots_per_update", self.shots_per_update)?;
+        check_batch("attempts", self.attempts)?;
         check_count("replay", self.replay)?;
         check_positive("critic_learning_rate", self.critic_learning_rate)?;
         check_positive("actor_learning_rate", self.actor_learning_rate)?;

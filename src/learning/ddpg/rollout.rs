@@ -133,7 +133,9 @@ impl Trainer {
     /// Plays and remembers one shot; returns its reward.
     fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
         let (reward, conditions) = (self.task.reward, *conditions);
-        let earned = self.venues.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
+        let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
+        let attempt = |_| self.venues.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
+        let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;
         let success = (earned / reward.highest()) as f32;
         self.replay.push(Transition { observation, conditions, action, success });
         let hindsight = self.task.hyperparameters.hindsight;

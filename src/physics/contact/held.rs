@@ -2,8 +2,11 @@
 //! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
 //! answers to a force with less motion than one that slides.
 
+mod joint;
+
 use glam::{DVec2, DVec3};
 
+use self::joint::{Joint, Movement, Triple};
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS,
     linear::{factorize, substitute},
@@ -13,9 +16,6 @@ use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
 };
-
-/// Unknowns for which there is room on the stack: three contacts that stick. More are rare.
-const ROOM: usize = 9;
 
 /// Added to a diagonal whose entries are 1 to 10, where forces are not unique: a ball that is held by several things at once.
 /// It picks the forces nearest to what they were; further steps take its effect out again.
@@ -33,25 +33,6 @@ const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 /// Impulses that stop some speeds change others by a few times as much. Where it is far more, the contacts are about to open,
 /// and what is stopped is rounding.
 const MOST_AMPLIFICATION: f64 = 100.0;
-
-/// Accelerations, speeds or their changes: of the centre, and R times those of the spin.
-#[derive(Clone, Copy, Debug)]
-struct Movement {
-    linear: [DVec2; BALLS],
-    angular: [DVec3; BALLS],
-}
-
-impl Movement {
-    const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
-
-    /// The largest difference of the members' speeds.
-    fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
-        (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {
-            let linear = self.linear[ball].distance(other.linear[ball]);
-            linear.max(self.angular[ball].distance(other.angular[ball])).max(largest)
-        })
-    }
-}
 
 /// How the cloth holds a ball.
 #[derive(Clone, Copy, PartialEq)]
@@ -112,78 +93,19 @@ impl Sticking {
     }
 }
 
-/// Along a contact's normal, its tangent `t = z×n` and z: forces, or rates.
-type Triple = [f64; 3];
-
-/// A contact and what is known of it.
-#[derive(Clone, Copy)]
-struct Joint {
-    first: usize,
-    second: Option<usize>,
-    n: DVec2,
-    t: DVec2,
-    /// Its first unknown.
-    at: usize,
-    /// The normal force alone, or two frictions that hold as well.
-    unknowns: usize,
-    /// Friction along t and z for each unit of the normal force, where the contact slips.
-    slip_friction: DVec2,
-    /// What the rates have besides the accelerations' part, m/s²: two balls' courses around each other bend.
-    bias: Triple,
-}
-
-impl Joint {
-    const NONE: Self = Self {
-        first: 0,
-        second: None,
-        n: DVec2::ZERO,
-        t: DVec2::ZERO,
-        at: 0,
-        unknowns: 0,
-        slip_friction: DVec2::ZERO,
-        bias: [0.0; 3],
-    };
-
-    /// The force of one unknown alone.
-    fn unit(&self, unknown: usize) -> Triple {
-        match unknown {
-            0 => [1.0, self.slip_friction.x, self.slip_friction.y],
-            1 => [0.0, 1.0, 0.0],
-            _ => [0.0, 0.0, 1.0],
-        }
-    }
-
-    /// What a force does to each of its balls: the push, which the second gets the other way, and the twist.
-    fn act(&self, [normal, along, up]: Triple) -> (DVec2, DVec3) {
-        (normal * self.n + along * self.t, (2.5 * up * self.t).extend(-2.5 * along))
-    }
-
-    fn members(&self) -> impl Iterator<Item = (usize, f64)> {
-        [(self.first, 1.0)].into_iter().chain(self.second.map(|second| (second, -1.0)))
-    }
-
-    fn rates(&self, movement: &Movement) -> Triple {
-        let (mut apart, mut around) = (movement.linear[self.first], movement.angular[self.first]);
-        if let Some(second) = self.second {
-            apart -= movement.linear[second];
-            around += movement.angular[second];
-        }
-        [apart.dot(self.n), apart.dot(self.t) - around.z, around.truncate().dot(self.t)]
-    }
-}
-
-/// The linear system of one active set in one state.
-struct Held {
-    joints: [Joint; MAX_CONTACTS],
+/// The linear system of one active set in one state, with room for some contacts. It is solved at every step of an integration,
+/// mostly for a single contact: moving room for all of them takes several times as long as solving it.
+struct Held<const ROOM: usize> {
+    joints: [Joint; ROOM],
     contacts: usize,
     unknowns: usize,
     sticking: [Sticking; BALLS],
     members: [bool; BALLS],
     /// Each contact's unknowns.
-    sizes: [Triple; MAX_CONTACTS],
+    sizes: [Triple; ROOM],
 }
 
-impl Held {
+impl<const ROOM: usize> Held<ROOM> {
     /// The system of the `contacts`; `has_friction` says whether the normal force of one that slips brings its friction with it.
     fn new(
         table: &Table,
@@ -219,14 +141,14 @@ impl Held {
             }
         };
         let mut system = Self {
-            joints: [Joint::NONE; MAX_CONTACTS],
-            contacts: contacts.len(),
+            joints: [Joint::NONE; ROOM],
+            contacts: contacts.len().min(ROOM),
             unknowns: 0,
             sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
             members: std::array::from_fn(|ball| contacts.iter().any(|contact| contact.has(ball))),
-            sizes: [[0.0; 3]; MAX_CONTACTS],
+            sizes: [[0.0; 3]; ROOM],
         };
-        for (index, place) in system.joints[..contacts.len()].iter_mut().enumerate() {
+        for (index, place) in system.joints[..system.contacts].iter_mut().enumerate() {
             *place = Joint { at: system.unknowns, ..joint(index) };
             system.unknowns += place.unknowns;
         }
@@ -260,20 +182,14 @@ impl Held {
     /// cannot vanish together.
     fn solve(&mut self, free: &Movement, bends: bool) -> Option<[Movement; 2]> {
         let count = self.unknowns;
-        let entries = count * count;
-        let (mut near, mut far) = ([0.0; ROOM * ROOM], Vec::new());
-        let factors = if count <= ROOM {
-            &mut near[..entries]
-        } else {
-            far.resize(entries, 0.0);
-            &mut far[..]
-        };
-        let mut pivots = [0; 3 * MAX_CONTACTS];
-        let pivots = &mut pivots[..count];
+        let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
+        let factors = &mut matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()[..count * count];
+        let mut pivots = [[0; 3]; ROOM];
+        let pivots = &mut pivots.as_flattened_mut()[..count];
         self.fill(factors);
         let unique = factorize(factors, pivots) > SINGULAR;
         if unique {
-            self.sizes = [[0.0; 3]; MAX_CONTACTS];
+            self.sizes = [[0.0; 3]; ROOM];
         } else {
             self.fill(factors);
             for index in 0..count {
@@ -287,7 +203,8 @@ impl Held {
         let mut smallest = f64::INFINITY;
         for _ in 0..MAX_REFINEMENTS {
             let (forced, moved) = self.moved(free);
-            let mut side = [0.0; 3 * MAX_CONTACTS];
+            let mut side = [[0.0; 3]; ROOM];
+            let side = side.as_flattened_mut();
             let (mut residual, mut scale) = (0.0_f64, scale);
             for (joint, sizes) in self.joints().iter().zip(&self.sizes) {
                 let rates = joint.rates(&moved);
@@ -318,7 +235,7 @@ impl Held {
 
     /// The largest of the speeds that are to be zero.
     fn to_stop(&self, speeds: &Movement) -> f64 {
-        let still = Self { sizes: [[0.0; 3]; MAX_CONTACTS], ..*self };
+        let still = Self { sizes: [[0.0; 3]; ROOM], ..*self };
         let (_, moved) = still.moved(speeds);
         let largest = moved.distance(speeds, self.members);
         self.joints().iter().fold(largest, |largest, joint| {
@@ -374,64 +291,116 @@ pub fn forces(
     set: &ActiveSet,
     similar: Option<&Forces>,
 ) -> Option<Forces> {
-    let mut system = Held::new(table, balls, contacts, set, |_| true);
-    if let Some(similar) = similar {
-        for (index, joint) in system.joints[..contacts.len()].iter().enumerate() {
-            let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
-            system.sizes[index] = [similar.normal[index], friction.x, friction.y];
-        }
-    }
-    let [sliding, rolling, boring] =
-        [table.sliding_friction, table.rolling_friction, table.spinning_friction].map(|mu| mu * table.gravity);
-    let mut free = Movement::NONE;
-    let members = system.members;
-    let mut forces = Forces::NONE;
-    for ball in (0..BALLS).filter(|&ball| members[ball]) {
-        let state = &balls[ball];
-        let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
-        if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
-            *linear = -sliding * against;
-            *angular = (2.5 * sliding * against.perp()).extend(0.0);
-        } else if let Some(against) = set.roll[ball].direction(state.velocity) {
-            let growth = 1.4 * table.rolling_growth * state.velocity.length();
-            *linear = -(rolling + growth) * against;
-        }
-        *linear += table.tilt;
-        if let Friction::Slips(sign) = set.spin[ball] {
-            angular.z = -2.5 * boring * sign.x;
-            if sign.x != 0.0 {
-                // A spin that has turned round has ended before.
-                forces.slack = forces.slack.min(table.radius * state.spin.z * sign.x);
+    Some(match contacts.len() {
+        0 | 1 => Solved::<1>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set),
+        2 => Solved::<2>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set),
+        _ => Solved::<MAX_CONTACTS>::new(table, balls, contacts, set, similar)?.forces(table, balls, contacts, set),
+    })
+}
+
+/// The accelerations under these forces: linear ones in m/s², angular ones in rad/s².
+pub fn accelerations(
+    table: &Table,
+    balls: &[BallState; BALLS],
+    contacts: &[Contact],
+    set: &ActiveSet,
+    similar: &Forces,
+) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
+    let similar = Some(similar);
+    let moved = match contacts.len() {
+        0 | 1 => Solved::<1>::new(table, balls, contacts, set, similar)?.moved,
+        2 => Solved::<2>::new(table, balls, contacts, set, similar)?.moved,
+        _ => Solved::<MAX_CONTACTS>::new(table, balls, contacts, set, similar)?.moved,
+    };
+    Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
+}
+
+/// A system of forces and the accelerations that follow from it, before the cloth holds the balls and after.
+struct Solved<const ROOM: usize> {
+    system: Held<ROOM>,
+    unheld: Movement,
+    moved: Movement,
+}
+
+impl<const ROOM: usize> Solved<ROOM> {
+    fn new(
+        table: &Table,
+        balls: &[BallState; BALLS],
+        contacts: &[Contact],
+        set: &ActiveSet,
+        similar: Option<&Forces>,
+    ) -> Option<Self> {
+        let mut system = Held::new(table, balls, contacts, set, |_| true);
+        if let Some(similar) = similar {
+            for (index, joint) in system.joints[..system.contacts].iter().enumerate() {
+                let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
+                system.sizes[index] = [similar.normal[index], friction.x, friction.y];
             }
         }
+        let [sliding, rolling, boring] = frictions(table);
+        let mut free = Movement::NONE;
+        for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
+            let state = &balls[ball];
+            let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
+            if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
+                *linear = -sliding * against;
+                *angular = (2.5 * sliding * against.perp()).extend(0.0);
+            } else if let Some(against) = set.roll[ball].direction(state.velocity) {
+                let growth = 1.4 * table.rolling_growth * state.velocity.length();
+                *linear = -(rolling + growth) * against;
+            }
+            *linear += table.tilt;
+            if let Friction::Slips(sign) = set.spin[ball] {
+                angular.z = -2.5 * boring * sign.x;
+            }
+        }
+        let [unheld, moved] = system.solve(&free, true)?;
+        Some(Self { system, unheld, moved })
     }
-    let [unheld, moved] = system.solve(&free, true)?;
-    let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
-    for ball in (0..BALLS).filter(|&ball| members[ball]) {
-        let sticking = system.sticking[ball];
-        let (cloth, roll, spin) = sticking.holding(unheld.linear[ball], unheld.angular[ball]);
-        (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
-        if sticking.cloth != Cloth::Slides {
-            limit(sliding, cloth.length());
+
+    /// All forces, and by how much their laws hold.
+    fn forces(&self, table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], set: &ActiveSet) -> Forces {
+        let Self { system, unheld, moved } = self;
+        let [sliding, rolling, boring] = frictions(table);
+        let mut forces = Forces::NONE;
+        let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
+        for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
+            let sticking = system.sticking[ball];
+            let (cloth, roll, spin) = sticking.holding(unheld.linear[ball], unheld.angular[ball]);
+            (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
+            if sticking.cloth != Cloth::Slides {
+                limit(sliding, cloth.length());
+            }
+            if sticking.cloth == Cloth::Stands {
+                limit(rolling, roll.length());
+            }
+            if sticking.spin {
+                limit(boring, spin.abs());
+            }
+            // A spin that has turned round has ended before.
+            if let Friction::Slips(sign) = set.spin[ball]
+                && sign.x != 0.0
+            {
+                limit(table.radius * balls[ball].spin.z * sign.x, 0.0);
+            }
+            forces.linear[ball] = moved.linear[ball];
+            forces.angular[ball] = moved.angular[ball] / table.radius;
         }
-        if sticking.cloth == Cloth::Stands {
-            limit(rolling, roll.length());
+        for (index, contact) in contacts.iter().enumerate() {
+            let [normal, along, up] = system.force(index);
+            (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
+            limit(normal, 0.0);
+            if system.joints[index].unknowns == 3 && !never_slips(table, contact) {
+                limit(coefficient(table, contact) * normal, libm::hypot(along, up));
+            }
         }
-        if sticking.spin {
-            limit(boring, spin.abs());
-        }
-        forces.linear[ball] = moved.linear[ball];
-        forces.angular[ball] = moved.angular[ball] / table.radius;
+        forces
     }
-    for (index, contact) in contacts.iter().enumerate() {
-        let [normal, along, up] = system.force(index);
-        (forces.normal[index], forces.friction[index]) = (normal, DVec2::new(along, up));
-        limit(normal, 0.0);
-        if system.joints[index].unknowns == 3 && !never_slips(table, contact) {
-            limit(coefficient(table, contact) * normal, libm::hypot(along, up));
-        }
-    }
-    Some(forces)
+}
+
+/// What the cloth's frictions of sliding, rolling and spinning can do to a ball, per mass, m/s².
+fn frictions(table: &Table) -> [f64; 3] {
+    [table.sliding_friction, table.rolling_friction, table.spinning_friction].map(|mu| mu * table.gravity)
 }
 
 /// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
@@ -448,7 +417,7 @@ pub fn stop_by_impulses(
 ) {
     // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
     let has_friction = |contact: &Contact| table.ball_friction.is_some() || contact.second.is_none();
-    let mut system = Held::new(table, balls, contacts, &set.slipping_where(set), has_friction);
+    let mut system = Held::<MAX_CONTACTS>::new(table, balls, contacts, &set.slipping_where(set), has_friction);
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
     let before = system.to_stop(&speeds);

@@ -19,7 +19,7 @@ use super::BallState;
 use crate::table::BALLS;
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use forces::{Forces, Resolved, resolve, yielding};
-pub use held::{forces, stop_by_impulses};
+pub use held::{accelerations, forces, stop_by_impulses};
 pub use linear::{factorize, substitute};
 
 /// Speed at which balls that never slip begin to bounce where no forces hold them together (Painlevé's paradox), in units of

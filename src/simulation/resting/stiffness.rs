@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::{Phase, Place, Resting, STIFF, Trial};
 use crate::{
-    physics::{BallState, Friction},
+    physics::{BallState, Forces, Friction},
     simulation::extrapolation::{Mode, Stiff},
     table::{BALLS, Table},
 };
@@ -82,7 +82,7 @@ impl Resting {
                 }
             }
         }
-        let slope = |forces| self.slope(table.radius, balls, forces);
+        let slope = |forces: &Forces| self.slope(table.radius, balls, (&forces.linear, &forces.angular));
         let (before, after) = (slope(&from.forces), slope(&self.forces_in(table, &set, balls, &from.forces)));
         let mut column = still;
         for ((column, before), after) in column.balls.iter_mut().zip(before.balls).zip(after.balls) {

@@ -6,7 +6,7 @@ use crate::{
     physics::{Impulse, Motion, strike},
     simulation::{Constants, End, Event, Observer, Segment, simulate},
     study::clock::timed,
-    table::{BALLS, Table},
+    table::{BALLS, Layout, Table},
 };
 
 use super::Shot;
@@ -34,6 +34,8 @@ pub struct Piece {
 pub struct Trace {
     /// The table's numbers.
     pub constants: Constants,
+    /// Where the balls stood.
+    pub layout: Layout,
     /// What the stroke gave the cue ball.
     pub impulse: Impulse,
     /// Events in order, until [`Trace::kept_until`].
@@ -63,6 +65,7 @@ impl Trace {
         let still = crate::physics::BallState::at_rest(glam::DVec2::ZERO);
         Self {
             constants: Constants::of(table),
+            layout: Layout::opening(table),
             impulse: Impulse::on_cloth(glam::DVec2::ZERO, glam::DVec3::ZERO),
             events: Vec::new(),
             pieces: [const { Vec::new() }; BALLS],
@@ -80,16 +83,16 @@ impl Trace {
     /// Plays `shot`, which is taken as it is, and keeps its course.
     pub fn play(&mut self, table: &Table, shot: &Shot) {
         let impulse = strike(table, &shot.cue.inputs());
-        self.record(&impulse, |trace| simulate(table, &shot.layout, &impulse, trace));
+        self.record(&shot.layout, &impulse, |trace| simulate(table, &shot.layout, &impulse, trace));
     }
 
-    /// Keeps the course of a shot that begins with `impulse` and that `play` plays.
-    pub fn record(&mut self, impulse: &Impulse, play: impl FnOnce(&mut Self) -> End) {
+    /// Keeps the course of a shot from `layout` that begins with `impulse` and that `play` plays.
+    pub fn record(&mut self, layout: &Layout, impulse: &Impulse, play: impl FnOnce(&mut Self) -> End) {
         self.events.clear();
         self.pieces.iter_mut().for_each(Vec::clear);
         self.contact_steps = 0;
         (self.event_count, self.steps, self.finished, self.kept_until) = (0, 0, true, f64::INFINITY);
-        self.impulse = *impulse;
+        (self.layout, self.impulse) = (*layout, *impulse);
         self.started = Instant::now();
         (self.end, self.seconds) = timed(|| play(self));
     }

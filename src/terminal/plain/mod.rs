@@ -298,7 +298,7 @@ mod tests {
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let mut output = Vec::new();
         let settings = Settings { think_ms: 1_000, ..Settings::default() };
-        converse(Coach::new(table).unwrap(), layout, &settings, 1, lines.as_bytes(), &mut output, "").unwrap();
+        converse(Coach::new(table), layout, &settings, 1, lines.as_bytes(), &mut output, "").unwrap();
         String::from_utf8(output).unwrap()
     }
 
@@ -337,7 +337,7 @@ mod tests {
     fn the_reasons_take_no_longer_than_a_short_search() {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let coach = Coach::new(table.clone()).unwrap();
+        let coach = Coach::new(table.clone());
         let request = Request { simulations: 4000, budget: Duration::from_secs(60), ..Request::default() };
         let advice = coach.recommend(&layout, &request).unwrap();
         let timed = |work: &dyn Fn()| {

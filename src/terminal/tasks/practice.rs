@@ -132,7 +132,7 @@ impl PracticeWorker {
                 cancel,
                 ..Request::default()
             };
-            let coach = self.coach(table)?;
+            let coach = self.coach(table);
             advise(coach, layout, &request).map_err(|error| error.to_string())?
         };
         self.taught = advice.map(|advice| (position.id, advice));
@@ -145,13 +145,9 @@ impl PracticeWorker {
     }
 
     /// The coach for this table, made when it is first needed.
-    fn coach(&mut self, table: &Table) -> Result<&Coach, String> {
+    fn coach(&mut self, table: &Table) -> &Coach {
         let known = self.coach.take().filter(|coach| coach.table() == table);
-        let coach = match known {
-            Some(known) => known,
-            None => Coach::new(table.clone()).map_err(|error| error.to_string())?,
-        };
-        Ok(self.coach.insert(coach))
+        self.coach.insert(known.unwrap_or_else(|| Coach::new(table.clone())))
     }
 
     /// Plays a stroke. The attempt is on the disk before its result is reported; how good the stroke was comes after that.

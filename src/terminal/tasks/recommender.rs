@@ -168,7 +168,7 @@ impl CoachWorker {
                 is_early: true,
             });
         };
-        let found = self.coach(job)?.recommend_and_tell(layout, &request, tell).map_err(|error| error.to_string())?;
+        let found = self.coach(job).recommend_and_tell(layout, &request, tell).map_err(|error| error.to_string())?;
         proposals(job, layout, found)
     }
 
@@ -194,14 +194,14 @@ impl CoachWorker {
     }
 
     /// The coach for the question's table, with its policy.
-    fn coach(&mut self, job: &Job) -> Result<&Coach, String> {
+    fn coach(&mut self, job: &Job) -> &Coach {
         let fits =
             |(query, coach): &(CoachQuery, Coach)| *coach.table() == job.table && query.has_policy_of(&job.query);
         let known = self.coach.take().filter(fits);
         let known = match (known, &job.query.policy) {
             (Some(known), _) => known,
             (None, policy) => {
-                let bundled = Coach::new(job.table.clone()).map_err(|error| error.to_string())?;
+                let bundled = Coach::new(job.table.clone());
                 let coach = match policy {
                     Some((_, policy)) => bundled.with_policy(Policy::clone(policy)),
                     None => bundled,
@@ -209,7 +209,7 @@ impl CoachWorker {
                 (job.query.clone(), coach)
             }
         };
-        Ok(&self.coach.insert(known).1)
+        &self.coach.insert(known).1
     }
 }
 

@@ -13,14 +13,8 @@ use portable_pty::CommandBuilder;
 
 use crate::{
     program::Kept,
-    terminal::{OPENING, PATIENCE, REST, Session, carom},
+    terminal::{OPENING, PATIENCE, REST, Session, guest},
 };
-
-fn guest(name: &str) -> CommandBuilder {
-    let mut command = carom();
-    command.args(["--guest", "--player", name]);
-    command
-}
 
 /// A guest who asks for this behind `ssh`.
 fn over_ssh(name: &str, words: &str) -> CommandBuilder {
@@ -174,7 +168,8 @@ fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
     anna.wait_until("the end", |screen| {
         screen.contents().contains("shown to others: ") && screen.contents().contains("oint")
     });
-    thread::sleep(Duration::from_secs(10));
+    // However hard the shot is, it is over by then.
+    thread::sleep(Duration::from_secs(20));
     anna.send("q");
     let [plain, json] = [plain, json].map(|child| child.wait_with_output().unwrap());
     let text = String::from_utf8(plain.stdout).unwrap();

@@ -9,14 +9,8 @@ use portable_pty::CommandBuilder;
 
 use crate::{
     program::{asked, carom as program, command, fed},
-    terminal::{OPENING, PATIENCE, REST, Session, carom},
+    terminal::{OPENING, PATIENCE, REST, Session, guest},
 };
-
-fn guest(name: &str) -> CommandBuilder {
-    let mut command = carom();
-    command.args(["--guest", "--player", name]);
-    command
-}
 
 /// The player's folder in a session's home.
 fn folder(home: &Path, name: &str) -> PathBuf {

@@ -100,7 +100,7 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
     fs::write(here.join("broken.safetensors"), b"not weights").unwrap();
     fs::write(here.join("wrong.toml"), "heads = 0").unwrap();
     fs::write(here.join("nan.toml"), "target_rate = nan").unwrap();
-    let table = include_str!("../../../src/table/match.toml").replace("name = \"match\"", "name = \"cellar\"");
+    let table = include_str!("../../../src/table/thesis.toml").replace("name = \"thesis\"", "name = \"cellar\"");
     fs::write(here.join("cellar.toml"), table).unwrap();
     for (line, code, named) in [
         ("evaluate --policy none.safetensors", 1, "none.safetensors"),

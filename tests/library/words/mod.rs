@@ -29,7 +29,7 @@ struct Tried {
 /// Recommends shots for so many layouts under every rule, and reads their words back.
 fn tried(layouts: usize, simulations: u64) -> Tried {
     let table = Table::default();
-    let coach = Coach::new(table.clone()).unwrap();
+    let coach = Coach::new(table.clone());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(20);
     let mut tried = Tried::default();
     for number in 0..layouts {

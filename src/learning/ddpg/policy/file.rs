@@ -8,7 +8,7 @@ use super::Policy;
 use crate::{
     game::{Reward, Rule},
     learning::{
-        ddpg::{hyperparameters::Hyperparameters, networks::Networks},
+        ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage::{self, write_atomic},
@@ -23,6 +23,13 @@ const BUNDLED: [(&str, Reward, &[u8]); 6] = [
     ("thesis", Reward::R3, include_bytes!("../../../../models/thesis-r3.safetensors")),
     ("thesis", Reward::OneCushion, include_bytes!("../../../../models/thesis-one-cushion.safetensors")),
     ("thesis", Reward::ThreeCushion, include_bytes!("../../../../models/thesis-three-cushion.safetensors")),
+];
+
+/// The bundled policies that are told table and player, for all tables like `match`: what was rewarded, and the file.
+const WITH_CONTEXT: [(Reward, &[u8]); 3] = [
+    (Reward::R3, include_bytes!("../../../../models/context-r3.safetensors")),
+    (Reward::OneCushion, include_bytes!("../../../../models/context-one-cushion.safetensors")),
+    (Reward::ThreeCushion, include_bytes!("../../../../models/context-three-cushion.safetensors")),
 ];
 
 /// Where a policy comes from.
@@ -95,6 +102,27 @@ impl Policy {
         let (.., bytes) =
             BUNDLED.into_iter().find(|(name, what, _)| (*name, *what) == (table.name.as_str(), reward))?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
+    }
+
+    /// The policy that comes with the program for `rule` on this table: for a player who `errs` rather one that is told who plays, and
+    /// for one who does not, rather one that was trained on this table alone.
+    ///
+    /// # Errors
+    /// As [`Policy::bundled`].
+    pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
+        let (own, told) = (|| Self::bundled(table, rule), || Self::bundled_with_context(table, rule));
+        if errs { told().or_else(own) } else { own().or_else(told) }
+    }
+
+    /// The policy that comes with the program for `rule` on tables like this one, if this is like `match`: it is told what the table is
+    /// like and who plays.
+    ///
+    /// # Errors
+    /// As [`Policy::bundled`].
+    pub fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
+        let reward = Reward::for_rule(rule);
+        let (_, bytes) = WITH_CONTEXT.into_iter().find(|(what, _)| *what == reward && knows(table))?;
+        Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
     }
 
     /// Reads a policy from a file.
@@ -182,10 +210,26 @@ mod tests {
             }
         }
         assert!(Policy::bundled(&Table::preset("textbook").unwrap(), Rule::StraightRail).is_none());
-        let own = Table { sliding_friction: 0.3, ..Table::default() };
-        assert!(Policy::bundled(&own, Rule::StraightRail).is_none());
-        let size: usize = BUNDLED.iter().map(|(.., bytes)| bytes.len()).sum();
-        assert!(size <= 7_000_000, "{size} bytes of weights");
+        let own = Table { name: "mine".into(), sliding_friction: 0.21, ..Table::default() };
+        assert!(Policy::bundled(&own, Rule::ThreeCushion).is_none());
+        for (table, errs, has_context) in [
+            (&own, true, true),
+            (&own, false, true),
+            (&Table::default(), true, true),
+            (&Table::default(), false, false),
+        ] {
+            for rule in Rule::ALL {
+                let policy = Policy::bundled_for(table, rule, errs).unwrap().unwrap();
+                assert!(policy.has_context() == has_context && policy.knows(table));
+                assert_eq!(policy.origin().reward, Reward::for_rule(rule));
+            }
+        }
+        let thesis = Table::preset("thesis").unwrap();
+        assert!(!Policy::bundled_for(&thesis, Rule::ThreeCushion, true).unwrap().unwrap().has_context());
+        let sizes =
+            BUNDLED.iter().map(|(.., bytes)| bytes.len()).chain(WITH_CONTEXT.iter().map(|(_, bytes)| bytes.len()));
+        let size: usize = sizes.sum();
+        assert!(size <= 7_200_000, "{size} bytes of weights");
     }
 
     #[test]

@@ -29,8 +29,7 @@ impl<'a> Course<'a> {
     /// A course that the stroke begins.
     pub fn new(table: &Table, trace: &'a Trace, ball: usize) -> Self {
         let pieces = &trace.pieces[ball];
-        let place = pieces.first().map_or(trace.end.balls[ball].position, |piece| piece.segment.position);
-        let mut before = SpatialState::from(BallState::at_rest(place));
+        let mut before = SpatialState::from(BallState::at_rest(trace.layout.balls[ball]));
         if ball == 0 {
             let Impulse { velocity, spin, lift } = trace.impulse;
             // A stroke that lifts a ball no faster than this leaves it on the cloth.

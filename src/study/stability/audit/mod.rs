@@ -21,7 +21,7 @@ use crate::{
 };
 
 use super::{
-    figures::Figures,
+    figures::{Figures, Limits},
     trace::{Piece, Trace},
 };
 use course::Course;
@@ -52,6 +52,8 @@ struct Audit<'a> {
     account: Account,
     /// Gap below which a contact is closed, m.
     gap: f64,
+    /// How far a ball may be moved on to what it hits, m.
+    farthest: f64,
 }
 
 /// The account of a shot that has been recorded on `table`.
@@ -64,7 +66,8 @@ pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Acco
     let courses = std::array::from_fn(|ball| Course::new(table, trace, ball));
     let start = courses.iter().map(|course: &Course| course.energy).sum();
     let account = Account { start, ..Account::default() };
-    let mut audit = Audit { table, trace, courses, account, gap: CLOSED * table.length };
+    let farthest = Limits::STRICT.on(table).distance;
+    let mut audit = Audit { table, trace, courses, account, gap: CLOSED * table.length, farthest };
     let mut events = trace.events.as_slice();
     loop {
         let now = audit.next_change();
@@ -131,7 +134,7 @@ impl Audit<'_> {
                 time: now,
                 rests: members().any(|member| rested[member] || rests[member]) || moment.ends_a_chatter(group),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
-                moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.gap) },
+                moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
             };
             let energy = |balls: &[SpatialState; BALLS]| -> f64 {
                 members().map(|member| aloft::energy(self.table, &balls[member])).sum()
@@ -144,7 +147,7 @@ impl Audit<'_> {
                     ..in_space[ball]
                 });
                 let [taken, moved] = aloft::impacts_loss(self.table, &at_impact, flew, group, told);
-                doubt.moved = doubt.moved.max(moved.min(self.gap));
+                doubt.moved = doubt.moved.max(moved.min(self.farthest));
                 Taken { unexplained: lost - taken, bounces: None }
             } else {
                 moment.taken(group)

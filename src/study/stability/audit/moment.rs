@@ -92,7 +92,9 @@ impl Moment<'_> {
         let was_free = (0..BALLS).all(|ball| !(group[ball] && self.rested[ball]));
         match impacts[..] {
             [] if !self.begins_to_grip(group) => Taken { unexplained: lost, bounces: None },
-            [contact] if was_free && !self.grips(contact) => self.one_impact(contact, &before, lost),
+            [contact] if was_free && !self.grips(contact) && !self.joins_others(contact, group) => {
+                self.one_impact(contact, &before, lost)
+            }
             _ => Taken { unexplained: self.several(group, &impacts, &before, &after), bounces: None },
         }
     }
@@ -113,6 +115,19 @@ impl Moment<'_> {
     fn grips(&self, contact: &Contact) -> bool {
         let rests = |second: usize| self.rests[contact.first] && self.rests[second];
         contact.second.is_some_and(rests) && friction(self.table, contact).is_none()
+    }
+
+    /// Whether other contacts take part in an impact: those of a third ball that changes with it, and those in which balls begin to
+    /// rest.
+    fn joins_others(&self, impact: &Contact, group: [bool; BALLS]) -> bool {
+        let takes_part = |ball: usize| ball == impact.first || impact.second == Some(ball);
+        let rests = |ball: usize| group[ball] && self.rests[ball];
+        (0..BALLS).any(|ball| group[ball] && !takes_part(ball))
+            || self.closed.iter().any(|contact| {
+                (contact.first, contact.second) != (impact.first, impact.second)
+                    && rests(contact.first)
+                    && contact.second.is_none_or(rests)
+            })
     }
 
     /// One impact of free balls takes what the formulas say: with the contact's restitution or, where the balls stay in
