@@ -92,8 +92,6 @@ pub struct Recommendation {
     /// Other strokes that make the point, the best of each kind, the best first; none that is made less than half as often
     /// as the recommended one.
     pub alternatives: Vec<Alternative>,
-    /// The critic's probability that the policy's favourite makes a point, where there is a policy.
-    pub policy_success: Option<f64>,
     /// Shots simulated.
     pub simulations: u64,
     /// Time taken.

@@ -157,12 +157,7 @@ impl Coach {
             let until = task.until.max(Instant::now() + GRACE);
             robust(&found, pool, &Task { worlds: &worlds, patience: ENDLESS, until, ..task }, request)
         };
-        Ok(Recommendation {
-            policy_success: proposals.first().map(|proposal| proposal.success),
-            simulations: clock.simulations(),
-            elapsed: clock.elapsed(),
-            ..answer
-        })
+        Ok(Recommendation { simulations: clock.simulations(), elapsed: clock.elapsed(), ..answer })
     }
 }
 
@@ -275,7 +270,6 @@ fn first_point(found: &Found) -> Recommendation {
                 next_probability: None,
             })
             .collect(),
-        policy_success: None,
         simulations: 0,
         elapsed: Duration::ZERO,
     }

@@ -18,9 +18,9 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting contact takes as
-/// long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from then on. The
-/// stability table counts the shots that come to it.
+/// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting
+/// contact takes as long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from
+/// then on. The stability table counts the shots that come to it.
 const MOST_WORK: u32 = 12_000;
 
 /// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
@@ -114,8 +114,8 @@ pub(super) struct Engine<'a, S, O> {
     pub(super) law: ImpactLaw,
     /// Whether nothing bounces on this table.
     pub(super) dead: bool,
-    /// Work that a bounce of a chatter on the cloth counts as. Where bounces lose nothing, a ball that is pressed bounces until its spin
-    /// has died down, and hardly ever next to others.
+    /// Work that a bounce of a chatter on the cloth counts as. Where bounces lose nothing, a ball that is pressed bounces until
+    /// its spin has died down: there are more of them, and they are the simplest.
     bounce_work: u32,
     /// The cloth, where balls can leave it.
     pub(super) cloth: Option<Cloth>,
@@ -143,16 +143,13 @@ pub(super) struct Engine<'a, S, O> {
 
 impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     pub(super) fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
+        let restitution = table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
         Self {
             table,
             constants: Constants::of(table),
             law: ImpactLaw::of(table),
-            bounce_work: if table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution)) < 1.0 {
-                2
-            } else {
-                1
-            },
-            dead: table.ball_restitution == 0.0 && table.rail.largest_restitution(table.rail_restitution) == 0.0,
+            bounce_work: if restitution < 1.0 { 2 } else { 1 },
+            dead: restitution == 0.0,
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),

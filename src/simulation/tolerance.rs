@@ -53,8 +53,9 @@ pub struct Tolerance {
     /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
     /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
-    /// The same of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are 1e-16 m high. Larger: a ball that
-    /// is pressed no more has lost the speed with which it would leave.
+    /// The same of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are less than 1e-16 m high, and
+    /// there are tens of millions of them a second. Larger: a ball that is pressed no more has lost the speed with which it would
+    /// leave.
     pub slowest_lossless_bounce: f64,
     /// No bounce in the air, on a nose or on another ball, is slower than this, m/s: it is a quarter of a micrometre high.
     pub slowest_in_air: f64,

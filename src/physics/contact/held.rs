@@ -93,8 +93,8 @@ impl Sticking {
     }
 }
 
-/// The linear system of one active set in one state, with room for some contacts. It is solved at every step of an integration,
-/// mostly for a single contact: moving room for all of them takes several times as long as solving it.
+/// The linear system of one active set in one state, with room for so many contacts: it is solved some thirty times in a step of an
+/// integration, mostly for one contact or two, and room for all of them would be filled and moved each time.
 struct Held<const ROOM: usize> {
     joints: [Joint; ROOM],
     contacts: usize,

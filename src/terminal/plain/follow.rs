@@ -16,6 +16,7 @@ use crate::{
     table::Layout,
     terminal::{
         plain::speech,
+        shot::playback::has_ended,
         shown::{Author, Doing},
         tasks::onlooker::{Onlooker, Seen, SeenTable, damage_words},
         words::percent,
@@ -118,11 +119,51 @@ impl Teller<'_> {
         if plays && !told.plays {
             lines.push(format!("{name} plays the shot."));
         }
-        if told.plays && !plays && stroke.time >= shot.recording.duration() {
+        if told.plays && !plays && has_ended(stroke.time, shot.recording.duration()) {
             let verdict = shot.verdict(shown.rule, &shown.table);
             lines.push(verdict.words(shown.cue_ball, self.units.length));
         }
         told.plays = plays;
         lines
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        coach::Skill,
+        game::Rule,
+        simulation::Recording,
+        table::Table,
+        terminal::{
+            Shot,
+            shown::{ShownShot, ShownTable},
+        },
+    };
+
+    #[test]
+    fn a_shot_that_ends_a_last_digit_earlier_there_is_told_to_its_end() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
+        let recording = Recording::new(&table, &layout, &cue).unwrap();
+        let end = recording.duration().next_down();
+        let shot = Arc::new(Shot::of(&table, recording, cue, true, "the coach"));
+        let at = |time, playing| {
+            let (author, solved, made, speed) = (Author::Coach, true, None, 1.0);
+            let stroke = ShownShot { cue, author, solved, made, time, speed, playing };
+            let shown = ShownTable::new(Doing::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
+            let shown = ShownTable { shot: Some(stroke), ..shown };
+            SeenTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }
+        };
+        let mut teller = Teller { name: "anna", units: Units::default(), told: Told::default() };
+        assert_eq!(teller.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
+        assert!(teller.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
+        teller.news(&at(0.5 * end, true));
+        let said = teller.news(&at(end, false));
+        assert!(said.len() == 1 && said[0].contains("oint"), "{said:?}");
     }
 }

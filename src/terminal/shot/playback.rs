@@ -87,10 +87,11 @@ impl Playback {
         self.playing = false;
     }
 
-    /// Goes on as another clock does that stands at `time` in a shot of this `duration`.
+    /// Goes on as somebody else's clock does that stands at `time` in a shot of this `duration`.
     pub fn follow(&mut self, time: f64, duration: f64, playing: bool) {
-        self.jump(time.min(duration));
-        self.playing = playing && time < duration;
+        let is_over = has_ended(time, duration);
+        self.jump(if is_over { duration } else { time });
+        self.playing = playing && !is_over;
     }
 
     /// Pauses at the first event after now, or at the end.
@@ -104,6 +105,12 @@ impl Playback {
         let before = events.iter().rfind(|event| event.time < self.time);
         self.jump(before.map_or(0.0, |event| event.time));
     }
+}
+
+/// Whether a shot of this `duration` is over when somebody else's clock stands at `time`. Strokes are told in degrees, which changes
+/// the last digit of their direction: the same shot ends there and here at moments that differ by far less than a millisecond.
+pub fn has_ended(time: f64, duration: f64) -> bool {
+    time > duration - 1e-3
 }
 
 /// How many of the events have happened at `time`.
@@ -155,8 +162,11 @@ mod tests {
         let mut playback = Playback::default();
         playback.follow(1.5, 2.0, true);
         assert!(playback.playing && (playback.time, playback.readout) == (1.5, 1.5));
-        playback.follow(7.0, 2.0, true);
-        assert!(!playback.playing && playback.time == 2.0);
+        // The same shot ends a last digit earlier there than here.
+        for time in [7.0, 2.0_f64.next_down()] {
+            playback.follow(time, 2.0, true);
+            assert!(!playback.playing && playback.time == 2.0);
+        }
     }
 
     #[test]

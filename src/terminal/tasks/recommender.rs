@@ -197,18 +197,14 @@ impl CoachWorker {
     fn coach(&mut self, job: &Job) -> &Coach {
         let fits =
             |(query, coach): &(CoachQuery, Coach)| *coach.table() == job.table && query.has_policy_of(&job.query);
-        let known = self.coach.take().filter(fits);
-        let known = match (known, &job.query.policy) {
-            (Some(known), _) => known,
-            (None, policy) => {
-                let bundled = Coach::new(job.table.clone());
-                let coach = match policy {
-                    Some((_, policy)) => bundled.with_policy(Policy::clone(policy)),
-                    None => bundled,
-                };
-                (job.query.clone(), coach)
-            }
-        };
+        let known = self.coach.take().filter(fits).unwrap_or_else(|| {
+            let bundled = Coach::new(job.table.clone());
+            let coach = match &job.query.policy {
+                Some((_, policy)) => bundled.with_policy(Policy::clone(policy)),
+                None => bundled,
+            };
+            (job.query.clone(), coach)
+        });
         &self.coach.insert(known).1
     }
 }

@@ -114,12 +114,8 @@ impl Policy {
         if errs { told().or_else(own) } else { own().or_else(told) }
     }
 
-    /// The policy that comes with the program for `rule` on tables like this one, if this is like `match`: it is told what the table is
-    /// like and who plays.
-    ///
-    /// # Errors
-    /// As [`Policy::bundled`].
-    pub fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
+    /// The policy for `rule` on all tables like `match`, if this is one.
+    fn bundled_with_context(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
         let reward = Reward::for_rule(rule);
         let (_, bytes) = WITH_CONTEXT.into_iter().find(|(what, _)| *what == reward && knows(table))?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\"")))
