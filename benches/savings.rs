@@ -33,7 +33,9 @@ struct Watch {
 }
 
 impl Observer for Watch {
-    const ENDS: bool = false;
+    fn wants_ends(&self) -> bool {
+        false
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if self.tally.met_both() {
@@ -57,8 +59,13 @@ struct Hoarder {
 }
 
 impl Observer for Hoarder {
-    const SEGMENTS: bool = true;
-    const ENDS: bool = false;
+    fn wants_segments(&self) -> bool {
+        true
+    }
+
+    fn wants_ends(&self) -> bool {
+        false
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.events.push(event);

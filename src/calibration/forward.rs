@@ -75,7 +75,9 @@ struct Seen {
 }
 
 impl Observer for Seen {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         match event.kind {

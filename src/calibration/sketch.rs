@@ -59,7 +59,9 @@ struct Seen {
 }
 
 impl Observer for Seen {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if let EventKind::BallRail(ball, _) = event.kind {

@@ -12,7 +12,7 @@ use crate::{
     physics::{CueInputs, has_room, strike},
     platform,
     player::aimed,
-    simulation::{Event, Observer, StepBudget, watch},
+    simulation::{All, watch_with},
     table::{Layout, Table},
 };
 
@@ -217,12 +217,12 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
 
 /// What comes of a stroke that is one. A shot whose resting contacts take more than 200 steps counts as decided by then.
 fn outcome(point: Point, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
-    let mut patient = Patient { referee: Referee::default(), patience: StepBudget(CONTACT_STEPS) };
-    watch(table, layout, &strike(table, cue), &mut patient);
-    let Tally { met: [one, other], .. } = patient.referee.tally;
+    let mut referee = Referee::new(2, CONTACT_STEPS);
+    watch_with::<All, _>(table, layout, &strike(table, cue), &mut referee);
+    let Tally { met: [one, other], .. } = referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,
-        (true, true) if point.is_made(&patient.referee.tally) => Outcome::Point,
+        (true, true) if point.is_made(&referee.tally) => Outcome::Point,
         (true, true) => Outcome::TooFewCushions,
         _ => Outcome::OneBall,
     }
@@ -233,24 +233,6 @@ const CONTACT_STEPS: u32 = 200;
 
 fn is_stroke(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     cue.validate().is_ok() && cue.validate_tip(table.miscue_limit).is_ok() && has_room(table, layout, cue)
-}
-
-/// A referee who gives up in the end.
-struct Patient {
-    referee: Referee,
-    patience: StepBudget,
-}
-
-impl Observer for Patient {
-    const ENDS: bool = Referee::ENDS;
-
-    fn event(&mut self, event: Event) -> std::ops::ControlFlow<()> {
-        self.referee.event(event)
-    }
-
-    fn contact_step(&mut self) -> std::ops::ControlFlow<()> {
-        self.patience.step()
-    }
 }
 
 #[cfg(test)]

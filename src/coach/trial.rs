@@ -13,7 +13,7 @@ use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike, with_room},
     player::{aimed, errors::Errors},
-    simulation::{Event, EventKind, Observer, StepBudget, watch},
+    simulation::{All, Event, EventKind, Observer, StepBudget, watch_with},
     table::{Layout, Table},
 };
 
@@ -102,7 +102,7 @@ impl Task<'_> {
             late: false,
             task: self,
         };
-        watch(table, layout, &strike(table, cue), &mut hurried);
+        watch_with::<All, _>(table, layout, &strike(table, cue), &mut hurried);
         let Hurried { referee, first, late, .. } = hurried;
         (!late).then_some(Course { tally: referee.tally, first })
     }
@@ -179,7 +179,9 @@ struct Hurried<'a> {
 }
 
 impl Observer for Hurried<'_> {
-    const ENDS: bool = Referee::ENDS;
+    fn wants_ends(&self) -> bool {
+        self.referee.wants_ends()
+    }
 
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {

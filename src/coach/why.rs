@@ -201,7 +201,9 @@ impl Contacts {
 }
 
 impl Observer for Contacts {
-    const ENDS: bool = false;
+    fn wants_ends(&self) -> bool {
+        false
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if event.time > self.latest {

@@ -1,13 +1,13 @@
 //! The thesis' rewards r1 to r4 (its 4.1.5), r1 with the difficulty of the shot, and points under the cushion rules.
 
-use std::{fmt, ops::ControlFlow, str::FromStr};
+use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Rule, Tally};
+use super::{Referee, Rule, Tally};
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, StepBudget, simulate, watch},
+    simulation::{All, Observer, simulate_with, watch_with},
     table::{Layout, Table},
 };
 
@@ -99,22 +99,18 @@ impl Reward {
     /// hardly any of those earns anything more, for balls that press each other have lost their speed.
     pub fn within(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         let impulse = strike(table, cue);
-        match self {
-            Self::R1 | Self::R1Difficulty => {
-                let mut meetings = Meetings::<1>::new(steps);
-                watch(table, layout, &impulse, &mut meetings);
-                self.of_meetings(&meetings.tally)
-            }
-            Self::R3 | Self::OneCushion | Self::ThreeCushion => {
-                let mut meetings = Meetings::<2>::new(steps);
-                watch(table, layout, &impulse, &mut meetings);
-                self.of_meetings(&meetings.tally)
-            }
-            Self::R2 | Self::R4 => {
-                let mut all = Meetings::<3>::new(steps);
-                let end = simulate(table, layout, &impulse, &mut all);
-                self.value(table, &all.tally, &end.layout(table))
-            }
+        let enough = match self {
+            Self::R1 | Self::R1Difficulty => 1,
+            Self::R3 | Self::OneCushion | Self::ThreeCushion => 2,
+            Self::R2 | Self::R4 => 3,
+        };
+        let mut referee = Referee::new(enough, steps);
+        if referee.wants_ends() {
+            let end = simulate_with::<All, _>(table, layout, &impulse, &mut referee);
+            self.value(table, &referee.tally, &end.layout(table))
+        } else {
+            watch_with::<All, _>(table, layout, &impulse, &mut referee);
+            self.of_meetings(&referee.tally)
         }
     }
 
@@ -161,33 +157,6 @@ fn distance_reward(table: &Table, layout: &Layout) -> f64 {
     // The perimeter of a triangle in a rectangle is largest with corners for vertices: both sides and the diagonal.
     let reach = 2.0 * table.reach();
     1.0 - total / (reach.x + reach.y + reach.length())
-}
-
-/// Watches a shot until the cue ball has met so many object balls, or to its end where they are more than there are: then
-/// it counts where the balls come to rest.
-struct Meetings<const ENOUGH: u8> {
-    tally: Tally,
-    patience: StepBudget,
-}
-
-impl<const ENOUGH: u8> Meetings<ENOUGH> {
-    fn new(steps: u32) -> Self {
-        Self { tally: Tally::default(), patience: StepBudget(steps) }
-    }
-}
-
-impl<const ENOUGH: u8> Observer for Meetings<ENOUGH> {
-    const ENDS: bool = ENOUGH > 2;
-
-    #[inline]
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.tally.note(&event);
-        if ENOUGH <= 2 && self.tally.is_decided(ENOUGH) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    fn contact_step(&mut self) -> ControlFlow<()> {
-        self.patience.step()
-    }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Point;
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, EventKind, Observer, watch},
+    simulation::{All, Event, EventKind, Observer, StepBudget, watch_with},
     table::{Layout, Table},
 };
 
@@ -137,26 +137,54 @@ impl Tally {
     }
 }
 
-/// Watches a shot just until the point is made or can no longer be made.
-#[derive(Clone, Copy, Debug, Default)]
+/// Watches a shot until what counts is decided.
+#[derive(Clone, Copy, Debug)]
 pub struct Referee {
     /// What the cue ball has done.
     pub tally: Tally,
+    enough: u8,
+    patience: StepBudget,
+}
+
+impl Default for Referee {
+    /// Watches until the point is made or can no longer be made.
+    fn default() -> Self {
+        Self::new(2, u32::MAX)
+    }
+}
+
+impl Referee {
+    /// Watches until the cue ball has met `enough` object balls, or to the end of the shot where they are more than there are. A shot
+    /// whose resting contacts take more than so many `steps` of integration counts as decided by then.
+    pub fn new(enough: u8, steps: u32) -> Self {
+        Self { tally: Tally::default(), enough, patience: StepBudget(steps) }
+    }
 }
 
 impl Observer for Referee {
-    const ENDS: bool = false;
+    fn wants_ends(&self) -> bool {
+        self.enough > 2
+    }
 
+    #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
-        if self.tally.is_decided(2) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if !self.wants_ends() && self.tally.is_decided(self.enough) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    fn contact_step(&mut self) -> ControlFlow<()> {
+        self.patience.step()
     }
 }
 
 /// Whether a shot makes a point. The layout and the stroke are taken as they are.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let mut referee = Referee::default();
-    watch(table, layout, &strike(table, cue), &mut referee);
+    watch_with::<All, _>(table, layout, &strike(table, cue), &mut referee);
     Point::of(rule, table, layout).is_made(&referee.tally)
 }
 

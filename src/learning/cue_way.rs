@@ -38,7 +38,9 @@ impl CueWay {
 }
 
 impl Observer for CueWay {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if let EventKind::BallBall(0, ball) = event.kind

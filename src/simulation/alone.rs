@@ -28,7 +28,7 @@ struct Course {
     rail: Rail,
 }
 
-impl<S: Savings, O: Observer> Engine<'_, S, O> {
+impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Whether `index` is the only ball that moves, freely and with no other ball in its way.
     #[inline(always)]
     pub(super) fn moves_alone(&self, index: usize) -> bool {
@@ -62,7 +62,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             } else {
                 if segment.motion == Motion::Rolling
                     && (segment.rolls_to_rest(constants)
-                        || (S::LAST_ROLLS && !O::ENDS && self.rolls_out(index, segment)))
+                        || (S::LAST_ROLLS && !self.observer.wants_ends() && self.rolls_out(index, segment)))
                 {
                     break;
                 }
@@ -73,7 +73,7 @@ impl<S: Savings, O: Observer> Engine<'_, S, O> {
             if after.motion == Motion::Stationary {
                 break;
             }
-            if O::SEGMENTS {
+            if self.observer.wants_segments() {
                 self.observer.segment(index, segment, next);
             }
             *now = next;

@@ -37,7 +37,9 @@ impl<'a> Bounded<'a> {
 }
 
 impl Observer for Bounded<'_> {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.recorder.event(event)?;

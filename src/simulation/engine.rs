@@ -53,12 +53,13 @@ impl End {
 /// it breaks off. The layout is taken as it is: see [`Layout::validate`].
 ///
 /// Every run of the same shot gives the same bits.
-pub fn simulate<O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) -> End {
-    simulate_with::<All, O>(table, layout, impulse, observer)
+pub fn simulate(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) -> End {
+    simulate_with::<All, _>(table, layout, impulse, observer)
 }
 
-/// The same with some savings switched off, to see what they bring.
-pub fn simulate_with<S: Savings, O: Observer>(
+/// The same made for one observer, whose answers are built into the machine code: faster, for who plays millions
+/// of shots. With some savings switched off it shows what they bring.
+pub fn simulate_with<S: Savings, O: Observer + ?Sized>(
     table: &Table,
     layout: &Layout,
     impulse: &Impulse,
@@ -71,12 +72,17 @@ pub fn simulate_with<S: Savings, O: Observer>(
 
 /// Plays a shot like [`simulate`] just for what the observer is told, and does not work out where the balls are at the
 /// end.
-pub fn watch<O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) {
-    watch_with::<All, O>(table, layout, impulse, observer);
+pub fn watch(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) {
+    watch_with::<All, _>(table, layout, impulse, observer);
 }
 
-/// The same with some savings switched off.
-pub fn watch_with<S: Savings, O: Observer>(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) {
+/// The same made for one observer, as [`simulate_with`].
+pub fn watch_with<S: Savings, O: Observer + ?Sized>(
+    table: &Table,
+    layout: &Layout,
+    impulse: &Impulse,
+    observer: &mut O,
+) {
     Engine::<S, O>::new(table, layout, observer).run(impulse);
 }
 
@@ -108,7 +114,7 @@ impl Meeting {
     }
 }
 
-pub(super) struct Engine<'a, S, O> {
+pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) table: &'a Table,
     pub(super) constants: Constants,
     pub(super) law: ImpactLaw,
@@ -141,7 +147,7 @@ pub(super) struct Engine<'a, S, O> {
     savings: PhantomData<S>,
 }
 
-impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
+impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     pub(super) fn new(table: &'a Table, layout: &Layout, observer: &'a mut O) -> Self {
         let restitution = table.ball_restitution.max(table.rail.largest_restitution(table.rail_restitution));
         Self {
@@ -201,7 +207,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
                     (next, source) = (time, index);
                 }
             }
-            if source == usize::MAX || (S::LAST_ROLLS && !O::ENDS && self.only_rolls_out(source)) {
+            if source == usize::MAX || (S::LAST_ROLLS && !self.observer.wants_ends() && self.only_rolls_out(source)) {
                 break;
             }
             flow = match source.checked_sub(BALLS) {
@@ -316,7 +322,7 @@ impl<'a, S: Savings, O: Observer> Engine<'a, S, O> {
     /// Hands a finished segment to an observer that records.
     #[inline]
     pub(super) fn close(&mut self, index: usize, end: f64) {
-        if O::SEGMENTS {
+        if self.observer.wants_segments() {
             self.observer.segment(index, &self.balls[index].segment, end);
         }
     }

@@ -120,10 +120,14 @@ impl StepBudget {
 /// What a scene wants to know of a shot; the engine computes nothing else.
 pub trait Observer {
     /// Whether [`Observer::segment`] wants to be called.
-    const SEGMENTS: bool = false;
+    fn wants_segments(&self) -> bool {
+        false
+    }
 
     /// Whether it matters that and where balls come to rest. If not, the simulation may end when nothing else is left.
-    const ENDS: bool = true;
+    fn wants_ends(&self) -> bool {
+        true
+    }
 
     /// An event has happened. `Break` ends the simulation: the outcome is decided.
     fn event(&mut self, event: Event) -> ControlFlow<()>;
@@ -136,6 +140,6 @@ pub trait Observer {
         ControlFlow::Continue(())
     }
 
-    /// A ball has moved along `segment` until time `end`, s. Called only where [`Observer::SEGMENTS`] is set.
+    /// A ball has moved along `segment` until time `end`, s. Called only where [`Observer::wants_segments`] says so.
     fn segment(&mut self, _ball: usize, _segment: &super::Segment, _end: f64) {}
 }

@@ -18,7 +18,7 @@ use crate::{
     table::BALLS,
 };
 
-impl<S: Savings, O: Observer> Engine<'_, S, O> {
+impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Whether a ball can touch what lies on the cloth or stands at its edge.
     #[inline(always)]
     pub(super) fn is_on_cloth(&self, index: usize) -> bool {

@@ -25,7 +25,7 @@ const MOMENT: f64 = 1e-15;
 /// cushion exchange some dozens, an inelastic collapse infinitely many.
 const MOST_ROUNDS: u32 = 64;
 
-impl<S: Savings, O: Observer> Engine<'_, S, O> {
+impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn rebound(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         if self.balls[index].segment.motion == Motion::Flying {

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 
-use super::{Constants, End, Event, Observer, Segment, simulate};
+use super::{All, Constants, End, Event, Observer, Segment, simulate_with};
 use crate::{
     physics::{BallState, CueError, CueInputs, Impulse, ImpulseError, Motion, SpatialState, strike},
     table::{BALLS, Layout, LayoutError, Table},
@@ -82,7 +82,7 @@ impl Recording {
         self.kept.clear();
         self.constants = Constants::of(table);
         self.impulse = impulse;
-        let end = simulate(table, layout, &impulse, &mut self.kept);
+        let end = simulate_with::<All, _>(table, layout, &impulse, &mut self.kept);
         self.end_with(&end);
     }
 
@@ -208,7 +208,9 @@ impl Recorder {
 }
 
 impl Observer for Recorder {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {

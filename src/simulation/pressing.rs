@@ -16,7 +16,7 @@ use crate::{
     table::BALLS,
 };
 
-impl<S: Savings, O: Observer> Engine<'_, S, O> {
+impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// The next step of the balls in resting contact.
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {

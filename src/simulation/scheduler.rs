@@ -18,7 +18,7 @@ use crate::{physics::Motion, table::BALLS};
 /// A horizon beyond which nobody looks, s: no ball moves for so long.
 const LONGEST: f64 = 1e9;
 
-impl<S: Savings, O: Observer> Engine<'_, S, O> {
+impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Puts a ball on a course that can last for `lasts` seconds, and predicts which cushion it will meet.
     #[inline(always)]
     pub(super) fn set(&mut self, index: usize, segment: Segment, lasts: f64) {

@@ -22,7 +22,9 @@ struct Course {
 }
 
 impl Observer for Course {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.events.push(event);

@@ -64,7 +64,9 @@ fn no_saving_at_all_changes_no_bit() {
 struct Courses(Trace);
 
 impl Observer for Courses {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.0.event(event)
@@ -101,7 +103,9 @@ fn following_a_lone_ball_like_any_other_changes_no_course() {
 struct OnTheMove(Trace);
 
 impl Observer for OnTheMove {
-    const ENDS: bool = false;
+    fn wants_ends(&self) -> bool {
+        false
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if matches!(event.kind, EventKind::RollingStationary(_)) {

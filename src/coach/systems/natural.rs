@@ -60,8 +60,13 @@ struct Follower {
 }
 
 impl Observer for Follower {
-    const SEGMENTS: bool = true;
-    const ENDS: bool = false;
+    fn wants_segments(&self) -> bool {
+        true
+    }
+
+    fn wants_ends(&self) -> bool {
+        false
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if let EventKind::BallRail(0, rail) = event.kind {

@@ -80,7 +80,9 @@ impl<'a> Follower<'a> {
 }
 
 impl Observer for Follower<'_> {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if let EventKind::BallRail(0, rail) = event.kind {

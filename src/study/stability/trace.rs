@@ -112,7 +112,9 @@ impl Trace {
 }
 
 impl Observer for Trace {
-    const SEGMENTS: bool = true;
+    fn wants_segments(&self) -> bool {
+        true
+    }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.event_count += 1;

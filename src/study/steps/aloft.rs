@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{Ball, Stepper, Steps};
 use crate::{
     physics::{Cloth, Motion, SpatialState},
-    simulation::{Course, Event, EventKind, Hops, Nose, Observer, Rail, Segment},
+    simulation::{Course, Event, EventKind, Hops, Nose, Rail, Segment},
 };
 
 /// Landings that are located within one step before what is left of the hops is given up.
@@ -30,7 +30,7 @@ pub(super) fn falling(state: &SpatialState, gravity: f64, time: f64) -> SpatialS
     }
 }
 
-impl<O: Observer> Stepper<'_, O> {
+impl Stepper<'_> {
     pub(super) fn is_aloft(&self, index: usize) -> bool {
         self.balls[index].segment.motion == Motion::Flying
     }

@@ -75,7 +75,7 @@ impl Steps {
     }
 
     /// Plays a shot as [`simulate`](crate::simulation::simulate) does, step by step.
-    pub fn simulate<O: Observer>(self, table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut O) -> Stepped {
+    pub fn simulate(self, table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) -> Stepped {
         let mut stepper = Stepper::new(table, layout, self, observer);
         let velocity = impulse.velocity.extend(impulse.lift);
         let state = SpatialState { velocity, spin: impulse.spin, ..stepper.balls[0].state };
@@ -136,22 +136,22 @@ impl Ball {
     }
 }
 
-struct Stepper<'a, O> {
+struct Stepper<'a> {
     constants: Constants,
     law: ImpactLaw,
     /// The cloth, where balls can leave it.
     cloth: Option<Cloth>,
     /// A ball that comes down and is thrown up no faster than this stays on the cloth, m/s.
     last_hop: f64,
-    observer: &'a mut O,
+    observer: &'a mut dyn Observer,
     balls: [Ball; BALLS],
     now: f64,
     last_event: f64,
     deepest_overlap: f64,
 }
 
-impl<'a, O: Observer> Stepper<'a, O> {
-    fn new(table: &Table, layout: &Layout, method: Steps, observer: &'a mut O) -> Self {
+impl<'a> Stepper<'a> {
+    fn new(table: &Table, layout: &Layout, method: Steps, observer: &'a mut dyn Observer) -> Self {
         let balls = layout.balls.map(|position| Ball {
             state: BallState::at_rest(position).into(),
             segment: Segment::at_rest(position),
@@ -377,7 +377,7 @@ impl<'a, O: Observer> Stepper<'a, O> {
     }
 
     fn close(&mut self, index: usize) {
-        if O::SEGMENTS {
+        if self.observer.wants_segments() {
             self.observer.segment(index, &self.balls[index].segment, self.now);
         }
     }
