@@ -16,6 +16,7 @@ use super::{
     active_set::{Ended, lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
+    segment::is_still,
     tolerance::Tolerance,
 };
 use crate::{
@@ -163,7 +164,10 @@ impl Resting {
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
-        if self.goes_on && !stand_on_slope(&self.constants, &self.end, |ball| self.members[ball]) {
+        let limit = self.constants.tolerance.still;
+        let is_still = |ball: usize| !self.members[ball] || is_still(limit, table.radius, &self.end[ball]);
+        let stands = (0..BALLS).all(is_still) || stand_on_slope(&self.constants, &self.end, |ball| self.members[ball]);
+        if self.goes_on && !stands {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.advance(table);
             return true;

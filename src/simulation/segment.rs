@@ -8,13 +8,16 @@ use crate::physics::{BallState, Motion, SpatialState, decayed_spin, roll_on_slop
 /// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Whether a ball neither moves nor rolls as fast as `limit`, m/s.
+#[inline(always)]
+pub fn is_still(limit: f64, radius: f64, ball: &BallState) -> bool {
+    ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
+}
+
 /// Brings balls to rest if all of them are slower than `limit`, m/s.
 #[inline(always)]
 pub fn still(limit: f64, radius: f64, balls: &mut [&mut BallState]) {
-    let is_still = |ball: &&mut BallState| {
-        ball.velocity.length_squared().max(radius * radius * ball.spin.truncate().length_squared()) < limit * limit
-    };
-    if balls.iter().all(is_still) {
+    if balls.iter().all(|ball| is_still(limit, radius, ball)) {
         for ball in balls {
             ball.velocity = DVec2::ZERO;
             ball.spin = DVec3::new(0.0, 0.0, ball.spin.z);

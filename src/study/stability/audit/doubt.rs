@@ -63,7 +63,17 @@ impl Doubt {
     pub fn at_a_change(&self, table: &Table) -> f64 {
         let stopped = if self.stops { STOPPED_SPEED * (2.0 * self.energy).sqrt() } else { 0.0 };
         let turned = self.moved / (2.0 * table.radius) * self.energy;
-        self.of_a_gain(table) + self.of_a_place(table) + BALLS as f64 * STOPPED_ENERGY + stopped + turned
+        self.of_a_gain(table)
+            + self.of_a_place(table)
+            + self.of_an_impulse()
+            + BALLS as f64 * STOPPED_ENERGY
+            + stopped
+            + turned
+    }
+
+    /// What an impulse takes at most that is told from uncertain speeds: it works against a slip of 4 √E at most.
+    fn of_an_impulse(&self) -> f64 {
+        if self.rests { 4.0 * RESTING_SPEED * self.energy.sqrt() } else { 0.0 }
     }
 
     /// What all frictions together take on the way that a place in a resting contact is uncertain by.

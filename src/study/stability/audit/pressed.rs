@@ -6,7 +6,7 @@
 use super::{
     doubt::RESTING_SPEED,
     laws::friction,
-    least_squares::{Column, SIZE, dot, fit},
+    least_squares::{Column, Fit, SIZE, dot, fit},
     motion::{Contact, about_vertical, centre, motion, on_cloth},
     on_cushion::OnCushion,
 };
@@ -23,9 +23,19 @@ const NO_SLIP: f64 = RESTING_SPEED;
 /// ... unless it is faster than this at the end, m/s, where the course's interpolation may be off.
 const DEPARTED: f64 = 1e-5;
 
+/// A rolling ball that slips by less than this share of its speed may be at the edge of both.
+const CREEPING: f64 = 1e-3;
+
+/// Accelerations of which no larger share is unexplained need no other explanation: with one resistance more, it is not unique.
+const EXPLAINED: f64 = 1e-5;
+
+/// Share of the resistance to rolling that is lost where accelerations are read off a course.
+const EDGE: f64 = 0.05;
+
 /// Share to which the work is known where it is taken from the recorded courses: their spins are cubics between the ends
-/// of a piece, in which a slip may fall to a tenth.
-const INTERPOLATED: f64 = 1e-3;
+/// of a piece, in which a slip may fall to a tenth. Where the course obeys the laws less well between its ends than that, what no
+/// forces explain of its accelerations tells the share, up to the second of these.
+const INTERPOLATED: [f64; 2] = [1e-3, 1e-2];
 
 /// Places on `[-1, 1]` and weights of Gauss' and Legendre's rule.
 const POINTS: [(f64, f64); 5] = [
@@ -93,8 +103,9 @@ pub fn work(
             contacts.iter().zip(&rubs).map(|(contact, rubs)| (contact.at(&states), *rubs)).collect();
         let scene = Scene { table, members, speeds: motion(table.radius, &states), ends };
         let power = scene.power(&motion(table.radius, &rates), &contacts);
-        sum.least += half * weight * (1.0 - INTERPOLATED) * power.least;
-        sum.most += half * weight * (1.0 + INTERPOLATED) * power.most;
+        let share = power.defect.clamp(INTERPOLATED[0], INTERPOLATED[1]);
+        sum.least += half * weight * (1.0 - share) * power.least;
+        sum.most += half * weight * (1.0 + share) * power.most;
     }
     sum
 }
@@ -150,6 +161,16 @@ fn rate(course: &Segment, t: f64) -> BallState {
     }
 }
 
+/// Between which bounds the power of the frictions lies at one moment, m²/s³.
+struct Power {
+    least: f64,
+    most: f64,
+    /// The share of the accelerations that no forces explain.
+    defect: f64,
+    /// Whether every resistance to rolling is between none and all.
+    is_possible: bool,
+}
+
 /// The balls at one moment of a stretch.
 struct Scene<'a> {
     table: &'a Table,
@@ -168,7 +189,17 @@ impl Scene<'_> {
     }
 
     /// The power of all frictions. Of each contact it is known whether it slips.
-    fn power(&self, accelerations: &Column, contacts: &[(Contact, bool)]) -> Work {
+    fn power(&self, accelerations: &Column, contacts: &[(Contact, bool)]) -> Power {
+        let plain = self.explained(accelerations, contacts, false);
+        if plain.defect <= EXPLAINED || !(0..BALLS).any(|ball| self.members[ball] && self.creeps(ball)) {
+            return plain;
+        }
+        let at_edge = self.explained(accelerations, contacts, true);
+        if at_edge.is_possible && 2.0 * at_edge.defect < plain.defect { at_edge } else { plain }
+    }
+
+    /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there.
+    fn explained(&self, accelerations: &Column, contacts: &[(Contact, bool)], at_edge: bool) -> Power {
         let g = self.table.gravity;
         let mut taken = 0.0;
         // What the known frictions leave of the accelerations, and what unknown forces there are.
@@ -187,33 +218,34 @@ impl Scene<'_> {
         // Resistances to rolling that are between none and all, and their speeds.
         let mut creeping: Vec<(Column, f64)> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            if !cloth(&on_cloth(ball), self.table.sliding_friction * g) {
+            let slides = cloth(&on_cloth(ball), self.table.sliding_friction * g);
+            if at_edge && self.creeps(ball) {
+                if let Some((velocity, speed)) = self.slip(&centre(ball)) {
+                    let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
+                    creeping.push((sum(&centre(ball), &against), speed));
+                }
+            } else if !slides {
                 cloth(&centre(ball), rolling);
-            } else if self.creeps(ball)
-                && let Some((velocity, speed)) = self.slip(&centre(ball))
-            {
-                let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
-                creeping.push((sum(&centre(ball), &against), speed));
             }
             cloth(&[about_vertical(ball)], self.table.spinning_friction * g);
         }
         let mut pushes: Vec<Push> = contacts.iter().map(|contact| self.push(contact)).collect();
+        let size = |column: &Column| dot(column, column).sqrt();
         loop {
-            let prices: f64 = pushes.iter().map(|push| push.price).sum();
-            if prices == 0.0 && creeping.is_empty() {
-                return Work { least: taken, most: taken };
-            }
             // The normal forces come first, then the resistances to rolling.
             let mut columns: Vec<Column> = pushes.iter().map(|push| push.column).collect();
             columns.extend(creeping.iter().map(|(column, _)| column));
             columns.extend(&unknown);
             columns.extend(pushes.iter().flat_map(|push| &push.sticks));
-            let Some(forces) = fit(&columns, &rest).factors else {
+            let Fit { factors, residual } = fit(&columns, &rest);
+            let defect = size(&residual) / size(accelerations);
+            let Some(forces) = factors else {
                 // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls
                 // ask for.
-                let largest = dot(&rest, &rest).sqrt() + BALLS as f64 * self.table.sliding_friction * g;
+                let largest = size(&rest) + BALLS as f64 * self.table.sliding_friction * g;
+                let prices: f64 = pushes.iter().map(|push| push.price).sum();
                 let rolls: f64 = creeping.iter().map(|(_, speed)| rolling * speed).sum();
-                return Work { least: taken, most: taken + largest * prices + rolls };
+                return Power { least: taken, most: taken + largest * prices + rolls, defect, is_possible: true };
             };
             // What would have to pull does not touch.
             let pulls = (0..pushes.len()).min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
@@ -222,17 +254,23 @@ impl Scene<'_> {
                 continue;
             }
             let rubbed: f64 = pushes.iter().zip(&forces).map(|(push, force)| force * push.price).sum();
-            let resisted = creeping.iter().zip(&forces[pushes.len()..]);
-            let rolls: f64 = resisted.map(|((_, speed), force)| force.clamp(0.0, rolling) * speed).sum();
-            return Work { least: taken + rubbed + rolls, most: taken + rubbed + rolls };
+            let resistances = &forces[pushes.len()..][..creeping.len()];
+            let is_possible = resistances.iter().all(|force| (-EDGE..=1.0 + EDGE).contains(&(force / rolling)));
+            let rolls: f64 =
+                creeping.iter().zip(resistances).map(|((_, speed), force)| force.clamp(0.0, rolling) * speed).sum();
+            let all = taken + rubbed + rolls;
+            return Power { least: all, most: all, defect, is_possible };
         }
     }
 
-    /// Whether a ball's slip on the cloth has begun and does not get on: held by its friction and the resistance to rolling, it
-    /// would slip, and without the resistance, which ends with rolling, it would hold. At such an edge the resistance is as much
+    /// Whether a ball's slip on the cloth has hardly begun and may not get on: held by its friction and the resistance to rolling,
+    /// it would slip, and without the resistance, which ends with rolling, it would hold. At such an edge the resistance is as much
     /// as keeps the ball there (Filippov).
     fn creeps(&self, ball: usize) -> bool {
-        self.ends.iter().all(|end| size(&along(&on_cloth(ball), end)) <= DEPARTED)
+        self.ends.iter().all(|end| {
+            let [slip, speed] = [on_cloth(ball), centre(ball)].map(|directions| size(&along(&directions, end)));
+            slip <= DEPARTED.max(CREEPING * speed)
+        })
     }
 
     /// What a unit of a contact's normal force does and takes.

@@ -7,7 +7,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, Size, variant};
 use crate::{
-    simulation::Rail,
+    simulation::{Event, EventKind, Rail},
     study::stability::{Limits, Shot, Stroke, Trace, draw},
     table::{JUDGED, Layout, Table},
 };
@@ -27,7 +27,8 @@ pub const CASES: &[Case] = &[
     case("a ball spinning against another, e = 0.99", || lively(0.99), at_ball),
 ];
 
-/// Events of a shot in which one chatter is all that happens.
+/// Events of one chatter, from the first meeting to the end of the contact that it becomes. After that the balls may meet again,
+/// and chatter anew.
 const MOST_EVENTS: usize = 60;
 
 const HOLDS: &str = "at most 60 events: a chatter is a few of them, however many its bounces";
@@ -69,9 +70,13 @@ fn at_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 }
 
 fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
-    if trace.event_count <= MOST_EVENTS {
-        Ok(())
-    } else {
-        Err(format!("one chatter takes {} events", trace.event_count))
-    }
+    let one = |chatter: &[Event]| {
+        let begins = |event: &Event| event.kind == EventKind::ContactBegins(0);
+        let (before, after) = chatter.split_at(chatter.iter().position(begins).unwrap_or(chatter.len()));
+        // Impacts in the contact are its bounces, which are no events.
+        before.len() + after.iter().filter(|event| !event.kind.is_contact()).count()
+    };
+    let ends = |event: &Event| event.kind == EventKind::ContactEnds(0);
+    let most = trace.events.split(ends).map(one).max().unwrap_or(0);
+    if most <= MOST_EVENTS { Ok(()) } else { Err(format!("one chatter takes {most} events")) }
 }
