@@ -217,7 +217,7 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
 
 /// What comes of a stroke that is one. A shot whose resting contacts take more than 200 steps counts as decided by then.
 fn outcome(point: Point, table: &Table, layout: &Layout, cue: &CueInputs) -> Outcome {
-    let mut referee = Referee::new(2, CONTACT_STEPS);
+    let mut referee = Referee::new(Some(2), CONTACT_STEPS);
     watch_with::<All, _>(table, layout, &strike(table, cue), &mut referee);
     let Tally { met: [one, other], .. } = referee.tally;
     match (one, other) {

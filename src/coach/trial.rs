@@ -13,7 +13,7 @@ use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike, with_room},
     player::{aimed, errors::Errors},
-    simulation::{All, Event, EventKind, Observer, StepBudget, watch_with},
+    simulation::{All, Event, EventKind, Observer, watch_with},
     table::{Layout, Table},
 };
 
@@ -95,13 +95,8 @@ impl Task<'_> {
     }
 
     fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Course> {
-        let mut hurried = Hurried {
-            referee: Referee::default(),
-            first: None,
-            patience: StepBudget(self.patience),
-            late: false,
-            task: self,
-        };
+        let mut hurried =
+            Hurried { referee: Referee::new(Some(2), self.patience), first: None, late: false, task: self };
         watch_with::<All, _>(table, layout, &strike(table, cue), &mut hurried);
         let Hurried { referee, first, late, .. } = hurried;
         (!late).then_some(Course { tally: referee.tally, first })
@@ -173,7 +168,6 @@ pub struct Attempts {
 struct Hurried<'a> {
     referee: Referee,
     first: Option<usize>,
-    patience: StepBudget,
     late: bool,
     task: &'a Task<'a>,
 }
@@ -198,6 +192,6 @@ impl Observer for Hurried<'_> {
             self.late = true;
             return ControlFlow::Break(());
         }
-        self.patience.step()
+        self.referee.contact_step()
     }
 }

@@ -100,9 +100,9 @@ impl Reward {
     pub fn within(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         let impulse = strike(table, cue);
         let enough = match self {
-            Self::R1 | Self::R1Difficulty => 1,
-            Self::R3 | Self::OneCushion | Self::ThreeCushion => 2,
-            Self::R2 | Self::R4 => 3,
+            Self::R1 | Self::R1Difficulty => Some(1),
+            Self::R3 | Self::OneCushion | Self::ThreeCushion => Some(2),
+            Self::R2 | Self::R4 => None,
         };
         let mut referee = Referee::new(enough, steps);
         if referee.wants_ends() {

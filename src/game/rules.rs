@@ -142,37 +142,36 @@ impl Tally {
 pub struct Referee {
     /// What the cue ball has done.
     pub tally: Tally,
-    enough: u8,
+    enough: Option<u8>,
     patience: StepBudget,
 }
 
 impl Default for Referee {
     /// Watches until the point is made or can no longer be made.
     fn default() -> Self {
-        Self::new(2, u32::MAX)
+        Self::new(Some(2), u32::MAX)
     }
 }
 
 impl Referee {
-    /// Watches until the cue ball has met `enough` object balls, or to the end of the shot where they are more than there are. A shot
-    /// whose resting contacts take more than so many `steps` of integration counts as decided by then.
-    pub fn new(enough: u8, steps: u32) -> Self {
+    /// Watches until the cue ball has met `enough` object balls; `None`: to the end of the shot. A shot whose resting contacts
+    /// take more than so many `steps` of integration counts as decided by then.
+    pub fn new(enough: Option<u8>, steps: u32) -> Self {
         Self { tally: Tally::default(), enough, patience: StepBudget(steps) }
     }
 }
 
 impl Observer for Referee {
     fn wants_ends(&self) -> bool {
-        self.enough > 2
+        self.enough.is_none()
     }
 
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.note(&event);
-        if !self.wants_ends() && self.tally.is_decided(self.enough) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
+        match self.enough {
+            Some(enough) if self.tally.is_decided(enough) => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
         }
     }
 

@@ -57,8 +57,8 @@ pub fn simulate(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mu
     simulate_with::<All, _>(table, layout, impulse, observer)
 }
 
-/// The same made for one observer, whose answers are built into the machine code: faster, for who plays millions
-/// of shots. With some savings switched off it shows what they bring.
+/// The same compiled for one type of observer, which is faster: for callers that play millions of shots. `S` switches savings
+/// off, to measure them.
 pub fn simulate_with<S: Savings, O: Observer + ?Sized>(
     table: &Table,
     layout: &Layout,
@@ -76,7 +76,7 @@ pub fn watch(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut d
     watch_with::<All, _>(table, layout, impulse, observer);
 }
 
-/// The same made for one observer, as [`simulate_with`].
+/// The same compiled for one type of observer, as [`simulate_with`].
 pub fn watch_with<S: Savings, O: Observer + ?Sized>(
     table: &Table,
     layout: &Layout,

@@ -119,12 +119,13 @@ impl StepBudget {
 
 /// What a scene wants to know of a shot; the engine computes nothing else.
 pub trait Observer {
-    /// Whether [`Observer::segment`] wants to be called.
+    /// Whether [`Observer::segment`] wants to be called: the same throughout a shot.
     fn wants_segments(&self) -> bool {
         false
     }
 
-    /// Whether it matters that and where balls come to rest. If not, the simulation may end when nothing else is left.
+    /// Whether it matters that and where balls come to rest. If not, the simulation may end when nothing else is left. It is
+    /// the same throughout a shot.
     fn wants_ends(&self) -> bool {
         true
     }

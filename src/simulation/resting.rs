@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     Constants, Rail,
-    active_set::{Ended, lawful, settle, stand_on_slope, transient_pressing, without_ending_slips},
+    active_set::{Ended, lawful, settle, transient_pressing, without_ending_slips},
     contacts::{close, touching},
     extrapolation::{Phase, State, Step, extrapolate},
     segment::is_still,
@@ -165,9 +165,8 @@ impl Resting {
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
         let limit = self.constants.tolerance.still;
-        let is_still = |ball: usize| !self.members[ball] || is_still(limit, table.radius, &self.end[ball]);
-        let stands = (0..BALLS).all(is_still) || stand_on_slope(&self.constants, &self.end, |ball| self.members[ball]);
-        if self.goes_on && !stands {
+        let moves = |ball: usize| self.members[ball] && !is_still(limit, table.radius, &self.end[ball]);
+        if self.goes_on && (0..BALLS).any(moves) {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.advance(table);
             return true;

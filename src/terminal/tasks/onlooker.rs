@@ -136,8 +136,8 @@ mod tests {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
-        let shot =
-            ShownShot { cue, author: Author::Coach, solved: true, made: None, time: 0.0, speed: 1.0, playing: false };
+        let (author, solved, made, time, speed, playing, over) = (Author::Coach, true, None, 0.0, 1.0, false, false);
+        let shot = ShownShot { cue, author, solved, made, time, speed, playing, over };
         let shown = ShownTable::new(Doing::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
         let shown = ShownTable { shot: Some(shot), ..shown };
         shown.write(folder.path()).unwrap();

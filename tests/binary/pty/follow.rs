@@ -160,14 +160,17 @@ fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
     assert_eq!(out, "{\"player\":\"anna\"}\n");
     let heard = home.join("heard.txt");
     let plain = lines(home, &["follow", "anna"]).stdout(File::create(&heard).unwrap()).spawn().unwrap();
-    let json = lines(home, &["follow", "anna", "--json"]).spawn().unwrap();
+    let seen = home.join("seen.txt");
+    let json = lines(home, &["follow", "anna", "--json"]).stdout(File::create(&seen).unwrap()).spawn().unwrap();
+    let objects = || fs::read_to_string(&seen).unwrap();
     let text = || fs::read_to_string(&heard).unwrap();
     anna.wait_until("the balls", |_| text().contains("White lies at"));
     anna.send("\r");
     anna.wait_until("the advice", |_| text().contains("The coach recommends: "));
-    // A hard shot takes half a minute; she watches it at four times its speed.
-    anna.send("++ ");
-    anna.wait_until("the shot", |_| text().contains("anna plays the shot."));
+    anna.send(" ");
+    anna.wait_until("the shot", |_| text().contains("anna plays the shot.") && objects().contains("\"playing\":true"));
+    // A hard shot takes half a minute; she watches the rest of it at four times its speed.
+    anna.send("++");
     anna.wait_until("the verdict", |_| text().contains("oint"));
     anna.send("q");
     let [plain, json] = [plain, json].map(|child| child.wait_with_output().unwrap());
@@ -175,10 +178,11 @@ fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
     assert!(
         plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna shows the table no more")
     );
-    let text = String::from_utf8(json.stdout).unwrap();
+    assert!(json.status.success());
+    let text = objects();
     let records: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert!(records.len() > 3 && records.iter().all(|record| record["table"]["name"] == "match"), "{text}");
-    assert!(records.iter().any(|record| record["shot"]["playing"] == true), "{text}");
+    assert_eq!(records.last().unwrap()["shot"]["over"], true);
 }
 
 #[test]

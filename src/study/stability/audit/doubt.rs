@@ -33,6 +33,8 @@ pub struct Doubt {
     pub time: f64,
     /// Whether a resting contact takes part.
     pub rests: bool,
+    /// Whether an impact takes part, or a contact that begins.
+    pub is_struck: bool,
     /// Whether several impacts leave a ball still: what stopped it is then told from their impulses only to
     /// [`STOPPED_SPEED`].
     pub stops: bool,
@@ -71,9 +73,9 @@ impl Doubt {
             + turned
     }
 
-    /// What an impulse takes at most that is told from uncertain speeds: it works against a slip of 4 √E at most.
+    /// What an impulse may take wrongly because the speeds are uncertain: it works against a slip of at most 4 √E.
     fn of_an_impulse(&self) -> f64 {
-        if self.rests { 4.0 * RESTING_SPEED * self.energy.sqrt() } else { 0.0 }
+        if self.rests && self.is_struck { 4.0 * RESTING_SPEED * self.energy.sqrt() } else { 0.0 }
     }
 
     /// What all frictions together take on the way that a place in a resting contact is uncertain by.

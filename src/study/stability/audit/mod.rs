@@ -133,6 +133,7 @@ impl Audit<'_> {
                 energy: members().map(|member| self.courses[member].largest).sum(),
                 time: now,
                 rests: members().any(|member| rested[member] || rests[member]) || moment.ends_a_chatter(group),
+                is_struck: !moment.impacts.is_empty() || members().any(|member| rests[member] && !rested[member]),
                 stops: moment.impacts.len() > 1 && members().any(|member| after[member].velocity == glam::DVec2::ZERO),
                 moved: if moment.impacts.is_empty() { 0.0 } else { moved().fold(0.0, f64::max).min(self.farthest) },
             };

@@ -23,18 +23,19 @@ const NO_SLIP: f64 = RESTING_SPEED;
 /// ... unless it is faster than this at the end, m/s, where the course's interpolation may be off.
 const DEPARTED: f64 = 1e-5;
 
-/// A rolling ball that slips by less than this share of its speed may be at the edge of both.
-const CREEPING: f64 = 1e-3;
+/// A rolling ball that slips by less than this, as a share of `√(g R)`, may be at the edge of both: 1e-5 m/s on tables of usual
+/// size.
+const CREEPING: f64 = 2e-5;
 
 /// Accelerations of which no larger share is unexplained need no other explanation: with one resistance more, it is not unique.
-const EXPLAINED: f64 = 1e-5;
+const EXPLAINED: f64 = 1e-4;
 
-/// Share of the resistance to rolling that is lost where accelerations are read off a course.
+/// Share to which a friction that is at its edge is known where accelerations are read off a course.
 const EDGE: f64 = 0.05;
 
 /// Share to which the work is known where it is taken from the recorded courses: their spins are cubics between the ends
-/// of a piece, in which a slip may fall to a tenth. Where the course obeys the laws less well between its ends than that, what no
-/// forces explain of its accelerations tells the share, up to the second of these.
+/// of a piece, in which a slip may fall to a tenth. Where the course obeys the laws at its ends but less well between them, what no
+/// forces explain of its accelerations there tells the share, up to the second of these.
 const INTERPOLATED: [f64; 2] = [1e-3, 1e-2];
 
 /// Places on `[-1, 1]` and weights of Gauss' and Legendre's rule.
@@ -92,18 +93,24 @@ pub fn work(
         size(&along(&[along_t, up], &ends[end]))
     };
     let rubs: Vec<bool> = contacts.iter().map(|contact| is_slip(slip_at(contact, 0), slip_at(contact, 1))).collect();
-    for (place, weight) in POINTS {
+    let power_at = |place: f64| {
         let now = from + half * (1.0 + place);
         let states = states(now);
-        let rates = std::array::from_fn(|ball| match courses[ball] {
+        let rates = std::array::from_fn(|ball| match courses[ball].filter(|_| members[ball]) {
             Some(course) => rate(course, now - course.start),
-            None => states[ball],
+            None => BallState::at_rest(glam::DVec2::ZERO),
         });
         let contacts: Vec<(Contact, bool)> =
             contacts.iter().zip(&rubs).map(|(contact, rubs)| (contact.at(&states), *rubs)).collect();
         let scene = Scene { table, members, speeds: motion(table.radius, &states), ends };
-        let power = scene.power(&motion(table.radius, &rates), &contacts);
-        let share = power.defect.clamp(INTERPOLATED[0], INTERPOLATED[1]);
+        scene.power(&motion(table.radius, &rates), &contacts)
+    };
+    // Polynomials meet the accelerations at the ends of a piece: forces that are wrong are wrong there, too.
+    let [known, doubtful] = INTERPOLATED;
+    let farthest = if [-1.0, 1.0].iter().all(|end| power_at(*end).defect <= EXPLAINED) { doubtful } else { known };
+    for (place, weight) in POINTS {
+        let power = power_at(place);
+        let share = power.defect.clamp(known, farthest);
         sum.least += half * weight * (1.0 - share) * power.least;
         sum.most += half * weight * (1.0 + share) * power.most;
     }
@@ -167,8 +174,10 @@ struct Power {
     most: f64,
     /// The share of the accelerations that no forces explain.
     defect: f64,
-    /// Whether every resistance to rolling is between none and all.
+    /// Whether every resistance to rolling is between none and all, and what is at the edge of sliding holds as well as it can.
     is_possible: bool,
+    /// Whether there is one solution.
+    is_unique: bool,
 }
 
 /// The balls at one moment of a stretch.
@@ -195,7 +204,8 @@ impl Scene<'_> {
             return plain;
         }
         let at_edge = self.explained(accelerations, contacts, true);
-        if at_edge.is_possible && 2.0 * at_edge.defect < plain.defect { at_edge } else { plain }
+        let is_better = at_edge.is_possible && 2.0 * at_edge.defect < plain.defect;
+        if is_better && (at_edge.is_unique || !plain.is_unique) { at_edge } else { plain }
     }
 
     /// The same if all balls slide or roll, or if those that may be `at_edge` of both resist as much as keeps them there.
@@ -205,26 +215,31 @@ impl Scene<'_> {
         // What the known frictions leave of the accelerations, and what unknown forces there are.
         let mut rest = *accelerations;
         let mut unknown: Vec<Column> = Vec::with_capacity(24);
+        // Where something holds, it tells the place of its forces among the unknown ones.
         let mut cloth = |directions: &[Column], force: f64| {
             let Some((along, speed)) = self.slip(directions) else {
                 unknown.extend_from_slice(directions);
-                return false;
+                return Some(unknown.len() - directions.len());
             };
             add(&mut rest, force / speed, &sum(directions, &along));
             taken += force * speed;
-            true
+            None
         };
-        let rolling = self.table.rolling_friction * g;
+        let [sliding, rolling] =
+            [self.table.sliding_friction, self.table.rolling_friction].map(|friction| friction * g);
+        // Places of frictions that hold, and have to do so with all that they can if the ball is at the edge of sliding.
+        let mut strained: Vec<usize> = Vec::new();
         // Resistances to rolling that are between none and all, and their speeds.
         let mut creeping: Vec<(Column, f64)> = Vec::new();
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
-            let slides = cloth(&on_cloth(ball), self.table.sliding_friction * g);
+            let held = cloth(&on_cloth(ball), sliding);
             if at_edge && self.creeps(ball) {
+                strained.extend(held);
                 if let Some((velocity, speed)) = self.slip(&centre(ball)) {
                     let against: Vec<f64> = velocity.iter().map(|part| -part / speed).collect();
                     creeping.push((sum(&centre(ball), &against), speed));
                 }
-            } else if !slides {
+            } else if held.is_some() {
                 cloth(&centre(ball), rolling);
             }
             cloth(&[about_vertical(ball)], self.table.spinning_friction * g);
@@ -238,14 +253,20 @@ impl Scene<'_> {
             columns.extend(&unknown);
             columns.extend(pushes.iter().flat_map(|push| &push.sticks));
             let Fit { factors, residual } = fit(&columns, &rest);
-            let defect = size(&residual) / size(accelerations);
+            let defect = size(&residual) / size(accelerations).max(f64::MIN_POSITIVE);
             let Some(forces) = factors else {
                 // Forces that hold each other: none is larger than what all accelerations and the cloth under all balls
                 // ask for.
-                let largest = size(&rest) + BALLS as f64 * self.table.sliding_friction * g;
+                let largest = size(&rest) + BALLS as f64 * sliding;
                 let prices: f64 = pushes.iter().map(|push| push.price).sum();
                 let rolls: f64 = creeping.iter().map(|(_, speed)| rolling * speed).sum();
-                return Power { least: taken, most: taken + largest * prices + rolls, defect, is_possible: true };
+                return Power {
+                    least: taken,
+                    most: taken + largest * prices + rolls,
+                    defect,
+                    is_possible: true,
+                    is_unique: false,
+                };
             };
             // What would have to pull does not touch.
             let pulls = (0..pushes.len()).min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
@@ -255,11 +276,13 @@ impl Scene<'_> {
             }
             let rubbed: f64 = pushes.iter().zip(&forces).map(|(push, force)| force * push.price).sum();
             let resistances = &forces[pushes.len()..][..creeping.len()];
-            let is_possible = resistances.iter().all(|force| (-EDGE..=1.0 + EDGE).contains(&(force / rolling)));
+            let holding = &forces[pushes.len() + creeping.len()..];
+            let is_possible = resistances.iter().all(|force| (-EDGE..=1.0 + EDGE).contains(&(force / rolling)))
+                && strained.iter().all(|&at| holding[at].hypot(holding[at + 1]) >= (1.0 - EDGE) * sliding);
             let rolls: f64 =
                 creeping.iter().zip(resistances).map(|((_, speed), force)| force.clamp(0.0, rolling) * speed).sum();
             let all = taken + rubbed + rolls;
-            return Power { least: all, most: all, defect, is_possible };
+            return Power { least: all, most: all, defect, is_possible, is_unique: true };
         }
     }
 
@@ -267,10 +290,8 @@ impl Scene<'_> {
     /// it would slip, and without the resistance, which ends with rolling, it would hold. At such an edge the resistance is as much
     /// as keeps the ball there (Filippov).
     fn creeps(&self, ball: usize) -> bool {
-        self.ends.iter().all(|end| {
-            let [slip, speed] = [on_cloth(ball), centre(ball)].map(|directions| size(&along(&directions, end)));
-            slip <= DEPARTED.max(CREEPING * speed)
-        })
+        let most = CREEPING * (self.table.gravity * self.table.radius).sqrt();
+        self.ends.iter().all(|end| size(&along(&on_cloth(ball), end)) <= most)
     }
 
     /// What a unit of a contact's normal force does and takes.

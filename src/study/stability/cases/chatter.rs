@@ -31,7 +31,10 @@ pub const CASES: &[Case] = &[
 /// and chatter anew.
 const MOST_EVENTS: usize = 60;
 
-const HOLDS: &str = "at most 60 events: a chatter is a few of them, however many its bounces";
+/// Chatters of a shot.
+const MOST_CHATTERS: usize = 12;
+
+const HOLDS: &str = "at most 60 events a chatter, however many its bounces, and 12 chatters";
 
 fn lively(e: f64) -> Vec<Table> {
     let change = move |table: &mut Table| (table.ball_restitution, table.rail_restitution) = (e, e);
@@ -73,10 +76,13 @@ fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
     let one = |chatter: &[Event]| {
         let begins = |event: &Event| event.kind == EventKind::ContactBegins(0);
         let (before, after) = chatter.split_at(chatter.iter().position(begins).unwrap_or(chatter.len()));
-        // Impacts in the contact are its bounces, which are no events.
+        // The trace keeps bounces, too: impacts in the contact, which are no events.
         before.len() + after.iter().filter(|event| !event.kind.is_contact()).count()
     };
     let ends = |event: &Event| event.kind == EventKind::ContactEnds(0);
-    let most = trace.events.split(ends).map(one).max().unwrap_or(0);
-    if most <= MOST_EVENTS { Ok(()) } else { Err(format!("one chatter takes {most} events")) }
+    let chatters: Vec<usize> = trace.events.split(ends).map(one).collect();
+    if let Some(most) = chatters.iter().find(|events| **events > MOST_EVENTS) {
+        return Err(format!("one chatter takes {most} events"));
+    }
+    if chatters.len() <= MOST_CHATTERS { Ok(()) } else { Err(format!("it chatters {} times", chatters.len())) }
 }

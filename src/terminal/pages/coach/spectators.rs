@@ -134,6 +134,7 @@ impl CoachPage {
             time: self.playback.time,
             speed: self.playback.speed(),
             playing: self.playback.playing,
+            over: self.playback.time >= shot.recording.duration(),
         })
     }
 
@@ -171,7 +172,9 @@ impl CoachPage {
                 self.mode = Mode::Watching;
             }
             self.playback.set_speed(told.speed);
-            self.playback.follow(told.time_after(age), shot.recording.duration(), told.playing);
+            let duration = shot.recording.duration();
+            let time = if told.over { duration } else { told.time_after(age) };
+            self.playback.follow(time, duration, told.playing);
             let made = told.made.map(|(made, of)| SuccessRate::new(made, of));
             let is_early = told.author == Author::Search;
             let proposal = Proposal { shot, kind: None, made, risk: None, next: None, is_early };
