@@ -164,6 +164,7 @@ impl Resting {
 
     /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
     pub fn go_on(&mut self, table: &Table) -> bool {
+        // A ball that only spins about its vertical counts as still: if it presses, its contact begins anew.
         let limit = self.constants.tolerance.still;
         let moves = |ball: usize| self.members[ball] && !is_still(limit, table.radius, &self.end[ball]);
         if self.goes_on && (0..BALLS).any(moves) {
