@@ -51,6 +51,8 @@ pub struct Inputs {
     pub space: ActionSpace,
     /// Whether the context is among it.
     pub context: bool,
+    /// Whether of a stroke it has what follows in closed form up to the first ball, besides what is chosen.
+    pub closed_form: bool,
 }
 
 impl Inputs {
@@ -66,7 +68,12 @@ impl Inputs {
 
     /// Changes whenever the features change: weights fit one version only.
     pub const fn version(self) -> &'static str {
-        if self.context { CONTEXT_VERSION } else { FEATURE_VERSION }
+        match (self.context, self.closed_form) {
+            (false, true) => FEATURE_VERSION,
+            (true, true) => CONTEXT_VERSION,
+            (false, false) => "final-course-1, actions alone",
+            (true, false) => "final-course-1, context-1, actions alone",
+        }
     }
 }
 

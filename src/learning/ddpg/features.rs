@@ -1,6 +1,6 @@
 //! Input features of the networks: of an observation for both, and of an observation and an action for the critic.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, ops::Range};
 
 use glam::DVec2;
 
@@ -24,6 +24,9 @@ pub const ACTION_FEATURES: usize = 58;
 /// Those among them whose slopes are left out: how far the cue ball can go jumps in the corners.
 #[cfg(test)]
 pub const FREE_PATHS: [usize; 2] = [29, 57];
+
+/// Those among them that tell the action and nothing that follows from it.
+const CHOSEN: [Range<usize>; 2] = [0..8, 30..37];
 
 /// Changes whenever the features change: weights fit one version only.
 pub const FEATURE_VERSION: &str = "final-course-1";
@@ -128,6 +131,14 @@ pub fn push_action_features(table: &Table, observation: &Observation, action: Ac
     out.push(Dual::constant(free_path(table, observation.first, DVec2::new(x.value, y.value)) / table.length));
 }
 
+/// Leaves of the action features those that tell the action itself; the others become nought.
+pub fn leave_chosen(features: &mut [Dual]) {
+    let follows = |index: &usize| !CHOSEN.iter().any(|chosen| chosen.contains(index));
+    for index in (0..features.len()).filter(follows) {
+        features[index] = Dual::constant(0.0);
+    }
+}
+
 /// Velocity of the cue ball once it rolls after meeting the first ball, as a share of its speed on arrival: the collision
 /// (17 to 20) leaves part of it along the line of centres and most of it along the tangent; then five sevenths of that
 /// and two sevenths of the roll that it brought along remain (25). Sidespin, which drags the tangential part of the impulse, is
@@ -197,6 +208,24 @@ mod tests {
                     assert!(feature.slope.iter().all(|slope| slope.abs() < 200.0), "{index}: {feature:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn without_the_closed_form_the_features_of_a_stroke_are_the_same_on_any_table_and_layout() {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(12);
+        let action = random(&mut rng, 1.0);
+        let mut chosen = |name| {
+            let table = Table::preset(name).unwrap();
+            let mut features = features(&table, &Observation::new(&Layout::random(&table, &mut rng), 0), action);
+            leave_chosen(&mut features);
+            features.iter().map(|feature| (feature.value, feature.slope)).collect::<Vec<_>>()
+        };
+        let told = chosen("match");
+        assert_eq!(told, chosen("thesis"));
+        // Every one of the five numbers of an action is told, as itself among others.
+        for number in action {
+            assert!(told.iter().any(|(value, _)| *value == f64::from(number)), "{number} of {action:?}");
         }
     }
 

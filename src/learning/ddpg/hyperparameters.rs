@@ -17,6 +17,8 @@ pub struct Hyperparameters {
     /// Whether it is told the table's constants and the player's errors, and practises on drawn tables with drawn errors. Its
     /// critic then tells how often this player makes a stroke on this table.
     pub context: bool,
+    /// Whether the critic is told what follows from an action in closed form, up to the first ball; without it, only the action.
+    pub closed_form: bool,
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
@@ -74,6 +76,7 @@ impl Default for Hyperparameters {
         Self {
             actions: ActionSpace::Full,
             context: false,
+            closed_form: true,
             heads: 6,
             actor_layers: vec![256, 256, 256],
             critic_layers: vec![320, 320, 320],
@@ -101,7 +104,7 @@ impl Default for Hyperparameters {
 impl Hyperparameters {
     /// What the networks' input is made of.
     pub const fn inputs(&self) -> Inputs {
-        Inputs { space: self.actions, context: self.context }
+        Inputs { space: self.actions, context: self.context, closed_form: self.closed_form }
     }
 
     /// The critic's optimiser at the start of a run.

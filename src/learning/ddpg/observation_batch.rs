@@ -8,7 +8,7 @@ use super::{
     action::{ACTIONS, Action, ActionSpace},
     context::{Inputs, push_context},
     dual::Dual,
-    features::{ACTION_FEATURES, push_action_features, push_state_features},
+    features::{ACTION_FEATURES, leave_chosen, push_action_features, push_state_features},
     observation::Observation,
 };
 use crate::{
@@ -87,7 +87,7 @@ impl ObservationBatch {
     pub fn on(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
         let seen = |observation| Seen { observation, table: Arc::clone(table), errors: 0.0 };
         let seen: Vec<Seen> = observations.into_iter().map(seen).collect();
-        Self::new(Inputs { space, context: false }, &seen)
+        Self::new(Inputs { space, context: false, closed_form: true }, &seen)
     }
 
     /// The observations.
@@ -168,6 +168,9 @@ impl CustomOp1 for Join {
                 padded(action),
                 &mut features,
             );
+            if !inputs.closed_form {
+                leave_chosen(&mut features);
+            }
             out.extend_from_slice(&states[observation * state..][..state]);
             out.extend(features.iter().map(|feature| feature.value as f32));
             if self.differentiate {
