@@ -6,11 +6,9 @@ use std::{
     sync::atomic::AtomicBool,
 };
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::{Failure, input::table_named, output::tell};
 use crate::{
-    printing,
+    printing::{self, ProgressLine},
     storage::write_atomic,
     study::{self, Method, Plan, Steepest, Study, filmed, random_shots, stability},
     table::{JUDGED, Table},
@@ -200,23 +198,12 @@ fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
 
 fn measure(table: Table, steepest: Steepest, size: &Size, seed: u64) -> Study {
     let shots = random_shots(&table, size.shots, seed, steepest);
-    let bar = progress_bar(shots.len(), &table.name);
+    let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
     let plan =
         Plan { table, steepest, shots, methods: Method::all(size.finest), rounds: size.rounds, steps: size.steps };
-    let study = plan.run(|done| bar.set_position(done as u64));
-    bar.finish_and_clear();
+    let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
+    line.clear();
     study
-}
-
-/// On the standard error, and only if that is a terminal.
-fn progress_bar(shots: usize, table: &str) -> ProgressBar {
-    if !printing::is_watched() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} shots, {eta} left");
-    ProgressBar::new(shots as u64)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-        .with_message(table.to_owned())
 }
 
 /// Whole files or none, at the very end: an interruption before leaves nothing half written.

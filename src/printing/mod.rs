@@ -6,12 +6,14 @@
 //! such a character as what it is.
 
 mod json;
+mod progress;
 mod shown;
 mod version;
 mod visible;
 
 pub use self::{
     json::{json_line, json_text},
+    progress::ProgressLine,
     shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},
     version::{FULL_VERSION, SOURCE, TARGET, VERSION},
     visible::{OneLine, is_hidden},

@@ -4,8 +4,9 @@ use std::{fs::File, io::Write};
 
 use carom::{
     physics::CueInputs,
+    printing::ProgressLine,
     simulation::Recording,
-    study::stability::{Case, Limits, Plan, ProgressLine, Row, Shot, Stroke, Trace, cases, examine, markdown, rows},
+    study::stability::{Case, Limits, Plan, Row, Shot, Stroke, Trace, cases, examine, markdown, rows},
     table::{Layout, Table, TableError},
 };
 use glam::DVec2;
@@ -251,7 +252,7 @@ fn the_long_run() {
     let mut file = std::env::var_os("CAROM_STABILITY_FINDINGS").map(|path| File::create(path).unwrap());
     let mut line = ProgressLine::default();
     let rows = rows(&plan, |name, progress, finding| {
-        line.show(name, progress);
+        line.show(format_args!("{name}: {progress}"));
         if let (Some(file), Some(finding)) = (&mut file, finding) {
             writeln!(file, "{}", serde_json::to_string(finding).unwrap()).unwrap();
         }

@@ -21,7 +21,7 @@ pub use cases::{Case, Size, all as cases};
 pub use figures::{Figures, Limits, Violation, Worst};
 pub use finding::Finding;
 pub use invariants::examine;
-pub use progress::{ProgressLine, rows_with_progress};
+pub use progress::rows_with_progress;
 pub use report::{Plan, Row, markdown, page, rows, text};
 pub use shot::{Shot, Stroke};
 pub use sweep::{Check, Generator, Progress, Sweep};

@@ -1,6 +1,7 @@
 //! Many shots on all cores, watched over: the same shots on every run, whatever the number of threads.
 
 use std::{
+    fmt,
     sync::{
         Arc, Mutex, PoisonError,
         atomic::{AtomicBool, AtomicU64, Ordering},
@@ -82,6 +83,12 @@ struct Work {
 enum Message {
     Chunk(Figures),
     Finding(Box<Finding>),
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} of {} shots, {} findings", self.done, self.of, self.findings)
+    }
 }
 
 impl Sweep {
