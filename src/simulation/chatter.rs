@@ -110,15 +110,13 @@ impl Chatters {
         self.0[Self::place(contact)].shrinking
     }
 
-    /// Whether a ball has left all its chatters.
-    pub fn are_over(&self, ball: usize, now: f64) -> bool {
+    /// When all chatters of a ball are over, s, if it bounces no more.
+    pub fn end(&self, ball: usize) -> f64 {
         let cushions = PAIRS.len() + 4 * ball..PAIRS.len() + 4 * ball + 4;
         let pairs =
             PAIRS.iter().enumerate().filter(|(_, pair)| pair.0 == ball || pair.1 == ball).map(|(index, _)| index);
-        pairs.chain(cushions).all(|place| {
-            let bounces = self.0[place];
-            bounces.count <= TOLD || now - bounces.last > bounces.pause()
-        })
+        let bounces = pairs.chain(cushions).map(|place| self.0[place]).filter(|bounces| bounces.count > TOLD);
+        bounces.map(|bounces| bounces.last + bounces.pause()).fold(f64::NEG_INFINITY, f64::max)
     }
 }
 
@@ -233,8 +231,8 @@ mod tests {
             now += flight;
         }
         assert_eq!(told, TOLD);
-        assert!(!chatters.are_over(1, now) && chatters.are_over(2, now));
-        assert!(chatters.are_over(0, now + 1.0));
+        assert!(chatters.end(1) > now && chatters.end(2) < now);
+        assert!(chatters.end(0) < now + 1.0);
     }
 
     /// Bounces between a ball and a cushion: each time when the cushion throws the ball back they begin anew, and shorter.
@@ -254,7 +252,7 @@ mod tests {
             longest *= 0.95;
         }
         assert_eq!(told, TOLD);
-        assert!(!chatters.are_over(0, now) && chatters.are_over(0, now + 0.2));
+        assert!(chatters.end(0) > now && chatters.end(0) < now + 0.2);
     }
 
     /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.

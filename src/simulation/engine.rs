@@ -21,15 +21,15 @@ use crate::{
 /// Work after which a shot is brought to its end: so many of the simplest bounces of chatters, of which a step of a resting
 /// contact takes as long as [`STEP_WORK`]. This is a guard, not physics: what takes part in another contact stands still from
 /// then on. The stability table counts the shots that come to it.
-const MOST_WORK: u32 = 12_000;
+const MOST_WORK: u32 = 25_000;
 
 /// Events after which a shot ends where it is. This is a guard, not physics, for what repeats in the air without end; a shot has some
 /// ten events, and one in a chatter some hundred.
 const MOST_EVENTS: u32 = 50_000;
 
-/// Bounces that take as long as one step of a resting contact, and as one whose forces have not been found.
-const STEP_WORK: u32 = 8;
-const UNSOLVED_WORK: u32 = 400;
+/// Bounces that take as long as a step of one resting contact, and as a step whose forces have not been found.
+const STEP_WORK: u32 = 6;
+const UNSOLVED_WORK: u32 = 2_000;
 
 /// How a simulation ended: when all balls stood still, or when the observer had seen enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -207,7 +207,14 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                     (next, source) = (time, index);
                 }
             }
-            if source == usize::MAX || (S::LAST_ROLLS && !self.observer.wants_ends() && self.only_rolls_out(source)) {
+            if self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing) {
+                let last = source == usize::MAX || self.only_rolls_out(source);
+                flow = self.tell_free(now, if last { f64::INFINITY } else { next });
+            }
+            if flow.is_break()
+                || source == usize::MAX
+                || (S::LAST_ROLLS && !self.observer.wants_ends() && self.only_rolls_out(source))
+            {
                 break;
             }
             flow = match source.checked_sub(BALLS) {
@@ -262,12 +269,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
         segment.start = now;
         self.close(index, now);
-        if ended == Motion::Sliding
-            && !(self.balls[index].mode == ContactMode::Bouncing && self.still_chatters(now, index)?)
-        {
+        // Of a ball that bounces it is told once its contact is known to have ended.
+        let bounces = self.balls[index].mode == ContactMode::Bouncing;
+        if ended == Motion::Sliding && !bounces {
             self.tell(now, EventKind::SlidingRolling(index))?;
         }
-        if segment.motion == Motion::Stationary {
+        if segment.motion == Motion::Stationary && !bounces {
             self.tell(now, EventKind::RollingStationary(index))?;
         }
         self.set(index, segment, lasts);
@@ -302,9 +309,11 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.work += self.bounce_work;
     }
 
-    /// Takes note of a step of resting contacts, and of whether the forces of the last one were found.
-    pub(super) fn contact_step(&mut self, was_solved: bool) -> ControlFlow<()> {
-        self.work += if was_solved { STEP_WORK } else { UNSOLVED_WORK };
+    /// Takes note of a step of resting contacts, by what the last one was like.
+    pub(super) fn contact_step(&mut self, last: Option<&Resting>) -> ControlFlow<()> {
+        let contacts = last.map_or(1, |last| last.contacts.as_slice().len() as u32);
+        let is_solved = last.is_none_or(Resting::is_solved);
+        self.work += if is_solved { STEP_WORK * contacts } else { UNSOLVED_WORK };
         self.observer.contact_step()
     }
 

@@ -185,15 +185,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(true)
     }
 
-    /// Whether a bouncing ball still chatters; tells the end of its contact if not.
-    #[cold]
-    pub(super) fn still_chatters(&mut self, now: f64, ball: usize) -> ControlFlow<(), bool> {
-        if self.chatters.as_ref().is_some_and(|chatters| !chatters.are_over(ball, now)) {
-            return ControlFlow::Continue(true);
-        }
-        self.balls[ball].mode = ContactMode::Free;
-        self.tell(now, EventKind::ContactEnds(ball))?;
-        ControlFlow::Continue(false)
+    /// When all chatters of a ball are over, s, if it bounces no more.
+    pub(super) fn end_of_chatters(&self, ball: usize) -> f64 {
+        self.chatters.as_ref().map_or(f64::NEG_INFINITY, |chatters| chatters.end(ball))
     }
 
     /// Tells an impact, or only who keeps accounts of it where it belongs to a chatter.

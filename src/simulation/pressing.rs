@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use super::{
     EventKind, Observer, Segment,
-    chatter::Chatters,
     contact_mode::ContactMode,
     engine::Engine,
     resting::{Outcome, Resting},
@@ -22,7 +21,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         if !self.is_exhausted() && resting.go_on(self.table) {
-            self.contact_step(resting.is_solved())?;
+            self.contact_step(Some(&resting))?;
             let members = resting.members;
             self.resting = Some(resting);
             for index in (0..BALLS).filter(|&index| members[index]) {
@@ -111,13 +110,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }),
             _ => std::array::from_fn(|index| self.state(index, now)),
         };
-        let last = self.resting.as_ref().or(self.ended.as_ref());
-        self.contact_step(last.is_none_or(|last| last.is_solved()))?;
         let previous = self.resting.take().or(self.ended.take());
+        self.contact_step(previous.as_deref())?;
         if let (Some(chatters), Some(previous)) = (&mut self.chatters, &previous) {
             previous.contacts.as_slice().iter().for_each(|contact| chatters.rest(contact, now));
         }
-        let interrupted = previous.as_ref().is_some_and(|previous| previous.interrupted);
         let on_cloth = self.on_cloth();
         self.resting = match Resting::begin(
             self.table,
@@ -162,26 +159,32 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                     self.tell(now, EventKind::ContactBegins(index))?;
                 }
             } else if was == ContactMode::Resting {
-                self.balls[index].mode = ContactMode::Free;
+                self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended by what another did is still on its common course.
                 if self.balls[index].segment.motion == Motion::Resting {
                     self.close(index, now);
                     self.launch(index, now, &states[index]);
                     changed[index] = true;
                 }
-                // An impact that interrupts a contact makes it chatter again: it is still the same.
-                let slides = self.balls[index].segment.motion == Motion::Sliding;
-                let chatters = |chatters: &Chatters| !chatters.are_over(index, now);
-                if interrupted && slides && self.chatters.as_deref().is_some_and(chatters) {
-                    self.balls[index].mode = ContactMode::Bouncing;
-                    continue;
-                }
-                self.tell(now, EventKind::ContactEnds(index))?;
-                if self.balls[index].segment.motion == Motion::Rolling {
-                    self.tell(now, EventKind::SlidingRolling(index))?;
-                } else if self.balls[index].segment.motion == Motion::Stationary {
-                    self.tell(now, EventKind::RollingStationary(index))?;
-                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Tells the ends of the contacts of balls that rest no more and cannot bounce again in the same chatter, since the `next`
+    /// event of all comes too late for that.
+    #[cold]
+    pub(super) fn tell_free(&mut self, now: f64, next: f64) -> ControlFlow<()> {
+        for index in 0..BALLS {
+            if self.balls[index].mode != ContactMode::Bouncing || next <= self.end_of_chatters(index) {
+                continue;
+            }
+            self.balls[index].mode = ContactMode::Free;
+            self.tell(now, EventKind::ContactEnds(index))?;
+            match self.balls[index].segment.motion {
+                Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index))?,
+                Motion::Stationary => self.tell(now, EventKind::RollingStationary(index))?,
+                _ => {}
             }
         }
         ControlFlow::Continue(())

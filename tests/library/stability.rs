@@ -14,12 +14,6 @@ use glam::DVec2;
 /// Shots of each row on each of its tables, with the limits of the report.
 const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, seed: 1 };
 
-/// Rows of `docs/stability.md` in which shots fail, with the share of them that the document measures.
-const KNOWN: &[(&str, f64)] = &[("adversarial shots, table \"textbook\"", 1.00e-03)];
-
-/// Standard deviations by which the share of a known row may be above the measured one.
-const SPREAD: f64 = 4.0;
-
 /// Plays a row and fails with its first failing shot, as JSON that `carom simulate --batch` reads.
 fn hold(name: &str) {
     let case: Case = cases().into_iter().find(|case| case.name == name).expect("the row is in the table");
@@ -28,9 +22,7 @@ fn hold(name: &str) {
         first = first.take().or_else(|| finding.cloned());
         true
     });
-    let rate = KNOWN.iter().find(|(row, _)| *row == name).map_or(0.0, |(_, rate)| *rate);
-    let expected = rate * row.figures.shots as f64;
-    if let Some(first) = first.filter(|_| row.failed as f64 > expected + SPREAD * expected.sqrt()) {
+    if let Some(first) = first {
         panic!(
             "{} of {} fail: {}\n{}",
             row.failed,
@@ -108,21 +100,15 @@ fn every_row_of_the_table_is_a_test() {
 
 /// What is excused here is what the document says, row by row.
 #[test]
-fn every_known_row_is_in_the_document() {
+fn every_row_is_in_the_document_and_holds_there() {
     let page = include_str!("../../docs/stability.md");
     for name in NAMES {
         let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let shots: f64 = cells[2].parse().unwrap();
-        let failed =
-            cells.iter().find_map(|cell| cell.split_once(" fail: ")).map_or(0.0, |(failed, _)| failed.parse().unwrap());
-        let rate = KNOWN.iter().find(|(row, _)| row == name).map_or(0.0, |(_, rate)| *rate);
-        assert!((rate - failed / shots).abs() <= 0.05 * rate + 1e-6, "{name}: {} in the document", failed / shots);
+        assert!(line.contains("| holds |"), "{line}");
     }
 }
 
-/// Shots of the table that failed once, each for the cause that it names; one that is said to fail again is taken off that list when it
-/// holds.
+/// Shots of the table that failed once, each for the cause that it names.
 #[test]
 fn shots_that_failed_hold() {
     let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).collect();
@@ -136,7 +122,7 @@ fn shots_that_failed_hold() {
         let figures = examine(table, &shot, &mut Trace::new(table));
         // How long it takes is for the table to tell.
         let violations = figures.violations(&Limits { seconds: f64::INFINITY, ..Limits::STRICT.on(table) });
-        assert_eq!(violations.is_empty(), line.get("fails_again").is_none(), "{}: {violations:?}", line["cause"]);
+        assert!(violations.is_empty(), "{}: {violations:?}", line["cause"]);
     }
 }
 

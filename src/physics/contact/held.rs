@@ -116,29 +116,8 @@ impl<const ROOM: usize> Held<ROOM> {
     ) -> Self {
         let joint = |index: usize| {
             let contact = &contacts[index];
-            let (n, slip) = contact.normal_and_slip(table.radius, balls);
-            let t = n.perp();
-            let (mut centripetal, mut turning) = (0.0, 0.0);
-            if let Some(second) = contact.second {
-                let diameter = 2.0 * table.radius;
-                let across = contact.relative_velocity(balls).dot(t);
-                centripetal = across * across / diameter;
-                // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
-                let spin = balls[contact.first].spin + balls[second].spin;
-                turning = -table.radius * (across / diameter) * spin.truncate().dot(n);
-            }
-            let against = set.contact[index].direction(slip);
             let mu = if has_friction(contact) { coefficient(table, contact) } else { 0.0 };
-            Joint {
-                first: contact.first,
-                second: contact.second,
-                n,
-                t,
-                at: 0,
-                unknowns: if against.is_some() { 1 } else { 3 },
-                slip_friction: -mu * against.unwrap_or(DVec2::ZERO),
-                bias: [centripetal, 0.0, turning],
-            }
+            Joint::new(table.radius, balls, contact, set.contact[index], mu)
         };
         let mut system = Self {
             joints: [Joint::NONE; ROOM],
@@ -308,11 +287,45 @@ pub fn accelerations(
 ) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
     let similar = Some(similar);
     let moved = match contacts.len() {
-        0 | 1 => Solved::<1>::new(table, balls, contacts, set, similar)?.moved,
+        0 | 1 => match contacts.first().and_then(|contact| slipping(table, balls, contact, set)) {
+            Some(moved) => moved,
+            None => Solved::<1>::new(table, balls, contacts, set, similar)?.moved,
+        },
         2 => Solved::<2>::new(table, balls, contacts, set, similar)?.moved,
         _ => Solved::<MAX_CONTACTS>::new(table, balls, contacts, set, similar)?.moved,
     };
     Some((moved.linear, moved.angular.map(|angular| angular / table.radius)))
+}
+
+/// The movement under a single contact that slips: its normal force is the only unknown, for which no system has to be solved.
+/// None where it sticks, or where what the cloth holds does not feel it.
+fn slipping(table: &Table, balls: &[BallState; BALLS], contact: &Contact, set: &ActiveSet) -> Option<Movement> {
+    let joint = Joint::new(table.radius, balls, contact, set.contact[0], coefficient(table, contact));
+    if joint.unknowns > 1 {
+        return None;
+    }
+    let mut members = [false; BALLS];
+    joint.members().for_each(|(ball, _)| members[ball] = true);
+    let mut moved = free(table, balls, set, members);
+    let (mut response, (push, twist)) = (Movement::NONE, joint.act(joint.unit(0)));
+    for (ball, sense) in joint.members() {
+        let sticking = Sticking::of(set, ball);
+        (moved.linear[ball], moved.angular[ball]) = sticking.held(moved.linear[ball], moved.angular[ball]);
+        (response.linear[ball], response.angular[ball]) = sticking.held(sense * push, twist);
+    }
+    let gives = joint.rates(&response)[0];
+    if gives <= SINGULAR {
+        return None;
+    }
+    // The second round takes out what the first has left by rounding.
+    for _ in 0..2 {
+        let normal = -(joint.rates(&moved)[0] + joint.bias[0]) / gives;
+        for (ball, _) in joint.members() {
+            moved.linear[ball] += normal * response.linear[ball];
+            moved.angular[ball] += normal * response.angular[ball];
+        }
+    }
+    Some(moved)
 }
 
 /// A system of forces and the accelerations that follow from it, before the cloth holds the balls and after.
@@ -337,23 +350,7 @@ impl<const ROOM: usize> Solved<ROOM> {
                 system.sizes[index] = [similar.normal[index], friction.x, friction.y];
             }
         }
-        let [sliding, rolling, boring] = frictions(table);
-        let mut free = Movement::NONE;
-        for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
-            let state = &balls[ball];
-            let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
-            if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
-                *linear = -sliding * against;
-                *angular = (2.5 * sliding * against.perp()).extend(0.0);
-            } else if let Some(against) = set.roll[ball].direction(state.velocity) {
-                let growth = 1.4 * table.rolling_growth * state.velocity.length();
-                *linear = -(rolling + growth) * against;
-            }
-            *linear += table.tilt;
-            if let Friction::Slips(sign) = set.spin[ball] {
-                angular.z = -2.5 * boring * sign.x;
-            }
-        }
+        let free = free(table, balls, set, system.members);
         let [unheld, moved] = system.solve(&free, true)?;
         Some(Self { system, unheld, moved })
     }
@@ -396,6 +393,28 @@ impl<const ROOM: usize> Solved<ROOM> {
         }
         forces
     }
+}
+
+/// How the `members` would move without their contacts.
+fn free(table: &Table, balls: &[BallState; BALLS], set: &ActiveSet, members: [bool; BALLS]) -> Movement {
+    let [sliding, rolling, boring] = frictions(table);
+    let mut free = Movement::NONE;
+    for ball in (0..BALLS).filter(|&ball| members[ball]) {
+        let state = &balls[ball];
+        let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);
+        if let Some(against) = set.cloth[ball].direction(slip(table.radius, state.velocity, state.spin)) {
+            *linear = -sliding * against;
+            *angular = (2.5 * sliding * against.perp()).extend(0.0);
+        } else if let Some(against) = set.roll[ball].direction(state.velocity) {
+            let growth = 1.4 * table.rolling_growth * state.velocity.length();
+            *linear = -(rolling + growth) * against;
+        }
+        *linear += table.tilt;
+        if let Friction::Slips(sign) = set.spin[ball] {
+            angular.z = -2.5 * boring * sign.x;
+        }
+    }
+    free
 }
 
 /// What the cloth's frictions of sliding, rolling and spinning can do to a ball, per mass, m/s².

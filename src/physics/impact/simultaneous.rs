@@ -141,14 +141,18 @@ fn normal_impulses(
         let shared: f64 = (0..BALLS).map(|ball| sense(&contacts[i], ball) * sense(&contacts[j], ball)).sum();
         shared * normals[i].dot(normals[j])
     };
+    let mut responses = [[0.0; MAX_CONTACTS]; MAX_CONTACTS];
+    for (i, row) in responses[..contacts.len()].iter_mut().enumerate() {
+        row[..contacts.len()].iter_mut().enumerate().for_each(|(j, place)| *place = response(i, j));
+    }
     let wanted: Vec<f64> =
         contacts.iter().map(|contact| -(1.0 + law.restitution(contact)) * contact.opening_speed(balls)).collect();
     let scale = wanted.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     for _ in 0..MAX_SWEEPS {
         let mut change = 0.0_f64;
         for i in 0..contacts.len() {
-            let given: f64 = (0..contacts.len()).map(|j| response(i, j) * impulses[j]).sum();
-            let impulse = (impulses[i] + (wanted[i] - given) / response(i, i)).max(0.0);
+            let given: f64 = responses[i].iter().zip(&*impulses).map(|(response, impulse)| response * impulse).sum();
+            let impulse = (impulses[i] + (wanted[i] - given) / responses[i][i]).max(0.0);
             change = change.max((impulse - impulses[i]).abs());
             impulses[i] = impulse;
         }
