@@ -1,14 +1,12 @@
 //! Attempts: a stroke is played with the player's errors, or one at a real table is taken note of.
 
-use std::ops::ControlFlow;
-
 use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
     coach::Verdict,
-    game::{Point, Rule, Tally},
+    game::{Point, Referee, Rule},
     physics::{CueError, CueInputs, NoRoom, strike, with_room},
     player::errors,
-    simulation::{Event, Observer, Recording, simulate},
+    simulation::{Recording, simulate},
     table::{BALLS, Layout, Table},
 };
 
@@ -51,12 +49,12 @@ pub struct Played {
 impl Played {
     /// Plays a stroke as it is.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
-        let mut watcher = Watcher::default();
+        let mut referee = Referee::of_all();
         let miscue = stroke.is_miscue(table);
-        let ended = (!miscue).then(|| simulate(table, layout, &strike(table, &stroke), &mut watcher));
+        let ended = (!miscue).then(|| simulate(table, layout, &strike(table, &stroke), &mut referee));
         let end = ended.map_or(*layout, |end| end.layout(table));
         let off = ended.map_or([None; BALLS], |end| end.left_table(table));
-        let verdict = Verdict { point: Point::of(rule, table, layout), tally: watcher.0, miss: None, off };
+        let verdict = Verdict { point: Point::of(rule, table, layout), tally: referee.tally, miss: None, off };
         Self { stroke, miscue, verdict, made: verdict.is_made(), end }
     }
 
@@ -69,17 +67,6 @@ impl Played {
             }
             _ => Self::of(rule, table, layout, stroke),
         }
-    }
-}
-
-/// Watches the cue ball until all balls are at rest.
-#[derive(Default)]
-struct Watcher(Tally);
-
-impl Observer for Watcher {
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.0.note(&event);
-        ControlFlow::Continue(())
     }
 }
 

@@ -154,6 +154,11 @@ impl Default for Referee {
 }
 
 impl Referee {
+    /// Watches a shot to its end.
+    pub fn of_all() -> Self {
+        Self::new(None, u32::MAX)
+    }
+
     /// Watches until the cue ball has met `enough` object balls; `None`: to the end of the shot. A shot whose resting contacts
     /// take more than so many `steps` of integration counts as decided by then.
     pub fn new(enough: Option<u8>, steps: u32) -> Self {

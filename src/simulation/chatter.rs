@@ -10,7 +10,7 @@
 
 use super::{
     Constants,
-    contacts::{PAIRS, nearly_touching},
+    contacts::{PAIRS, PAIRS_OF, nearly_touching},
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, ImpactLaw, resolve, slip},
@@ -110,13 +110,18 @@ impl Chatters {
         self.0[Self::place(contact)].shrinking
     }
 
-    /// When all chatters of a ball are over, s, if it bounces no more.
-    pub fn end(&self, ball: usize) -> f64 {
-        let cushions = PAIRS.len() + 4 * ball..PAIRS.len() + 4 * ball + 4;
-        let pairs =
-            PAIRS.iter().enumerate().filter(|(_, pair)| pair.0 == ball || pair.1 == ball).map(|(index, _)| index);
-        let bounces = pairs.chain(cushions).map(|place| self.0[place]).filter(|bounces| bounces.count > TOLD);
-        bounces.map(|bounces| bounces.last + bounces.pause()).fold(f64::NEG_INFINITY, f64::max)
+    /// When each chatter of a ball is over, s, if it bounces no more: those with the other balls, by their index, and at its own
+    /// index those with cushions.
+    pub fn ends(&self, ball: usize) -> [f64; BALLS] {
+        let mut ends = [f64::NEG_INFINITY; BALLS];
+        let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
+        for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
+            let bounces = self.0[place];
+            if bounces.count > TOLD {
+                ends[other] = ends[other].max(bounces.last + bounces.pause());
+            }
+        }
+        ends
     }
 }
 
@@ -231,8 +236,8 @@ mod tests {
             now += flight;
         }
         assert_eq!(told, TOLD);
-        assert!(chatters.end(1) > now && chatters.end(2) < now);
-        assert!(chatters.end(0) < now + 1.0);
+        assert!(chatters.ends(1)[0] > now && chatters.ends(2)[0] < now);
+        assert!(chatters.ends(0)[1] < now + 1.0);
     }
 
     /// Bounces between a ball and a cushion: each time when the cushion throws the ball back they begin anew, and shorter.
@@ -252,7 +257,7 @@ mod tests {
             longest *= 0.95;
         }
         assert_eq!(told, TOLD);
-        assert!(chatters.end(0) > now && chatters.end(0) < now + 0.2);
+        assert!(chatters.ends(0)[1] > now && chatters.ends(0)[1] < now + 0.2);
     }
 
     /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.

@@ -208,8 +208,8 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                 }
             }
             if self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing) {
-                let last = source == usize::MAX || self.only_rolls_out(source);
-                flow = self.tell_free(now, if last { f64::INFINITY } else { next });
+                let nothing = source == usize::MAX || self.only_rolls_out(source);
+                flow = self.tell_free(now, nothing);
             }
             if flow.is_break()
                 || source == usize::MAX

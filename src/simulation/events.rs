@@ -17,9 +17,10 @@ pub enum EventKind {
     SlidingRolling(usize),
     /// A ball comes to rest.
     RollingStationary(usize),
-    /// A ball begins to rest against a cushion or another ball.
+    /// A ball begins to rest against a cushion or another ball, or to chatter. Until the contact ends its slow bounces are not told,
+    /// nor that it rolls or stands still between two of them.
     ContactBegins(usize),
-    /// A ball is free again.
+    /// A ball is free again: it rests no more, and nothing can make it bounce before its chatter is over.
     ContactEnds(usize),
     /// A ball leaves the cloth.
     Jumps(usize),

@@ -185,11 +185,6 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(true)
     }
 
-    /// When all chatters of a ball are over, s, if it bounces no more.
-    pub(super) fn end_of_chatters(&self, ball: usize) -> f64 {
-        self.chatters.as_ref().map_or(f64::NEG_INFINITY, |chatters| chatters.end(ball))
-    }
-
     /// Tells an impact, or only who keeps accounts of it where it belongs to a chatter.
     #[inline(always)]
     pub(super) fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     contact_mode::ContactMode,
+    contacts::PAIRS_OF,
     engine::Engine,
     resting::{Outcome, Resting},
     savings::Savings,
@@ -171,12 +172,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
-    /// Tells the ends of the contacts of balls that rest no more and cannot bounce again in the same chatter, since the `next`
-    /// event of all comes too late for that.
+    /// Tells the ends of the contacts of balls that rest no more and bounce no more: all of them if `nothing` happens any more but
+    /// that a ball rolls out.
     #[cold]
-    pub(super) fn tell_free(&mut self, now: f64, next: f64) -> ControlFlow<()> {
+    pub(super) fn tell_free(&mut self, now: f64, nothing: bool) -> ControlFlow<()> {
         for index in 0..BALLS {
-            if self.balls[index].mode != ContactMode::Bouncing || next <= self.end_of_chatters(index) {
+            if self.balls[index].mode != ContactMode::Bouncing || (!nothing && self.may_bounce(index)) {
                 continue;
             }
             self.balls[index].mode = ContactMode::Free;
@@ -188,6 +189,19 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Whether a ball may bounce again before one of its chatters is over: where its own next event, or any of the ball with which
+    /// it chatters, comes in time for that.
+    fn may_bounce(&self, index: usize) -> bool {
+        let Some(chatters) = &self.chatters else { return false };
+        let (ends, own) = (chatters.ends(index), self.times[index]);
+        let next = |other: usize| {
+            PAIRS_OF[other]
+                .iter()
+                .fold(own.min(self.times[other]), |next, (pair, _)| next.min(self.times[BALLS + pair]))
+        };
+        own <= ends[index] || PAIRS_OF[index].iter().any(|&(_, other)| next(other) <= ends[other])
     }
 
     #[cold]

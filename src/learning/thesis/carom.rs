@@ -1,7 +1,5 @@
 //! The game as the thesis' agents play it: raw positions in, direction and speed out, a reward for every shot.
 
-use std::ops::ControlFlow;
-
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
@@ -10,10 +8,10 @@ use super::{
     hindsight,
 };
 use crate::{
-    game::{Reward, Tally},
+    game::{Referee, Reward},
     learning::evaluation::CONTACT_STEPS,
     physics::{CueInputs, strike},
-    simulation::{Event, Observer, simulate},
+    simulation::simulate,
     table::{Layout, Table},
 };
 
@@ -84,9 +82,9 @@ impl Carom {
 
     /// Plays on from where the balls are; returns the reward and whether the shot was a miss.
     fn go_on(&mut self, action: Action) -> (f64, bool) {
-        let mut watcher = Watcher::default();
-        let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut watcher);
-        let tally = watcher.tally;
+        let mut referee = Referee::of_all();
+        let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut referee);
+        let tally = referee.tally;
         self.layout = end.layout(&self.table);
         let hit = match self.reward {
             Reward::R1 | Reward::R1Difficulty | Reward::R2 => tally.met_any(),
@@ -134,19 +132,6 @@ impl Environment for Carom {
 pub fn cue_inputs(action: Action) -> CueInputs {
     let [phi, speed] = direction_and_speed(action);
     CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed }
-}
-
-/// Counts what the cue ball does until all balls stand still.
-#[derive(Default)]
-struct Watcher {
-    tally: Tally,
-}
-
-impl Observer for Watcher {
-    fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.tally.note(&event);
-        ControlFlow::Continue(())
-    }
 }
 
 #[cfg(test)]
