@@ -2,7 +2,7 @@
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
 # with the same version. All of it takes about ten hours of a shared core. The bundled files for match began
 # from networks that a version before this one had trained; their first rounds were played without the cue's room, and all but
-# the last two or three with balls that stay on the cloth.
+# the last two (three cushions: six) with balls that stay on the cloth.
 set -eu
 folder=${1:-runs}
 carom=${2:-carom}

@@ -49,7 +49,7 @@ pub struct Played {
 impl Played {
     /// Plays a stroke as it is.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
-        let mut referee = Referee::of_all();
+        let mut referee = Referee::to_the_end();
         let miscue = stroke.is_miscue(table);
         let ended = (!miscue).then(|| simulate(table, layout, &strike(table, &stroke), &mut referee));
         let end = ended.map_or(*layout, |end| end.layout(table));

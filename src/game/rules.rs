@@ -155,7 +155,7 @@ impl Default for Referee {
 
 impl Referee {
     /// Watches a shot to its end.
-    pub fn of_all() -> Self {
+    pub fn to_the_end() -> Self {
         Self::new(None, u32::MAX)
     }
 

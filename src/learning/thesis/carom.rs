@@ -82,7 +82,7 @@ impl Carom {
 
     /// Plays on from where the balls are; returns the reward and whether the shot was a miss.
     fn go_on(&mut self, action: Action) -> (f64, bool) {
-        let mut referee = Referee::of_all();
+        let mut referee = Referee::to_the_end();
         let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut referee);
         let tally = referee.tally;
         self.layout = end.layout(&self.table);

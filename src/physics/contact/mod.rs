@@ -102,6 +102,17 @@ impl Contact {
         balls[self.first].velocity - self.second.map_or(DVec2::ZERO, |second| balls[second].velocity)
     }
 
+    /// What the rates of opening, of the slip along `t = z×n` and of that along z have besides the accelerations' part, m/s²: two
+    /// balls' courses around each other bend. The normal is `n`.
+    fn bends(&self, radius: f64, balls: &[BallState; BALLS], n: DVec2) -> [f64; 3] {
+        let Some(second) = self.second else { return [0.0; 3] };
+        let diameter = 2.0 * radius;
+        let across = self.relative_velocity(balls).dot(n.perp());
+        // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
+        let spin = balls[self.first].spin + balls[second].spin;
+        [across * across / diameter, 0.0, -radius * (across / diameter) * spin.truncate().dot(n)]
+    }
+
     /// The normal, and the slip along `t = z×n` and along z, m/s.
     fn normal_and_slip(&self, radius: f64, balls: &[BallState; BALLS]) -> (DVec2, DVec2) {
         let n = self.normal(balls);

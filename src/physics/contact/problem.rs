@@ -156,16 +156,8 @@ impl Problem {
         for (index, contact) in contacts.iter().enumerate() {
             let (n, slip) = contact.normal_and_slip(table.radius, balls);
             let [opening, along, up] = Row::contact(contact, n);
-            let (mut centripetal, mut turning) = (0.0, 0.0);
+            let [centripetal, _, turning] = contact.bends(table.radius, balls, n);
             let mu = coefficient(table, contact);
-            if let Some(second) = contact.second {
-                let diameter = 2.0 * table.radius;
-                let across = contact.relative_velocity(balls).dot(n.perp());
-                centripetal = across * across / diameter;
-                // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
-                let spin = balls[contact.first].spin + balls[second].spin;
-                turning = -table.radius * (across / diameter) * spin.truncate().dot(n);
-            }
             problem.push(Place::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
             if let Some(against) = set.contact[index].direction(slip) {
                 let force = &mut problem.forces[index];

@@ -65,26 +65,16 @@ impl Joint {
     /// at 0. The balls' radius is in m.
     pub fn new(radius: f64, balls: &[BallState; BALLS], contact: &Contact, friction: Friction, mu: f64) -> Self {
         let (n, slip) = contact.normal_and_slip(radius, balls);
-        let t = n.perp();
-        let (mut centripetal, mut turning) = (0.0, 0.0);
-        if let Some(second) = contact.second {
-            let diameter = 2.0 * radius;
-            let across = contact.relative_velocity(balls).dot(t);
-            centripetal = across * across / diameter;
-            // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
-            let spin = balls[contact.first].spin + balls[second].spin;
-            turning = -radius * (across / diameter) * spin.truncate().dot(n);
-        }
         let against = friction.direction(slip);
         Self {
             first: contact.first,
             second: contact.second,
             n,
-            t,
+            t: n.perp(),
             at: 0,
             unknowns: if against.is_some() { 1 } else { 3 },
             slip_friction: -mu * against.unwrap_or(DVec2::ZERO),
-            bias: [centripetal, 0.0, turning],
+            bias: contact.bends(radius, balls, n),
         }
     }
 
