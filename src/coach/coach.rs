@@ -169,15 +169,17 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     pool.truncate(1 + ALTERNATIVES);
     // Another stream than that of the search, whatever its seed.
     let seed = request.seed ^ 0x6a75_6467_6521_u64.rotate_left(17);
-    let attempts = Draws::independent(ATTEMPTS, task.worlds, seed);
+    // Drawn by whoever is the first to need them: where there is no time for them, neither is there for their drawing.
+    let attempts: Vec<OnceLock<Draws>> = (0..ATTEMPTS).step_by(PIECE).map(|_| OnceLock::new()).collect();
     let pieces: Vec<(usize, usize)> = (0..pool.len())
         .flat_map(|index| {
             let count = if index == 0 { ATTEMPTS } else { ATTEMPTS_AT_ALTERNATIVE };
-            (0..count).step_by(PIECE).map(move |from| (index, from))
+            (0..count / PIECE).map(move |piece| (index, piece))
         })
         .collect();
-    let made = parallel::map(request.threads, &pieces, |(index, from)| {
-        task.attempts(&pool[*index].shot.cue, attempts.range(*from, from + PIECE))
+    let made = parallel::map(request.threads, &pieces, |(index, piece)| {
+        let own = || Draws::independent(PIECE, task.worlds, seed.wrapping_add(*piece as u64));
+        task.attempts(&pool[*index].shot.cue, attempts[*piece].get_or_init(own).iter())
     });
     let probability = |candidate: usize| {
         let own = pieces.iter().zip(&made).filter(|((index, _), _)| *index == candidate);
@@ -211,7 +213,7 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
 
 /// What misses a shot by itself; `None` where nothing is in doubt, or time runs out.
 fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Risk> {
-    if task.worlds.is_certain() {
+    if task.worlds.is_certain() || task.clock.is_past(task.until) {
         return None;
     }
     let missed = parallel::map(request.threads.min(Cause::ALL.len()), &Cause::ALL, |cause| {

@@ -34,7 +34,7 @@ pub struct Draw<'a> {
 }
 
 /// Many attempts.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Draws {
     errors: Vec<Errors>,
     /// One an attempt, or none at all where nothing is in doubt.
@@ -48,19 +48,6 @@ impl Draws {
         let real = |_| worlds.draw(|| errors::normal(&mut rng));
         let worlds = if worlds.is_certain() { Vec::new() } else { (0..count).map(real).collect() };
         Self { errors: errors::independent(count, seed), worlds }
-    }
-
-    /// Attempts that cover what may happen more evenly than chance, for comparing shots on the same attempts; the hand's
-    /// errors are `wide` times as large.
-    pub fn spread(count: usize, wide: f64, worlds: &Worlds, seed: u64) -> Self {
-        let mut streams = Streams::new(seed ^ WORLDS);
-        let real = |n| {
-            let mut stream = 0..;
-            worlds.draw(|| streams.number(stream.next().unwrap_or_default(), n))
-        };
-        let worlds = if worlds.is_certain() { Vec::new() } else { (0..count).map(real).collect() };
-        let wider = |errors: Errors| errors.map(|error| wide * error);
-        Self { errors: errors::spread(count, seed).into_iter().map(wider).collect(), worlds }
     }
 
     /// Those in this range, fewer where there are not so many.
@@ -77,6 +64,41 @@ impl Draws {
     /// How many there are.
     pub const fn len(&self) -> usize {
         self.errors.len()
+    }
+}
+
+/// Attempts that cover what may happen more evenly than chance, for comparing shots on the same attempts. They are drawn when they
+/// are first needed: a search with little time ends before most of them.
+#[derive(Debug)]
+pub struct Spread {
+    errors: Vec<Errors>,
+    streams: Streams,
+    drawn: Draws,
+}
+
+impl Spread {
+    /// At most so many, at hand's errors that are `wide` times as large as the player's.
+    pub fn new(most: usize, wide: f64, seed: u64) -> Self {
+        let wider = |errors: Errors| errors.map(|error| wide * error);
+        let errors = errors::spread(most, seed).into_iter().map(wider).collect();
+        Self { errors, streams: Streams::new(seed ^ WORLDS), drawn: Draws::default() }
+    }
+
+    /// Draws them up to the `count`th.
+    pub fn reach(&mut self, worlds: &Worlds, count: usize) {
+        for n in self.drawn.len()..count.min(self.errors.len()) {
+            self.drawn.errors.push(self.errors[n]);
+            if !worlds.is_certain() {
+                let mut stream = 0..;
+                let number = || self.streams.number(stream.next().unwrap_or_default(), n);
+                self.drawn.worlds.push(worlds.draw(number));
+            }
+        }
+    }
+
+    /// Those that are drawn.
+    pub const fn drawn(&self) -> &Draws {
+        &self.drawn
     }
 }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     Doubt, Input,
-    draws::{Draws, World, Worlds},
+    draws::{Spread, World, Worlds},
     parallel,
 };
 use crate::{
@@ -81,8 +81,9 @@ impl<'a> Sensitivity<'a> {
     /// That of strokes on this table, from where the balls lie. Where there is a doubt, they are tried in worlds that are drawn
     /// from it; tables that lean are not among them, as in the search.
     pub fn new(rule: Rule, table: &'a Table, layout: &'a Layout, doubt: Doubt) -> Self {
-        let draws = Draws::spread(WORLDS, 1.0, &Worlds::level(table, layout, doubt), SEED);
-        let worlds = draws.iter().filter_map(|draw| draw.world.cloned()).collect();
+        let mut spread = Spread::new(WORLDS, 1.0, SEED);
+        spread.reach(&Worlds::level(table, layout, doubt), WORLDS);
+        let worlds = spread.drawn().iter().filter_map(|draw| draw.world.cloned()).collect();
         Self { point: Point::of(rule, table, layout), table, layout, worlds }
     }
 

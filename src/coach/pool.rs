@@ -3,7 +3,7 @@
 use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED, towards},
-    draws::{Draws, Worlds},
+    draws::{Spread, Worlds},
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
@@ -28,22 +28,25 @@ const HARDER: f64 = 2.0;
 /// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
 #[derive(Debug)]
 pub struct Race {
-    own: Draws,
-    larger: Draws,
+    own: Spread,
+    larger: Spread,
 }
 
 impl Race {
-    /// With so many errors at most, a multiple of four, each in one of the worlds.
-    pub fn new(count: usize, worlds: &Worlds, seed: u64) -> Self {
-        Self {
-            own: Draws::spread(count / 4 * 3, 1.0, worlds, seed),
-            larger: Draws::spread(count / 4, WIDE, worlds, !seed),
-        }
+    /// With so many errors at most, a multiple of four.
+    pub fn new(most: usize, seed: u64) -> Self {
+        Self { own: Spread::new(most / 4 * 3, 1.0, seed), larger: Spread::new(most / 4, WIDE, !seed) }
+    }
+
+    /// Makes sure that candidates can be tried at so many errors, a multiple of four, each in one of the worlds.
+    pub fn reach(&mut self, worlds: &Worlds, count: usize) {
+        self.own.reach(worlds, count / 4 * 3);
+        self.larger.reach(worlds, count / 4);
     }
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
     pub fn look_ahead(&self, task: &Task, candidate: &Candidate) -> Option<Candidate> {
-        let next = NextValue::Known(next_value(task, &candidate.shot.cue, &self.own)?);
+        let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own.drawn())?);
         Some(Candidate { next, ..*candidate })
     }
 
@@ -52,11 +55,11 @@ impl Race {
         let mut after = *candidate;
         while after.tried < count {
             let block = after.tried / 4;
-            if block >= self.larger.len() {
+            if block >= self.larger.drawn().len() {
                 break;
             }
-            let own = task.all_attempts(&after.shot.cue, self.own.range(3 * block, 3 * block + 3), 3)?;
-            let larger = task.all_attempts(&after.shot.cue, self.larger.range(block, block + 1), 1)?;
+            let own = task.all_attempts(&after.shot.cue, self.own.drawn().range(3 * block, 3 * block + 3), 3)?;
+            let larger = task.all_attempts(&after.shot.cue, self.larger.drawn().range(block, block + 1), 1)?;
             after.made += own.made;
             after.wide += larger.made;
             for (input, sum) in after.drift.iter_mut().enumerate() {

@@ -32,11 +32,11 @@ const STRETCHES: [f64; 2] = [1.0, 2.0];
 
 /// Shares of what is left of the budget when the search begins, after which the sampling and the refinement end. The
 /// rest is for judging the answer.
-const SAMPLING_ENDS: f64 = 0.4;
+const SAMPLING_ENDS: f64 = 0.5;
 const REFINEMENT_ENDS: f64 = 0.88;
 
 /// Shots of the first round of sampling; each later one has twice as many, up to [`LARGEST_BATCH`].
-const FIRST_BATCH: usize = 512;
+const FIRST_BATCH: usize = 256;
 const LARGEST_BATCH: usize = 4096;
 
 /// How much softer than the softest shot that has made the point the net's strokes may be, and the speed from which on all are
@@ -50,12 +50,34 @@ const ELEVATED_TRIED: [usize; 2] = [8, 64];
 const ROUNDS_OF_ELEVATED: usize = 3;
 const GOOD_WITHOUT: f64 = 0.9;
 
-/// Shots that leave the sampling, and then the race, besides the best of each kind.
+/// Shots that leave the sampling, besides the best of each kind.
 const SHORTLIST: usize = 128;
-const LEADERS: usize = 10;
 
-/// Shots of each kind that stay in, however they stand.
+/// Places for shots that go on to a later stage, besides the best of each kind.
+struct Places {
+    most: usize,
+    fewest: usize,
+    /// What each takes of the simulations that are left then: where there are few, they go to the better shots.
+    simulations: f64,
+}
+
+impl Places {
+    fn within(&self, simulations: f64) -> usize {
+        ((simulations / self.simulations) as usize).clamp(self.fewest, self.most)
+    }
+}
+
+/// Those after the second look, and those in the refinement.
+const FAVOURITES: Places = Places { most: 64, fewest: 8, simulations: 160.0 };
+const LEADERS: Places = Places { most: 10, fewest: 3, simulations: 640.0 };
+
+/// Shots of each kind that stay in, however they stand, where all leaders have a place; one where there are fewer.
 const OF_EACH_KIND: usize = 3;
+
+/// Whoever is this far behind after the first look is not looked at twice: behind the best of all that were drawn, one in so many, but
+/// at least the fewest favourites and at most half of the shortlist.
+const FAR_BEHIND: f64 = 0.1;
+const DRAWN_FOR_ONE: usize = 100;
 
 /// What a unit of effort costs in a shot's score: a player is not to strike with all force and a raised cue for the last
 /// percent. In a plan it only decides between equals: where runs of
@@ -77,6 +99,8 @@ pub struct Search<'a> {
     plan: bool,
     race: Race,
     pool: Vec<Candidate>,
+    /// How many lead.
+    leaders: usize,
 }
 
 impl<'a> Search<'a> {
@@ -84,11 +108,11 @@ impl<'a> Search<'a> {
     /// now.
     pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let race = Race::new(MOST_ERRORS, task.worlds, rng.random());
+        let race = Race::new(MOST_ERRORS, rng.random());
         let begins = task.clock.used().min(1.0);
         let [sampling_ends, refinement_ends] =
             [SAMPLING_ENDS, REFINEMENT_ENDS].map(|share| begins + share * (1.0 - begins));
-        Self { task, threads, sampling_ends, refinement_ends, rng, plan, race, pool: Vec::new() }
+        Self { task, threads, sampling_ends, refinement_ends, rng, plan, race, pool: Vec::new(), leaders: LEADERS.most }
     }
 
     /// Looks for shots, starting from those that were `found` to make the point and from variations of `proposals`; the best
@@ -102,6 +126,7 @@ impl<'a> Search<'a> {
         self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
         let found: Vec<_> = found.iter().map(|(shot, course)| Candidate::of(*shot, course, weight)).collect();
+        self.race.reach(self.task.worlds, SECOND_LOOK);
         self.pool = self.raced(&found, SECOND_LOOK);
         self.sample(proposals, tell);
         self.task.until = self.task.clock.moment(self.refinement_ends);
@@ -121,7 +146,7 @@ impl<'a> Search<'a> {
         let (mut drawn, mut batch, mut softest, mut rounds) = (0, FIRST_BATCH, MIN_SPEED, 0);
         while self.task.clock.used() < self.sampling_ends || drawn == 0 {
             shots.extend((0..batch as u64).map(|n| Suggestion {
-                cue: stratified(table, self.task.layout, drawn + n, softest, &mut self.rng),
+                cue: stratified(table, self.task.layout, self.task.rule, drawn + n, softest, &mut self.rng),
                 source: Source::Search,
             }));
             keep(&mut self.pool, SHORTLIST, OF_EACH_KIND);
@@ -130,7 +155,7 @@ impl<'a> Search<'a> {
             drawn += batch as u64;
             batch = (2 * batch).min(LARGEST_BATCH);
             rounds += 1;
-            self.sample_batch(&shots);
+            self.sample_batch(&shots, drawn as usize);
             let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
             softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
             shots.clear();
@@ -154,10 +179,10 @@ impl<'a> Search<'a> {
         if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }
 
-    /// Judges the net's catch.
-    fn sample_batch(&mut self, shots: &[Suggestion]) {
-        // Who does not come near those who stay in is not looked at twice.
-        let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
+    /// Judges the net's catch, when so many have been drawn in all.
+    fn sample_batch(&mut self, shots: &[Suggestion], drawn: usize) {
+        let last = (drawn / DRAWN_FOR_ONE).clamp(FAVOURITES.fewest, SHORTLIST / 2);
+        let bar = self.pool.get(last).map_or(0.0, |candidate| candidate.score() - FAR_BEHIND);
         let (task, race, weight) = (&self.task, &self.race, self.weight());
         let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
         let judge = |shot: &Suggestion| {
@@ -173,8 +198,12 @@ impl<'a> Search<'a> {
 
     /// Tries the best at more errors, the best of those at more still.
     fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
-        for (errors, best) in [(SECOND_LOOK, 64), (THIRD_LOOK, LEADERS)] {
-            keep(&mut self.pool, 2 * best, OF_EACH_KIND);
+        let left = self.simulations_left();
+        self.leaders = LEADERS.within(left);
+        let of_each = if self.leaders == LEADERS.most { OF_EACH_KIND } else { 1 };
+        for (errors, best) in [(SECOND_LOOK, FAVOURITES.within(left)), (THIRD_LOOK, self.leaders)] {
+            self.race.reach(self.task.worlds, errors);
+            keep(&mut self.pool, 2 * best, of_each);
             self.pool = self.raced(&self.pool, errors);
             let steps: Vec<_> = self.pool.iter().map(|parent| (*parent, parent.middle(&self.task, 1.0))).collect();
             let found = parallel::map(self.threads, &steps, |(parent, cue)| self.beside(parent, *cue, errors));
@@ -182,9 +211,15 @@ impl<'a> Search<'a> {
             if self.plan && errors == SECOND_LOOK {
                 self.look_ahead();
             }
-            keep(&mut self.pool, best, OF_EACH_KIND);
+            keep(&mut self.pool, best, of_each);
             self.tell(tell);
         }
+    }
+
+    /// The simulations that fit in before the refinement ends, as far as is known by now.
+    fn simulations_left(&self) -> f64 {
+        let used = self.task.clock.used();
+        self.task.clock.simulations() as f64 * (self.refinement_ends / used - 1.0).max(0.0)
     }
 
     /// Finds out how easy the next point is after each of the pool.
@@ -220,8 +255,9 @@ impl<'a> Search<'a> {
             }
             stage = STAGES.iter().rposition(|(_, begins, _)| progress >= *begins).unwrap_or(0).max(stage);
             let (errors, _, neighbours) = STAGES[stage];
+            self.race.reach(self.task.worlds, errors);
             self.pool = self.raced(&self.pool, errors);
-            keep(&mut self.pool, LEADERS, 1);
+            keep(&mut self.pool, self.leaders, 1);
             let scale = 1.0 - 0.8 * progress.max(0.0);
             let mut tries = Vec::with_capacity(self.pool.len() * neighbours);
             for parent in &self.pool {
@@ -232,7 +268,7 @@ impl<'a> Search<'a> {
             }
             let found = parallel::map(self.threads, &tries, |(parent, cue)| self.beside(parent, *cue, errors));
             self.pool.extend(found.into_iter().flatten());
-            keep(&mut self.pool, LEADERS, 1);
+            keep(&mut self.pool, self.leaders, 1);
             self.tell(tell);
         }
     }
