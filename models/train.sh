@@ -1,8 +1,8 @@
 #!/bin/sh
 # Trains the bundled policies again: models/train.sh [FOLDER] [PROGRAM]. The same seed gives the same weights on the same machine
-# with the same version. All of it takes about ten hours of a shared core. The bundled files for match began
-# from networks that a version before this one had trained; their first rounds were played without the cue's room, and all but
-# the last two (three cushions: six) with balls that stay on the cloth.
+# with the same version. All of it takes about twelve hours of a shared core. The bundled files for match began from networks that a
+# version before this one had trained; their first rounds were played without the cue's room, and those up to match-r3-third,
+# match-one-cushion-second and match-three-cushion-second with balls that stay on the cloth.
 set -eu
 folder=${1:-runs}
 carom=${2:-carom}
@@ -23,11 +23,11 @@ train match-r3-first --from "$folder/textbook-r3" --table match --seed 11 --step
 train match-r3-second --from "$folder/match-r3-first" --seed 21 --steps 3000000
 train match-r3-third --from "$folder/match-r3-second" --seed 31 --steps 5000000
 train match-r3-fourth --from "$folder/match-r3-third" --seed 41 --steps 2500000
-train match-r3 --from "$folder/match-r3-fourth" --seed 51 --steps 3000000
+train match-r3-fifth --from "$folder/match-r3-fourth" --seed 51 --steps 3000000
 train match-one-cushion-first --from "$folder/textbook-one-cushion" --table match --seed 12 --steps 1500000
 train match-one-cushion-second --from "$folder/match-one-cushion-first" --seed 22 --steps 3000000
 train match-one-cushion-third --from "$folder/match-one-cushion-second" --seed 42 --steps 2000000
-train match-one-cushion --from "$folder/match-one-cushion-third" --seed 52 --steps 3000000
+train match-one-cushion-fourth --from "$folder/match-one-cushion-third" --seed 52 --steps 3000000
 train match-three-cushion-first --table match --reward three-cushion --seed 1 --steps 8000000
 train match-three-cushion-second --from "$folder/match-three-cushion-first" --seed 2 --steps 6000000 --set critic_chooses=0.6 --set "$near"
 train match-three-cushion-third --from "$folder/match-three-cushion-second" --seed 43 --steps 4000000
@@ -36,15 +36,20 @@ train match-three-cushion-fifth --from "$folder/match-three-cushion-fourth" --se
 train thesis-r3 --table thesis --reward r3 --seed 1 --steps 4000000
 train thesis-one-cushion --table thesis --reward one-cushion --seed 1 --steps 3000000
 train thesis-three-cushion-first --table thesis --reward three-cushion --seed 1 --steps 2500000
-# Three cushions: some of the shots are the networks' own best proposals, and no output goes on to where the squashing is flat. The
-# learning rates begin lower each time. Two of the runs were stopped by hand, after 6,628,992 and 11,251,584 shots.
+# Last rounds, but for two files for thesis: some of the shots are the networks' own best proposals, and no output goes on to where the
+# squashing is flat. The learning rates begin lower each time. Two of the runs were stopped by hand, after 6,628,992 and 11,251,584 shots.
 match="--set ranking=0.4 --set saturation_penalty=0.1"
 thesis="--set ranking=0.3 --set saturation_penalty=0.1"
 lower="--set critic_learning_rate=0.0011 --set actor_learning_rate=0.0003"
 lowest="--set critic_learning_rate=0.0008 --set actor_learning_rate=0.00025"
+train match-r3-sixth --from "$folder/match-r3-fifth" --seed 61 --steps 6000000 $match
+train match-r3 --from "$folder/match-r3-sixth" --seed 63 --steps 5000000 $lower
+train match-one-cushion-fifth --from "$folder/match-one-cushion-fourth" --seed 62 --steps 6000000 $match
+train match-one-cushion --from "$folder/match-one-cushion-fifth" --seed 64 --steps 3500000 $lower
 train match-three-cushion-sixth --from "$folder/match-three-cushion-fifth" --seed 93 --steps 16000000 $match
 train match-three-cushion-seventh --from "$folder/match-three-cushion-sixth" --seed 95 --steps 5000000 $lower
-train match-three-cushion --from "$folder/match-three-cushion-seventh" --seed 97 --steps 4000000 $lowest
+train match-three-cushion-eighth --from "$folder/match-three-cushion-seventh" --seed 97 --steps 4000000 $lowest
+train match-three-cushion --from "$folder/match-three-cushion-eighth" --seed 99 --steps 4000000 $lowest
 train thesis-three-cushion-second --from "$folder/thesis-three-cushion-first" --seed 92 --steps 30000000 $thesis
 train thesis-three-cushion-third --from "$folder/thesis-three-cushion-second" --seed 94 --steps 5500000 $lower
 train thesis-three-cushion --from "$folder/thesis-three-cushion-third" --seed 96 --steps 4000000 $lowest
@@ -56,6 +61,6 @@ wide="exploration={ noise = [0.015, 0.05, 0.2], uniform = 0.05 }"
 # Stopped by hand after 1,239,360 shots.
 context context-three-cushion-first --from "$folder/match-three-cushion-fifth" --seed 72 --steps 3500000 --set "$wide"
 context context-three-cushion --from "$folder/context-three-cushion-first" --seed 81 --steps 17000000 --set critic_learning_rate=0.0012
-context context-r3 --from "$folder/match-r3" --seed 82 --steps 8000000 --set critic_learning_rate=0.0012
+context context-r3 --from "$folder/match-r3-fifth" --seed 82 --steps 8000000 --set critic_learning_rate=0.0012
 # Stopped by hand after 4,570,176 shots.
-context context-one-cushion --from "$folder/match-one-cushion" --seed 83 --steps 5500000 --set critic_learning_rate=0.0012
+context context-one-cushion --from "$folder/match-one-cushion-fourth" --seed 83 --steps 5500000 --set critic_learning_rate=0.0012

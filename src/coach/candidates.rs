@@ -30,14 +30,15 @@ pub const MAX_ELEVATION: f64 = PI / 6.0;
 pub const TIP_SHARE: f64 = 0.98;
 
 /// How usual strokes are spread, mean and standard deviation: how far beside an object ball's centre their line of aim passes, in
-/// diameters; the tip's side and height, in R, of which four of five follow and one of thirty draws; the logarithm of the speed in
-/// m/s. So are those that players make most often, by what long searches found on `match` for beginners, club players and world-class
-/// ones (950 layouts, 40,000 and 60,000 simulations each). The players differ little, the rules in speed alone.
-const USUAL_OFFSET: [f64; 2] = [0.6, 0.18];
-const USUAL_SIDE: [f64; 2] = [0.0, 0.22];
-const USUAL_HEIGHT: [f64; 2] = [0.24, 0.15];
-const USUAL_LOG_SPEED: [f64; 2] = [0.6, 0.5];
+/// diameters, and the logarithm of the speed in m/s. So are those that players make most often, by what long searches found on `match`
+/// for beginners, club players and world-class ones (1,100 layouts, 40,000 and 60,000 simulations each). The players differ little, the
+/// rules in speed alone.
+const USUAL_OFFSET: [f64; 2] = [0.6, 0.2];
+const USUAL_LOG_SPEED: [f64; 2] = [0.7, 0.6];
 const USUAL_LOG_SPEED_AT_THREE_CUSHIONS: [f64; 2] = [0.95, 0.42];
+
+/// Lowest tip of a usual stroke, in R: one of thirty of those shots is struck lower.
+const LOWEST_USUAL: f64 = -0.1;
 
 /// The thesis' way out where the policy's shot misses (its 5.1): the same direction and speed, another tip position and
 /// elevation.
@@ -61,11 +62,11 @@ pub fn anything(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) ->
 }
 
 /// The wide net: the `n`th of a series of shots in which every ten are eight at an object ball, four at either; one at an object
-/// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Of fifty the first ten are of any kind:
+/// ball's image in a cushion, which comes off that cushion to it; and one anywhere. Of fifty the first twenty are of any kind:
 /// their thicknesses are all alike, their tips fill the disc, and their speeds, from `softest` on, are alike in their logarithm, as errors
-/// of the speed are a share of it. The others are spread as usual strokes are. The cue is level, for a player lifts it only with a reason. Of a
-/// club player's three-cushion shots 28 % were made that were found within 5,000 simulations where all were of any kind, 29.5 % among
-/// these (300 layouts).
+/// of the speed are a share of it. The others are spread as usual strokes are. The cue is level, for a player lifts it only with a
+/// reason. Together with fewer places in the later stages where there is little time, usual strokes raise what a club player makes of
+/// three-cushion shots that were looked for in 30 ms from 25.3 to 27.8 % (200 layouts).
 pub fn stratified(
     table: &Table,
     layout: &Layout,
@@ -76,7 +77,7 @@ pub fn stratified(
 ) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let target = if n.is_multiple_of(2) { first } else { second };
-    let is_usual = !(n / 10).is_multiple_of(5);
+    let is_usual = n / 10 % 5 >= 2;
     let phi = match n % 10 {
         0..8 if is_usual => beside(table, cue_ball, target, usual_offset(rng)),
         0..8 => at(table, cue_ball, target, rng),
@@ -108,9 +109,10 @@ fn usual_offset(rng: &mut Xoshiro256PlusPlus) -> f64 {
     if rng.random() { offset } else { -offset }
 }
 
-/// The tip's place in a usual stroke.
+/// The tip's place in a usual stroke: what would be lower is as far above the centre.
 fn usual_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
-    within_limit(table, 0.0, usual(USUAL_SIDE, rng), usual(USUAL_HEIGHT, rng))
+    let (a, b) = random_tip(table, rng);
+    (a, if b < LOWEST_USUAL { -b } else { b })
 }
 
 /// The speed of a usual stroke, m/s.
@@ -190,7 +192,7 @@ mod tests {
     use rand::SeedableRng;
 
     #[test]
-    fn one_stroke_in_five_of_the_wide_net_is_of_any_kind() {
+    fn two_strokes_in_five_of_the_wide_net_are_of_any_kind() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
         let table = Table::default();
         let layout = Layout::opening(&table);
@@ -199,9 +201,9 @@ mod tests {
         let share = |is: fn(&CueInputs) -> bool| strokes.iter().filter(|cue| is(cue)).count() as f64 / 20_000.0;
         // The part of the disc below a third of R has 11 % of it, and 30 % of the speeds' logarithms lie below 0.9 m/s.
         let [low, soft] = [share(|cue| cue.b < -0.33), share(|cue| cue.speed < 0.9)];
-        assert!((0.01..0.04).contains(&low) && (0.05..0.09).contains(&soft), "{low} {soft}");
+        assert!((0.03..0.06).contains(&low) && (0.11..0.15).contains(&soft), "{low} {soft}");
         let follow = share(|cue| cue.b > 0.1);
-        assert!((0.6..0.8).contains(&follow), "{follow}");
+        assert!((0.5..0.7).contains(&follow), "{follow}");
     }
 
     #[test]

@@ -74,11 +74,6 @@ const LEADERS: Places = Places { most: 10, fewest: 3, simulations: 640.0 };
 /// Shots of each kind that stay in, however they stand, where all leaders have a place; one where there are fewer.
 const OF_EACH_KIND: usize = 3;
 
-/// Whoever is this far behind after the first look is not looked at twice: behind the best of all that were drawn, one in so many, but
-/// at least the fewest favourites and at most half of the shortlist.
-const FAR_BEHIND: f64 = 0.1;
-const DRAWN_FOR_ONE: usize = 100;
-
 /// What a unit of effort costs in a shot's score: a player is not to strike with all force and a raised cue for the last
 /// percent. In a plan it only decides between equals: where runs of
 /// hundreds of points are at stake, layouts differ by less than a thousandth.
@@ -155,7 +150,7 @@ impl<'a> Search<'a> {
             drawn += batch as u64;
             batch = (2 * batch).min(LARGEST_BATCH);
             rounds += 1;
-            self.sample_batch(&shots, drawn as usize);
+            self.sample_batch(&shots);
             let speeds = self.pool.iter().map(|candidate| candidate.shot.cue.speed);
             softest = (SOFTER * speeds.fold(f64::INFINITY, f64::min)).clamp(MIN_SPEED, SOFT);
             shots.clear();
@@ -179,10 +174,10 @@ impl<'a> Search<'a> {
         if self.plan { EFFORT_PENALTY_IN_A_PLAN } else { EFFORT_PENALTY }
     }
 
-    /// Judges the net's catch, when so many have been drawn in all.
-    fn sample_batch(&mut self, shots: &[Suggestion], drawn: usize) {
-        let last = (drawn / DRAWN_FOR_ONE).clamp(FAVOURITES.fewest, SHORTLIST / 2);
-        let bar = self.pool.get(last).map_or(0.0, |candidate| candidate.score() - FAR_BEHIND);
+    /// Judges the net's catch.
+    fn sample_batch(&mut self, shots: &[Suggestion]) {
+        // Who does not come near those who stay in is not looked at twice.
+        let bar = self.pool.get(SHORTLIST / 2).map_or(0.0, |candidate| candidate.score() - 0.2);
         let (task, race, weight) = (&self.task, &self.race, self.weight());
         let pieces: Vec<&[Suggestion]> = shots.chunks(PIECE).collect();
         let judge = |shot: &Suggestion| {
