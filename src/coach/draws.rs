@@ -67,17 +67,17 @@ impl Draws {
     }
 }
 
-/// Attempts that cover what may happen more evenly than chance, for comparing shots on the same attempts. They are drawn when they
-/// are first needed: a search with little time ends before most of them.
+/// Attempts from quasi-random sequences, which cover what may happen more evenly than chance, for comparing shots on the same
+/// attempts. They are drawn when they are first needed: a search with little time ends before most of them.
 #[derive(Debug)]
-pub struct Spread {
+pub struct QuasiRandomDraws {
     errors: Vec<Errors>,
     streams: Streams,
     drawn: Draws,
 }
 
-impl Spread {
-    /// At most so many, at hand's errors that are `wide` times as large as the player's.
+impl QuasiRandomDraws {
+    /// At most so many, at a hand's errors that are `wide` times as large as the player's.
     pub fn new(most: usize, wide: f64, seed: u64) -> Self {
         let wider = |errors: Errors| errors.map(|error| wide * error);
         let errors = errors::spread(most, seed).into_iter().map(wider).collect();
@@ -85,7 +85,7 @@ impl Spread {
     }
 
     /// Draws them up to the `count`th.
-    pub fn reach(&mut self, worlds: &Worlds, count: usize) {
+    pub fn extend_to(&mut self, worlds: &Worlds, count: usize) {
         for n in self.drawn.len()..count.min(self.errors.len()) {
             self.drawn.errors.push(self.errors[n]);
             if !worlds.is_certain() {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     Doubt, Input,
-    draws::{Spread, World, Worlds},
+    draws::{QuasiRandomDraws, World, Worlds},
     parallel,
 };
 use crate::{
@@ -81,9 +81,9 @@ impl<'a> Sensitivity<'a> {
     /// That of strokes on this table, from where the balls lie. Where there is a doubt, they are tried in worlds that are drawn
     /// from it; tables that lean are not among them, as in the search.
     pub fn new(rule: Rule, table: &'a Table, layout: &'a Layout, doubt: Doubt) -> Self {
-        let mut spread = Spread::new(WORLDS, 1.0, SEED);
-        spread.reach(&Worlds::level(table, layout, doubt), WORLDS);
-        let worlds = spread.drawn().iter().filter_map(|draw| draw.world.cloned()).collect();
+        let mut draws = QuasiRandomDraws::new(WORLDS, 1.0, SEED);
+        draws.extend_to(&Worlds::level(table, layout, doubt), WORLDS);
+        let worlds = draws.drawn().iter().filter_map(|draw| draw.world.cloned()).collect();
         Self { point: Point::of(rule, table, layout), table, layout, worlds }
     }
 

@@ -3,7 +3,7 @@
 use super::{
     Kind, Source, Suggestion,
     candidates::{MAX_ELEVATION, MAX_SPEED, towards},
-    draws::{Spread, Worlds},
+    draws::{QuasiRandomDraws, Worlds},
     next::{NextValue, next_value},
     trial::{Course, Task},
 };
@@ -28,20 +28,23 @@ const HARDER: f64 = 2.0;
 /// The errors that shots are compared on, the same for all of them. Of every four attempts the last is at a larger one.
 #[derive(Debug)]
 pub struct Race {
-    own: Spread,
-    larger: Spread,
+    own: QuasiRandomDraws,
+    larger: QuasiRandomDraws,
 }
 
 impl Race {
     /// With so many errors at most, a multiple of four.
     pub fn new(most: usize, seed: u64) -> Self {
-        Self { own: Spread::new(most / 4 * 3, 1.0, seed), larger: Spread::new(most / 4, WIDE, !seed) }
+        Self {
+            own: QuasiRandomDraws::new(most / 4 * 3, 1.0, seed),
+            larger: QuasiRandomDraws::new(most / 4, WIDE, !seed),
+        }
     }
 
     /// Makes sure that candidates can be tried at so many errors, a multiple of four, each in one of the worlds.
-    pub fn reach(&mut self, worlds: &Worlds, count: usize) {
-        self.own.reach(worlds, count / 4 * 3);
-        self.larger.reach(worlds, count / 4);
+    pub fn extend_to(&mut self, worlds: &Worlds, count: usize) {
+        self.own.extend_to(worlds, count / 4 * 3);
+        self.larger.extend_to(worlds, count / 4);
     }
 
     /// Finds out how easy the next point is after a candidate; `None` where time ran out.
@@ -50,7 +53,7 @@ impl Race {
         Some(Candidate { next, ..*candidate })
     }
 
-    /// Tries a candidate at the errors up to the `count`th, a multiple of four; `None` where time ran out.
+    /// Tries a candidate at the errors up to the `count`th, a multiple of four, as far as they are drawn; `None` where time ran out.
     pub fn go_on(&self, task: &Task, candidate: &Candidate, count: usize) -> Option<Candidate> {
         let mut after = *candidate;
         while after.tried < count {

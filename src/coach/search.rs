@@ -53,25 +53,26 @@ const GOOD_WITHOUT: f64 = 0.9;
 /// Shots that leave the sampling, besides the best of each kind.
 const SHORTLIST: usize = 128;
 
-/// Places for shots that go on to a later stage, besides the best of each kind.
-struct Places {
+/// A stage of successive halving (Jamieson and Talwalkar 2016): how many shots go on to it, besides the best of each kind.
+struct Rung {
     most: usize,
     fewest: usize,
-    /// What each takes of the simulations that are left then: where there are few, they go to the better shots.
+    /// Simulations left for each: where there are few, they go to the better shots.
     simulations: f64,
 }
 
-impl Places {
-    fn within(&self, simulations: f64) -> usize {
-        ((simulations / self.simulations) as usize).clamp(self.fewest, self.most)
+impl Rung {
+    /// How many do when so many simulations are left.
+    fn size(&self, simulations_left: f64) -> usize {
+        ((simulations_left / self.simulations) as usize).clamp(self.fewest, self.most)
     }
 }
 
 /// Those after the second look, and those in the refinement.
-const FAVOURITES: Places = Places { most: 64, fewest: 8, simulations: 160.0 };
-const LEADERS: Places = Places { most: 10, fewest: 3, simulations: 640.0 };
+const FAVOURITES: Rung = Rung { most: 64, fewest: 8, simulations: 160.0 };
+const LEADERS: Rung = Rung { most: 10, fewest: 3, simulations: 640.0 };
 
-/// Shots of each kind that stay in, however they stand, where all leaders have a place; one where there are fewer.
+/// Shots of each kind that stay in, however they stand, where there are as many leaders as can be; one where there are fewer.
 const OF_EACH_KIND: usize = 3;
 
 /// What a unit of effort costs in a shot's score: a player is not to strike with all force and a raised cue for the last
@@ -121,7 +122,7 @@ impl<'a> Search<'a> {
         self.task.until = self.task.clock.moment(self.sampling_ends);
         let weight = self.weight();
         let found: Vec<_> = found.iter().map(|(shot, course)| Candidate::of(*shot, course, weight)).collect();
-        self.race.reach(self.task.worlds, SECOND_LOOK);
+        self.race.extend_to(self.task.worlds, SECOND_LOOK);
         self.pool = self.raced(&found, SECOND_LOOK);
         self.sample(proposals, tell);
         self.task.until = self.task.clock.moment(self.refinement_ends);
@@ -194,10 +195,10 @@ impl<'a> Search<'a> {
     /// Tries the best at more errors, the best of those at more still.
     fn narrow_down(&mut self, tell: &mut dyn FnMut(&Candidate)) {
         let left = self.simulations_left();
-        self.leaders = LEADERS.within(left);
+        self.leaders = LEADERS.size(left);
         let of_each = if self.leaders == LEADERS.most { OF_EACH_KIND } else { 1 };
-        for (errors, best) in [(SECOND_LOOK, FAVOURITES.within(left)), (THIRD_LOOK, self.leaders)] {
-            self.race.reach(self.task.worlds, errors);
+        for (errors, best) in [(SECOND_LOOK, FAVOURITES.size(left)), (THIRD_LOOK, self.leaders)] {
+            self.race.extend_to(self.task.worlds, errors);
             keep(&mut self.pool, 2 * best, of_each);
             self.pool = self.raced(&self.pool, errors);
             let steps: Vec<_> = self.pool.iter().map(|parent| (*parent, parent.middle(&self.task, 1.0))).collect();
@@ -250,7 +251,7 @@ impl<'a> Search<'a> {
             }
             stage = STAGES.iter().rposition(|(_, begins, _)| progress >= *begins).unwrap_or(0).max(stage);
             let (errors, _, neighbours) = STAGES[stage];
-            self.race.reach(self.task.worlds, errors);
+            self.race.extend_to(self.task.worlds, errors);
             self.pool = self.raced(&self.pool, errors);
             keep(&mut self.pool, self.leaders, 1);
             let scale = 1.0 - 0.8 * progress.max(0.0);
