@@ -11,7 +11,6 @@ use super::{
     draws::{Draws, Worlds},
     first::{Attempt, Found},
     next::NextValue,
-    parallel,
     pool::Candidate,
     search::Search,
     trial::{CONTACT_STEPS, ENDLESS, Task},
@@ -20,6 +19,7 @@ use crate::{
     game::Rule,
     learning::{Policy, evaluation::SuccessRate},
     physics::CueInputs,
+    platform::parallel,
     table::{Layout, LayoutError, Table},
 };
 

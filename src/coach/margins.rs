@@ -5,12 +5,11 @@ use serde::Serialize;
 use super::{
     Doubt, Input,
     draws::{QuasiRandomDraws, World, Worlds},
-    parallel,
 };
 use crate::{
     game::{Point, Referee, Rule, Tally},
     physics::{CueInputs, has_room, strike},
-    platform,
+    platform::{self, parallel},
     player::aimed,
     simulation::{All, watch_with},
     table::{Layout, Table},

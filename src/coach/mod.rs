@@ -14,7 +14,6 @@ mod first;
 mod kind;
 mod margins;
 mod next;
-mod parallel;
 mod pool;
 mod request;
 mod risk;

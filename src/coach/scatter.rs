@@ -9,14 +9,13 @@ use super::{
     clock::Clock,
     draws::{Draws, Worlds},
     next::end_of,
-    parallel,
     trial::{CONTACT_STEPS, Task},
 };
 use crate::{
     game::Rule,
     learning::evaluation::SuccessRate,
     physics::CueInputs,
-    platform,
+    platform::{self, parallel},
     table::{Layout, Table},
 };
 

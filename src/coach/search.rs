@@ -8,11 +8,10 @@ use super::{
     candidates::{MIN_SPEED, neighbour, stratified, variation},
     elevated::raised,
     next::NextValue,
-    parallel,
     pool::{Candidate, Race, keep, suppose_the_worst},
     trial::{Course, Task},
 };
-use crate::physics::CueInputs;
+use crate::{physics::CueInputs, platform::parallel};
 
 /// Errors at which shots are tried, each time only those that are still among the better ones: two looks at what the net
 /// has caught, then the stages of the refinement.

@@ -2,6 +2,7 @@
 //!
 //! `unix` is what everything is tested on. `windows` builds; what of it could not be tried is said in `docs/install.md`.
 
+pub mod parallel;
 mod stop;
 #[cfg(unix)]
 #[path = "unix/mod.rs"]

@@ -3,7 +3,6 @@
 use std::{
     io::Write,
     path::Path,
-    sync::atomic::{AtomicUsize, Ordering},
     time::{Duration, Instant},
 };
 
@@ -11,6 +10,7 @@ use super::{TrainOptions, abandon, failure, how_to_go_on, progress::Progress, sp
 use crate::{
     commands::{Failure, output::tell},
     learning::run::{Ending, RunError, seeds::Group},
+    platform::parallel,
     printing,
 };
 
@@ -27,27 +27,14 @@ pub fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<()
 
 fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let seeds: Vec<u64> = group.seeds().collect();
-    let (next, begin) = (AtomicUsize::new(0), Instant::now());
-    // A worker takes seeds until there are none, or until it is stopped. It returns what went wrong, and whether all its
-    // runs are finished.
-    let work = || {
-        let (mut errors, mut finished) = (Vec::new(), true);
-        while let Some(seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let left = options.limit.map(|limit| limit.saturating_sub(begin.elapsed()));
-            if (options.stop)() || left.is_some_and(|left| left.is_zero()) {
-                finished = false;
-                break;
-            }
-            match train_one(group, *seed, left, options) {
-                Ok(done) => finished &= done,
-                Err(error) => errors.push(format!("seed {seed}: {error}")),
-            }
+    let begin = Instant::now();
+    // Whether the seed's run is finished, or what went wrong. Once time is up or somebody asks for an end, no other run is begun.
+    let outcomes = parallel::map(jobs as usize, &seeds, |seed| {
+        let left = options.limit.map(|limit| limit.saturating_sub(begin.elapsed()));
+        if (options.stop)() || left.is_some_and(|left| left.is_zero()) {
+            return Ok(false);
         }
-        (errors, finished)
-    };
-    let outcomes: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs).map(|_| scope.spawn(work)).collect();
-        workers.into_iter().map(std::thread::ScopedJoinHandle::join).collect()
+        train_one(group, *seed, left, options).map_err(|error| format!("seed {seed}: {error}"))
     });
     let spread = group.write_spread().map_err(failure)?;
     if let Some(spread) = spread.filter(|_| options.objective) {
@@ -65,16 +52,8 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
             spread.shots
         )?;
     }
-    let (mut errors, mut finished) = (Vec::new(), true);
-    for outcome in outcomes {
-        match outcome {
-            Ok((wrong, done)) => {
-                errors.extend(wrong);
-                finished &= done;
-            }
-            Err(_) => errors.push("a thread ended in a defect of carom's".to_owned()),
-        }
-    }
+    let finished = outcomes.iter().all(|outcome| *outcome == Ok(true));
+    let errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
     if !errors.is_empty() {
         return Err(Failure::failed(errors.join("; ")));
     }

@@ -4,14 +4,13 @@
 use std::{
     fmt::Write,
     sync::{Mutex, PoisonError},
-    thread,
 };
 
 use super::{
     curves::{Curve, Training, random_play},
     figures::{Figure, Measure},
 };
-use crate::{learning::learner::StartError, table::Table};
+use crate::{learning::learner::StartError, platform::parallel, table::Table};
 
 /// What is to be drawn, and from how long a practice.
 #[derive(Clone, Debug)]
@@ -85,41 +84,33 @@ impl Session {
         hand_over: &mut (dyn FnMut(&Drawn) -> std::io::Result<()> + Send),
     ) -> Result<(), SessionError> {
         let trainings = self.trainings();
-        let shared = Mutex::new(Shared { next: 0, curves: vec![None; trainings.len()], left: self.figures.clone() });
+        let shared = Mutex::new((vec![None; trainings.len()], self.figures.clone()));
         let hand_over = Mutex::new(hand_over);
-        let work = || -> Result<(), SessionError> {
-            loop {
-                let index = {
-                    let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                    shared.next += 1;
-                    shared.next - 1
-                };
-                let Some(training) = trainings.get(index) else { return Ok(()) };
-                let Some(curve) = training.run(&self.table, played)? else { return Ok(()) };
-                let complete = {
-                    let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                    shared.curves[index] = Some(curve);
-                    self.complete(&trainings, &mut shared)
-                };
-                for (figure, curves) in complete {
-                    let random = random_play(&self.table, figure.reward, self.seed);
-                    let mut hand_over = hand_over.lock().unwrap_or_else(PoisonError::into_inner);
-                    hand_over(&Drawn { figure, curves, random })?;
-                }
+        let numbered: Vec<(usize, &Training)> = trainings.iter().enumerate().collect();
+        parallel::try_map(self.threads, &numbered, |(index, training)| {
+            let Some(curve) = training.run(&self.table, played)? else { return Ok(()) };
+            let complete = {
+                let (curves, left) = &mut *shared.lock().unwrap_or_else(PoisonError::into_inner);
+                curves[*index] = Some(curve);
+                self.complete(&trainings, curves, left)
+            };
+            for (figure, curves) in complete {
+                let random = random_play(&self.table, figure.reward, self.seed);
+                let mut hand_over = hand_over.lock().unwrap_or_else(PoisonError::into_inner);
+                hand_over(&Drawn { figure, curves, random })?;
             }
-        };
-        thread::scope(|scope| {
-            let workers: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
-            workers.into_iter().try_for_each(|worker| match worker.join() {
-                Ok(result) => result,
-                Err(panic) => std::panic::resume_unwind(panic),
-            })
+            Ok(())
         })
+        .map(|_| ())
     }
 
     /// Takes those figures off the list whose curves are all there.
-    fn complete(&self, trainings: &[Training], shared: &mut Shared) -> Vec<(Figure, Vec<Curve>)> {
-        let Shared { curves, left, .. } = shared;
+    fn complete(
+        &self,
+        trainings: &[Training],
+        curves: &[Option<Curve>],
+        left: &mut Vec<Figure>,
+    ) -> Vec<(Figure, Vec<Curve>)> {
         let curve =
             |training| trainings.iter().position(|known| *known == training).and_then(|index| curves[index].clone());
         let mut complete = Vec::new();
@@ -130,15 +121,6 @@ impl Session {
         });
         complete
     }
-}
-
-/// What the threads share.
-struct Shared {
-    /// The next training to be taken up.
-    next: usize,
-    curves: Vec<Option<Curve>>,
-    /// Figures that have not been handed over.
-    left: Vec<Figure>,
 }
 
 /// The names of a figure's curves.
