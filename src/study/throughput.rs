@@ -17,7 +17,10 @@ use crate::{
     game::Reward,
     learning::{
         ddpg::{
-            action::Action, agent::Ddpg, hyperparameters::Hyperparameters, observation::Observation,
+            action::Action,
+            agent::{Ddpg, ShotBatch},
+            hyperparameters::Hyperparameters,
+            observation::Observation,
             observation_batch::ObservationBatch,
         },
         nn::mlp::Operations,
@@ -28,6 +31,7 @@ use crate::{
         },
     },
     physics::CueInputs,
+    platform::parallel,
     simulation::Recording,
     table::{Layout, PRESETS, Table},
 };
@@ -153,12 +157,8 @@ fn rate<T, R>(time: Duration, items: &[T], work: impl Fn(&T) -> R) -> f64 {
 
 /// The same on several threads, each of which begins elsewhere in the list.
 fn rate_on<T: Sync, R>(threads: usize, time: Duration, items: &[T], work: impl Fn(&T) -> R + Sync) -> f64 {
-    let work = &work;
-    thread::scope(|scope| {
-        let own = |thread: usize| items.split_at(thread * items.len() / threads).1;
-        let workers: Vec<_> = (0..threads).map(|thread| scope.spawn(move || rate(time, own(thread), work))).collect();
-        workers.into_iter().map(|thread| thread.join().unwrap_or(0.0)).sum()
-    })
+    let starts: Vec<usize> = (0..threads).map(|thread| thread * items.len() / threads).collect();
+    parallel::map(threads, &starts, |start| rate(time, &items[*start..], &work)).into_iter().sum()
 }
 
 /// How the passes of networks are computed, and how that is told.
@@ -225,5 +225,6 @@ fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candl
     let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
     let successes: Vec<f32> = (0..rows).map(|_| f32::from(u8::from(rng.random_bool(0.1)))).collect();
     let mut agent = Ddpg::new(settings, &mut rng)?.with(operations);
-    updates_a_second(time, || agent.update(&observed, &actions, &successes, 1.0))
+    let played = ShotBatch { observed, actions, successes };
+    updates_a_second(time, || agent.update(&played, None, 1.0))
 }

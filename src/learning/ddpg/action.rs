@@ -79,7 +79,7 @@ const OFFSETS: [f64; 2] = [-0.1, 1.0];
 
 /// What -1 and 1 stand for in the second action: cue speed, m/s. The upper end is the thesis' (chapter 4.1); below the
 /// lower one a ball hardly reaches another.
-const SPEEDS: [f64; 2] = [0.3, 6.0];
+pub const SPEEDS: [f64; 2] = [0.3, 6.0];
 
 /// What -1 and 1 stand for in the fifth action: elevation of the cue, rad. The middle is the thesis' 10°.
 const ELEVATIONS: [f64; 2] = [0.0, 20.0 * std::f64::consts::PI / 180.0];
@@ -90,6 +90,11 @@ const TIP_SHARE: f64 = 0.98;
 /// The first action that gives `offset`.
 pub fn aim_at(offset: f64) -> f32 {
     (2.0 * (offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0]) - 1.0) as f32
+}
+
+/// The second action that gives a cue speed, m/s.
+pub fn speed_of(speed: f64) -> f32 {
+    (2.0 * (speed - SPEEDS[0]) / (SPEEDS[1] - SPEEDS[0]) - 1.0) as f32
 }
 
 /// What an action means on a table, with slopes along its numbers.

@@ -4,12 +4,12 @@
 //! no part in the critic's target, for a shot is a whole episode and nothing follows it; they are the averaged weights
 //! that play, are evaluated and are shipped.
 
-use candle_core::{Device, Result, Tensor, bail};
+use candle_core::{DType, Device, Result, Tensor, bail};
 use candle_nn::{Module, Optimizer, ops::sigmoid};
 use rand::Rng;
 
 use super::{
-    action::Action,
+    action::{ACTIONS, Action},
     hyperparameters::Hyperparameters,
     networks::Networks,
     observation_batch::{ObservationBatch, action_rows},
@@ -21,6 +21,37 @@ use crate::learning::nn::{
 
 /// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
 const SATURATED: f64 = 2.0;
+
+/// What counts in the way from one action to another: a tenth of the ball's half decides over a point, of the speed's range it
+/// seldom does.
+const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
+
+/// Shots to learn from.
+#[derive(Clone, Debug)]
+pub struct ShotBatch {
+    /// What was seen.
+    pub observed: ObservationBatch,
+    /// The action that was taken in each observation.
+    pub actions: Vec<Action>,
+    /// The success, 0 to 1, that each had.
+    pub successes: Vec<f32>,
+}
+
+impl ShotBatch {
+    /// Whether there are no shots in it.
+    pub const fn is_empty(&self) -> bool {
+        self.actions.is_empty()
+    }
+
+    fn check(&self) -> Result<()> {
+        let (count, actions, successes) =
+            (self.observed.observations().len(), self.actions.len(), self.successes.len());
+        if actions != count || successes != count {
+            bail!("{count} observations, {actions} actions and {successes} successes are no batch");
+        }
+        Ok(())
+    }
+}
 
 /// What an update reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,27 +116,23 @@ impl Ddpg {
         &self.target
     }
 
-    /// Learns from a batch of shots: `observed`, the action taken in each and the success, 0 to 1, that it had.
+    /// Learns from a batch of shots that were played, and the actor besides from the best strokes that searches have found.
     /// `lr_factor` scales both learning rates.
     ///
     /// # Errors
     /// Where sizes differ, or where the networks no longer give finite numbers.
-    pub fn update(
-        &mut self,
-        observed: &ObservationBatch,
-        actions: &[Action],
-        successes: &[f32],
-        lr_factor: f64,
-    ) -> Result<UpdateStats> {
-        let count = observed.observations().len();
-        if actions.len() != count || successes.len() != count {
-            bail!("{count} observations, {} actions and {} successes are no batch", actions.len(), successes.len());
+    pub fn update(&mut self, played: &ShotBatch, searched: Option<&ShotBatch>, lr_factor: f64) -> Result<UpdateStats> {
+        for batch in [Some(played), searched].into_iter().flatten() {
+            batch.check()?;
         }
-        let loss = self.critic_loss(observed, actions, successes)?;
+        let loss = self.critic_loss(played)?;
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
         self.critic_optimiser.backward_step(&loss)?;
 
-        let (climbed, probability) = self.actor_goal(&observed.first(self.hyper.actor_batch)?)?;
+        let (mut climbed, probability) = self.actor_goal(&played.observed.first(self.hyper.actor_batch)?)?;
+        if let Some(searched) = searched {
+            climbed = (climbed - (self.imitation_loss(searched)? * self.hyper.imitation)?)?;
+        }
         self.actor_optimiser.set_learning_rate(lr_factor * self.hyper.actor_learning_rate);
         self.actor_optimiser.backward_step(&climbed.neg()?)?;
 
@@ -116,20 +143,40 @@ impl Ddpg {
     }
 
     /// The mean cross entropy between the critic's probabilities and what happened.
-    fn critic_loss(&self, observed: &ObservationBatch, actions: &[Action], successes: &[f32]) -> Result<Tensor> {
+    fn critic_loss(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<Tensor> {
         let taken = action_rows(observed.space(), actions)?;
         let successes = Tensor::from_slice(successes, (actions.len(), 1), &Device::Cpu)?;
         let logits = self.online.critic.forward(&observed.with_actions(&taken)?)?;
         mean_cross_entropy(&logits, &successes)
     }
 
+    /// The mean square of the way from searched strokes to the nearest head's, where the critic does not think the head's to be better
+    /// (the filter of Nair et al. 2018).
+    fn imitation_loss(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<Tensor> {
+        let (space, rows) = (observed.space(), actions.len());
+        let used = space.actions();
+        let proposed = self.online.squash(&self.online.actor.forward(observed.states())?)?;
+        let wanted = action_rows(space, actions)?.reshape((rows, 1, used))?;
+        let weights = Tensor::new(&WAY_WEIGHTS[..used], &Device::Cpu)?;
+        let apart =
+            proposed.reshape((rows, (), used))?.broadcast_sub(&wanted)?.sqr()?.broadcast_mul(&weights)?.sum(2)?;
+        let nearest = apart.argmin_keepdim(1)?;
+        let heads = apart.dim(1)?;
+        let first: Vec<u32> = (0..rows).map(|row| (row * heads) as u32).collect();
+        let own = (Tensor::from_vec(first, rows, &Device::Cpu)? + nearest.flatten_all()?)?;
+        let thought =
+            self.online.critic.forward_frozen(&observed.with_actions(&proposed.detach().index_select(&own, 0)?)?)?;
+        let made = Tensor::from_slice(successes, (rows, 1), &Device::Cpu)?;
+        let is_worse = sigmoid(&thought)?.le(&made)?.to_dtype(DType::F32)?;
+        (apart.gather(&nearest, 1)? * is_worse)?.mean_all()
+    }
+
     /// What the actor climbs, from every head's own action (the deterministic policy gradient): the mean of the critic's
     /// probability and of a share of its logit, less what saturated outputs cost; beside it the mean probability.
     fn actor_goal(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
-        let Networks { actor, critic } = &self.online;
-        let outputs = actor.forward(observed.states())?;
-        let actions = outputs.tanh()?.reshape(((), observed.space().actions()))?;
-        let logits = critic.forward_frozen(&observed.with_actions(&actions)?)?;
+        let outputs = self.online.actor.forward(observed.states())?;
+        let actions = self.online.squash(&outputs)?;
+        let logits = self.online.critic.forward_frozen(&observed.with_actions(&actions)?)?;
         let probability = sigmoid(&logits)?.mean_all()?;
         let goal = (&probability + (logits.mean_all()? * self.hyper.logit_weight)?)?;
         if self.hyper.saturation_penalty == 0.0 {
@@ -168,15 +215,15 @@ mod tests {
     #[test]
     fn a_saturated_actor_comes_back_where_that_costs_something() {
         let outputs = |penalty: f64| {
-            let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::Full, 21);
+            let (mut agent, batch) = agent_and_batch(ActionSpace::Full, 21);
             agent.hyper.saturation_penalty = penalty;
             let bias = vec![5.0; agent.hyper.heads * ActionSpace::Full.actions()];
             agent.online.actor = agent.online.actor.duplicate().unwrap().with_output_bias(&bias).unwrap();
             agent = Ddpg::starting_from(agent.online, agent.hyper).unwrap();
             for _ in 0..40 {
-                agent.update(&observed, &actions, &successes, 1.0).unwrap();
+                agent.update(&batch, None, 1.0).unwrap();
             }
-            let outputs = agent.online.actor.forward(observed.states()).unwrap();
+            let outputs = agent.online.actor.forward(batch.observed.states()).unwrap();
             outputs.mean_all().unwrap().to_scalar::<f32>().unwrap()
         };
         let [free, held] = [0.0, 0.1].map(outputs);
@@ -184,7 +231,7 @@ mod tests {
     }
 
     /// An agent with an opinion, and a batch for it.
-    fn agent_and_batch(space: ActionSpace, seed: u64) -> (Ddpg, ObservationBatch, Vec<Action>, Vec<f32>) {
+    fn agent_and_batch(space: ActionSpace, seed: u64) -> (Ddpg, ShotBatch) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let layers = vec![24, 24];
         let hyper = Hyperparameters {
@@ -212,7 +259,8 @@ mod tests {
             (0..20).map(|index| Observation::new(&Layout::random(&table, &mut rng), index % 4)).collect();
         let actions = (0..20).map(|_| std::array::from_fn(|_| rng.random_range(-0.9..0.9))).collect();
         let successes = (0..20).map(|_| f32::from(u8::from(rng.random_bool(0.5)))).collect();
-        (agent, ObservationBatch::on(&table, space, observations).unwrap(), actions, successes)
+        let observed = ObservationBatch::on(&table, space, observations).unwrap();
+        (agent, ShotBatch { observed, actions, successes })
     }
 
     /// How far the slope of `goal` along its own gradient, by moving the parameters, is from the gradient's length; as a share.
@@ -236,15 +284,16 @@ mod tests {
     fn both_gradients_are_slopes_of_what_is_learnt() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
             let errors = (21..26).map(|seed| {
-                let (agent, observed, actions, successes) = agent_and_batch(space, seed);
-                let Networks { actor, critic } = &agent.online;
+                let (agent, batch) = agent_and_batch(space, seed);
+                let Networks { actor, critic, .. } = &agent.online;
                 [
-                    error_of_gradient(critic, || agent.critic_loss(&observed, &actions, &successes).unwrap()),
-                    error_of_gradient(actor, || agent.actor_goal(&observed).unwrap().0),
+                    error_of_gradient(critic, || agent.critic_loss(&batch).unwrap()),
+                    error_of_gradient(actor, || agent.actor_goal(&batch.observed).unwrap().0),
+                    error_of_gradient(actor, || agent.imitation_loss(&batch).unwrap()),
                 ]
             });
             let errors: Vec<_> = errors.collect();
-            for which in 0..2 {
+            for which in 0..3 {
                 // Where a rectified unit happens to be at its kink, the slope is the mean of two.
                 let close = errors.iter().filter(|errors| errors[which] < 0.005).count();
                 assert!(close >= 3 && errors.iter().all(|errors| errors[which] < 0.05), "{space}: {errors:?}");
@@ -254,10 +303,12 @@ mod tests {
 
     #[test]
     fn the_actor_leaves_the_critic_as_it_is() {
-        let (agent, observed, ..) = agent_and_batch(ActionSpace::Full, 21);
-        let gradients = agent.actor_goal(&observed).unwrap().0.backward().unwrap();
-        assert!(gradients.get(agent.online.critic.parameters()).is_none());
-        assert!(gradients.get(agent.online.actor.parameters()).is_some());
+        let (agent, batch) = agent_and_batch(ActionSpace::Full, 21);
+        for goal in [agent.actor_goal(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
+            let gradients = goal.backward().unwrap();
+            assert!(gradients.get(agent.online.critic.parameters()).is_none());
+            assert!(gradients.get(agent.online.actor.parameters()).is_some());
+        }
     }
 
     #[test]
@@ -295,7 +346,7 @@ mod tests {
             let actions: Vec<Action> = (0..128).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
             let miss = |action: &Action| (0..2).map(|k| (action[k] - BEST[k]).powi(2)).sum::<f32>();
             let successes: Vec<f32> = actions.iter().map(|action| (-4.0 * miss(action)).exp()).collect();
-            agent.update(&observed, &actions, &successes, 1.0).unwrap();
+            agent.update(&ShotBatch { observed, actions, successes }, None, 1.0).unwrap();
         }
         let observed = observed(&mut rng);
         let (actions, logits) = agent.target.judge(&observed).unwrap();
@@ -308,8 +359,27 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_head_goes_to_where_a_search_has_been_unless_it_is_better_already() {
+        let (start, batch) = agent_and_batch(ActionSpace::Full, 21);
+        let way = |agent: &Ddpg, batch: &ShotBatch| agent.imitation_loss(batch).unwrap().to_scalar::<f32>().unwrap();
+        let sure = ShotBatch { successes: vec![1.0; batch.actions.len()], ..batch.clone() };
+        assert_eq!(way(&start, &ShotBatch { successes: vec![0.0; batch.actions.len()], ..batch.clone() }), 0.0);
+        let after = |imitation| {
+            let hyper = Hyperparameters { imitation, ..start.hyper.clone() };
+            let mut agent = Ddpg::starting_from(start.online.duplicate().unwrap(), hyper).unwrap();
+            for _ in 0..100 {
+                agent.update(&batch, Some(&sure), 1.0).unwrap();
+            }
+            way(&agent, &sure)
+        };
+        let [before, alone, drawn] = [way(&start, &sure), after(0.0), after(1.0)];
+        assert!(drawn < 0.5 * before && drawn < 0.5 * alone, "{before} before, {alone} alone, {drawn} drawn");
+    }
+
+    #[test]
     fn a_batch_of_unequal_parts_is_refused() {
-        let (mut agent, observed, actions, successes) = agent_and_batch(ActionSpace::PhiV, 21);
-        assert!(agent.update(&observed, &actions[1..], &successes, 1.0).is_err());
+        let (mut agent, batch) = agent_and_batch(ActionSpace::PhiV, 21);
+        let unequal = ShotBatch { actions: batch.actions[1..].to_vec(), ..batch.clone() };
+        assert!(agent.update(&unequal, None, 1.0).is_err() && agent.update(&batch, Some(&unequal), 1.0).is_err());
     }
 }

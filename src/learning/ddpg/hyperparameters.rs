@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{action::ActionSpace, context::Inputs, exploration::Exploration};
+use super::{
+    action::{ActionSpace, SPEEDS},
+    context::Inputs,
+    exploration::Exploration,
+};
 use crate::learning::{
     nn::adam::AdamConfig,
     settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
@@ -22,6 +26,9 @@ pub struct Hyperparameters {
     /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
     /// started apart, each climb their own window, and the critic chooses.
     pub heads: usize,
+    /// Between which cue speeds the strokes of the heads lie, m/s, one after the other and again from the first; none for 0.3 to 6.
+    /// Left to themselves all climb to where they strike with all force: there a bad aim makes most points by luck.
+    pub head_speeds: Vec<[f64; 2]>,
     /// Units of the actor's hidden layers.
     pub actor_layers: Vec<usize>,
     /// Units of the critic's hidden layers.
@@ -58,6 +65,12 @@ pub struct Hyperparameters {
     /// Share of the shots of an update that are not the agent's own but a search's solutions (demonstrations, thesis
     /// 6.1.2). For rewards of points only.
     pub demonstrations: f64,
+    /// Layouts before every update on which a search finds strokes that a player who errs makes often (expert iteration). Each takes
+    /// two thirds of the time of an update and its shots.
+    pub searched: usize,
+    /// Weight of the square of the way from a searched stroke to the nearest head's, while the critic thinks the head's to be the
+    /// worse one: heads that climb from where they began reach few of the strokes that a search finds.
+    pub imitation: f64,
     /// Weight of the logit beside the probability in what the actor climbs: without it there is no slope where the
     /// critic is certain of a miss.
     pub logit_weight: f64,
@@ -78,6 +91,7 @@ impl Default for Hyperparameters {
             context: false,
             closed_form: true,
             heads: 6,
+            head_speeds: Vec::new(),
             actor_layers: vec![256, 256, 256],
             critic_layers: vec![320, 320, 320],
             critic_learning_rate: 1.5e-3,
@@ -93,6 +107,8 @@ impl Default for Hyperparameters {
             replay: 1 << 17,
             hindsight: 0.0,
             demonstrations: 0.0,
+            searched: 0,
+            imitation: 0.0,
             logit_weight: 0.02,
             saturation_penalty: 0.0,
             new_actor: false,
@@ -125,6 +141,11 @@ impl Hyperparameters {
         check_layers("actor_layers", &self.actor_layers)?;
         check_layers("critic_layers", &self.critic_layers)?;
         check("heads", self.heads as f64, (1..=256).contains(&self.heads), "1 to 256")?;
+        for [low, high] in &self.head_speeds {
+            let [least, most] = SPEEDS;
+            check("head_speeds", *low, *low >= least && *low < *high, "0.3 to 6 m/s, the lower one first")?;
+            check("head_speeds", *high, *high <= most, "0.3 to 6 m/s, the lower one first")?;
+        }
         check_batch("batch", self.batch)?;
         check_batch("actor_batch", self.actor_batch)?;
         check_batch("shots_per_update", self.shots_per_update)?;
@@ -138,6 +159,8 @@ impl Hyperparameters {
         check_share("ranking", self.ranking)?;
         check_share("hindsight", self.hindsight)?;
         check_share("demonstrations", self.demonstrations)?;
+        check("searched", self.searched as f64, self.searched <= 1 << 12, "0 to 4096")?;
+        check_share("imitation", self.imitation)?;
         check_share("logit_weight", self.logit_weight)?;
         check_share("saturation_penalty", self.saturation_penalty)?;
         check_share("exploration.uniform", self.exploration.uniform)?;

@@ -43,6 +43,9 @@ pub const AGENT: Agent = Agent {
                 &"hindsight and demonstrations know nothing of drawn tables and errors: use them without context",
             ));
         }
+        if hyperparameters.searched > 0 && !hyperparameters.context {
+            return Err(refuse(&"searches are for players who err: use searched with context = true"));
+        }
         Ok(Box::new(Trainer::new(Task { reward, seed, shots, hyperparameters }, table)?))
     },
     restore: |reader, note| Ok(Box::new(snapshot::read(reader, note)?)),
@@ -130,15 +133,14 @@ impl Learner for Trainer {
             let expected = format!("a network of {expected} units, as the settings say, but {found}");
             Err(WeightsError::Array { name, expected })
         };
-        let adopted = Networks {
-            actor: if self.agent.hyper.new_actor {
-                own.actor.duplicate()?
-            } else {
-                network("actor", Inputs::actor, own.actor.sizes())?
-            },
-            critic: network("critic", Inputs::critic, own.critic.sizes())?,
+        let actor = if self.agent.hyper.new_actor {
+            own.actor.duplicate()?
+        } else {
+            network("actor", Inputs::actor, own.actor.sizes())?
         };
-        self.agent = Ddpg::starting_from(adopted, self.agent.hyper.clone())?;
+        let critic = network("critic", Inputs::critic, own.critic.sizes())?;
+        let hyper = self.agent.hyper.clone();
+        self.agent = Ddpg::starting_from(Networks::new(&hyper, actor, critic)?, hyper)?;
         Ok(())
     }
 }
@@ -160,7 +162,7 @@ mod tests {
         let checkpoint = writer.finish(&note).unwrap();
         let policy = Learner::policy(&teacher, 0.5, "2026-11-20").unwrap().unwrap();
         let weights = |trainer: &Trainer| {
-            let Networks { actor, critic } = trainer.agent.target();
+            let Networks { actor, critic, .. } = trainer.agent.target();
             [actor, critic].map(|network| network.parameters().to_vec1::<f32>().unwrap())
         };
         // A policy has half the digits of a weight, a checkpoint has all.
@@ -240,6 +242,7 @@ mod tests {
         assert_eq!(some["heads"], 2);
         assert!(start(serde_json::json!({ "head": 2 })).unwrap_err().to_string().contains("head"));
         assert!(start(serde_json::json!({ "hindsight": 0.5 })).unwrap_err().to_string().contains("hindsight"));
+        assert!(start(serde_json::json!({ "searched": 1 })).unwrap_err().to_string().contains("context = true"));
         assert!(start(serde_json::json!({ "heads": 0 })).unwrap_err().to_string().contains("heads = 0"));
     }
 }

@@ -7,6 +7,7 @@ use super::{
     action::{Action, aim_at},
     hyperparameters::Hyperparameters,
     observation_batch::{ObservationBatch, actions_in},
+    squash::Squash,
 };
 use crate::learning::nn::mlp::{Mlp, Operations};
 
@@ -20,11 +21,21 @@ pub struct Networks {
     pub actor: Mlp,
     /// From an observation and an action to the logit of success.
     pub critic: Mlp,
+    squash: Squash,
 }
 
 impl Networks {
-    /// New networks: the heads start at offsets spread over the ball, at middle speed and elevation and with tips here and
-    /// there; the critic starts at one half.
+    /// Networks that were made with these settings.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn new(hyper: &Hyperparameters, actor: Mlp, critic: Mlp) -> Result<Self> {
+        let squash = Squash::new(hyper, actor.sizes().last().copied().unwrap_or(0))?;
+        Ok(Self { actor, critic, squash })
+    }
+
+    /// New networks: the heads start at offsets spread over the ball, at the middle of their speeds, at middle elevation and with
+    /// tips here and there; the critic starts at one half.
     ///
     /// # Errors
     /// Whatever candle reports.
@@ -39,10 +50,8 @@ impl Networks {
         let sizes = |inputs, hidden: &[usize], outputs| [&[inputs], hidden, &[outputs]].concat();
         let actor_sizes = sizes(hyper.inputs().actor(), &hyper.actor_layers, hyper.heads * outputs);
         let critic_sizes = sizes(hyper.inputs().critic(), &hyper.critic_layers, 1);
-        Ok(Self {
-            actor: Mlp::random(&actor_sizes, rng)?.with_output_bias(&start)?,
-            critic: Mlp::random(&critic_sizes, rng)?,
-        })
+        let actor = Mlp::random(&actor_sizes, rng)?.with_output_bias(&start)?;
+        Self::new(hyper, actor, Mlp::random(&critic_sizes, rng)?)
     }
 
     /// A copy with its own parameters.
@@ -50,13 +59,14 @@ impl Networks {
     /// # Errors
     /// Whatever candle reports.
     pub fn duplicate(&self) -> Result<Self> {
-        Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()? })
+        let (actor, critic) = (self.actor.duplicate()?, self.critic.duplicate()?);
+        Ok(Self { actor, critic, squash: self.squash.clone() })
     }
 
     /// These networks with other operations.
     #[must_use]
     pub fn with(self, operations: Operations) -> Self {
-        Self { actor: self.actor.with(operations), critic: self.critic.with(operations) }
+        Self { actor: self.actor.with(operations), critic: self.critic.with(operations), ..self }
     }
 
     /// The heads' actions, the heads of an observation one after the other.
@@ -77,7 +87,15 @@ impl Networks {
         Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
     }
 
+    /// The actions that the actor's outputs stand for, a row each; gradients flow to the outputs.
+    ///
+    /// # Errors
+    /// Whatever candle reports.
+    pub fn squash(&self, outputs: &Tensor) -> Result<Tensor> {
+        self.squash.actions(outputs)
+    }
+
     fn propose(&self, observed: &ObservationBatch) -> Result<Tensor> {
-        self.actor.forward_frozen(observed.states())?.tanh()?.reshape(((), observed.space().actions()))
+        self.squash.actions(&self.actor.forward_frozen(observed.states())?)
     }
 }

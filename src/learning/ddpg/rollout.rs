@@ -7,6 +7,7 @@ use rand::RngExt;
 use super::{
     action::Action,
     demonstrations::demonstrate,
+    expert::Expert,
     hindsight::relabel,
     hyperparameters::Hyperparameters,
     networks::Networks,
@@ -14,7 +15,7 @@ use super::{
     observation_batch::ObservationBatch,
     replay::Transition,
     trainer::Trainer,
-    venues::Conditions,
+    venues::{Conditions, Venues},
 };
 use crate::{learning::evaluation::CONTACT_STEPS, table::Layout};
 
@@ -37,6 +38,7 @@ impl Trainer {
         let (shown, own) = scenes.split_at(part(demonstrations, scenes.len()));
         self.add_demonstrations(shown);
         let (chosen, any) = own.split_at(part(critic_chooses, own.len()));
+        self.search()?;
         let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_any(any)?;
         let played = own.len() + ranked.len() * RANKED;
         self.shots += (shown.len() + played) as u64;
@@ -57,6 +59,37 @@ impl Trainer {
                 self.replay.push(shot);
             }
         }
+    }
+
+    /// Looks for the best stroke of a player who errs, on some layouts. It remembers the strokes that went far, and the best among those
+    /// that the actor imitates.
+    fn search(&mut self) -> Result<()> {
+        let count = self.task.hyperparameters.searched;
+        if count == 0 {
+            return Ok(());
+        }
+        let scenes: Vec<Scene> = (0..count)
+            .map(|_| {
+                let (layout, conditions) = self.scene();
+                (layout, Conditions { errors: Venues::errors(&mut self.rng), ..conditions })
+            })
+            .collect();
+        let (observed, actions, _) = self.judged(self.agent.target(), &scenes)?;
+        let heads = actions.len() / observed.observations().len();
+        let proposals: Vec<_> =
+            actions.iter().enumerate().map(|(row, action)| (observed.observations()[row / heads], *action)).collect();
+        for ((layout, conditions), proposals) in scenes.iter().zip(proposals.chunks(OBSERVATIONS * heads)) {
+            let (reward, space, conditions) = (self.task.reward, self.space(), *conditions);
+            let expert = Expert { venues: &self.venues, reward, space, layout, conditions };
+            let strokes = expert.search(proposals, &mut self.rng);
+            if let Some(best) = strokes.first() {
+                self.searched.push(*best);
+            }
+            for stroke in strokes {
+                self.replay.push(stroke);
+            }
+        }
+        Ok(())
     }
 
     /// What networks propose on every layout from every side, with the critic's logits, an observation's heads one after the

@@ -38,6 +38,8 @@ struct TrainerState {
     actor_steps: u32,
     critic_steps: u32,
     replay_next: usize,
+    #[serde(default)]
+    searched_next: usize,
 }
 
 /// Numbers of an observation in a snapshot.
@@ -48,25 +50,17 @@ const OBSERVATION_NUMBERS: usize = 8;
 /// # Errors
 /// Whatever candle or serde reports.
 pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
-    let (agent, replay) = (&trainer.agent, &trainer.replay);
+    let agent = &trainer.agent;
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
         writer.add_network(&format!("{name}.actor"), &networks.actor)?;
         writer.add_network(&format!("{name}.critic"), &networks.critic)?;
     }
     writer.add_optimiser("actor", &agent.actor_optimiser)?;
     writer.add_optimiser("critic", &agent.critic_optimiser)?;
-    let held = replay.transitions();
-    let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
-    let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
-    let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
-    writer.add_f64("replay.views", &[held.len(), OBSERVATION_NUMBERS], &observations);
-    writer.add("replay.actions", &[held.len(), ACTIONS], &actions);
-    writer.add("replay.successes", &[held.len()], &successes);
     let inputs = trainer.task.hyperparameters.inputs();
-    if inputs.context {
-        let conditions: Vec<f32> =
-            held.iter().flat_map(|held| [held.conditions.venue as f32, held.conditions.errors]).collect();
-        writer.add("replay.conditions", &[held.len(), 2], &conditions);
+    add_shots(writer, "replay", &trainer.replay, inputs.context);
+    if trainer.task.hyperparameters.searched > 0 {
+        add_shots(writer, "searched", &trainer.searched, inputs.context);
     }
     note_of(&TrainerState {
         task: trainer.task.clone(),
@@ -78,7 +72,8 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
         rng: trainer.rng.clone(),
         actor_steps: agent.actor_optimiser.steps(),
         critic_steps: agent.critic_optimiser.steps(),
-        replay_next: replay.next(),
+        replay_next: trainer.replay.next(),
+        searched_next: trainer.searched.next(),
     })
 }
 
@@ -93,10 +88,9 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         return Err(WeightsError::Foreign);
     }
     let networks = |name: &str| -> Result<Networks, WeightsError> {
-        Ok(Networks {
-            actor: reader.network(&format!("{name}.actor"), inputs.actor())?,
-            critic: reader.network(&format!("{name}.critic"), inputs.critic())?,
-        })
+        let actor = reader.network(&format!("{name}.actor"), inputs.actor())?;
+        let critic = reader.network(&format!("{name}.critic"), inputs.critic())?;
+        Ok(Networks::new(&note.task.hyperparameters, actor, critic)?)
     };
     let (online, target) = (networks("online")?, networks("target")?);
     let hyper = &note.task.hyperparameters;
@@ -107,12 +101,13 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         online,
         target,
     };
-    let replay =
-        ReplayBuffer::restore(note.task.hyperparameters.replay, transitions(reader, inputs.context)?, note.replay_next);
+    let replay = ReplayBuffer::restore(hyper.replay, transitions(reader, "replay", inputs.context)?, note.replay_next);
+    let searched = if hyper.searched > 0 { transitions(reader, "searched", inputs.context)? } else { Vec::new() };
+    let searched = ReplayBuffer::restore(hyper.replay, searched, note.searched_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
     let table = Arc::new(table);
     let venues = Venues::new(&table, inputs, task.seed);
-    Ok(Trainer { task, table, venues, agent, replay, rng, shots, updates })
+    Ok(Trainer { task, table, venues, agent, replay, searched, rng, shots, updates })
 }
 
 fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
@@ -120,16 +115,33 @@ fn view_numbers(observation: &Observation) -> [f64; OBSERVATION_NUMBERS] {
     [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
 }
 
-fn transitions(reader: &Reader<'_>, context: bool) -> Result<Vec<Transition>, WeightsError> {
-    let observations = reader.array_f64("replay.views")?;
-    let ((_, actions), (_, successes)) = (reader.array("replay.actions")?, reader.array("replay.successes")?);
+fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer, context: bool) {
+    let held = shots.transitions();
+    let observations: Vec<f64> = held.iter().flat_map(|held| view_numbers(&held.observation)).collect();
+    let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
+    let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
+    writer.add_f64(format!("{name}.views"), &[held.len(), OBSERVATION_NUMBERS], &observations);
+    writer.add(format!("{name}.actions"), &[held.len(), ACTIONS], &actions);
+    writer.add(format!("{name}.successes"), &[held.len()], &successes);
+    if context {
+        let conditions: Vec<f32> =
+            held.iter().flat_map(|held| [held.conditions.venue as f32, held.conditions.errors]).collect();
+        writer.add(format!("{name}.conditions"), &[held.len(), 2], &conditions);
+    }
+}
+
+fn transitions(reader: &Reader<'_>, name: &str, context: bool) -> Result<Vec<Transition>, WeightsError> {
+    let [views, actions, successes, conditions] =
+        ["views", "actions", "successes", "conditions"].map(|what| format!("{name}.{what}"));
+    let observations = reader.array_f64(&views)?;
+    let ((_, actions), (_, successes)) = (reader.array(&actions)?, reader.array(&successes)?);
     let (observations, actions) = (observations.as_chunks::<OBSERVATION_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
     // Without a context all shots have the same conditions.
-    let conditions = if context { reader.array("replay.conditions")?.1 } else { vec![0.0; 2 * successes.len()] };
+    let conditions = if context { reader.array(&conditions)?.1 } else { vec![0.0; 2 * successes.len()] };
     let conditions = conditions.as_chunks::<2>().0;
     if [observations.len(), actions.len(), conditions.len()] != [successes.len(); 3] {
         let expected = format!("{} shots", successes.len());
-        return Err(WeightsError::Array { name: "replay.views".to_owned(), expected });
+        return Err(WeightsError::Array { name: views, expected });
     }
     let shots = observations.iter().zip(actions).zip(conditions).zip(successes);
     Ok(shots
@@ -159,6 +171,8 @@ mod tests {
         with_context.hyperparameters.context = true;
         with_context.hyperparameters.ranking = 0.5;
         with_context.hyperparameters.saturation_penalty = 0.01;
+        with_context.hyperparameters.searched = 1;
+        with_context.hyperparameters.imitation = 0.5;
         for task in [small_task(), with_context] {
             let [mut whole, mut parts] = [0; 2].map(|_| Trainer::new(task.clone(), Table::default()).unwrap());
             for _ in 0..5 {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     action::ActionSpace,
-    agent::Ddpg,
+    agent::{Ddpg, ShotBatch},
     hyperparameters::Hyperparameters,
     observation_batch::ObservationBatch,
     policy::{Policy, file::Origin},
@@ -39,6 +39,8 @@ pub struct Trainer {
     pub(super) venues: Venues,
     pub(super) agent: Ddpg,
     pub(super) replay: ReplayBuffer,
+    /// The best strokes that searches have found.
+    pub(super) searched: ReplayBuffer,
     pub(super) rng: Xoshiro256PlusPlus,
     pub(super) shots: u64,
     pub(super) updates: u64,
@@ -52,10 +54,10 @@ impl Trainer {
     pub fn new(task: Task, table: Table) -> Result<Self> {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.seed);
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;
-        let replay = ReplayBuffer::new(task.hyperparameters.replay);
+        let [replay, searched] = [(); 2].map(|()| ReplayBuffer::new(task.hyperparameters.replay));
         let table = Arc::new(table);
         let venues = Venues::new(&table, task.hyperparameters.inputs(), task.seed);
-        Ok(Self { task, table, venues, agent, replay, rng, shots: 0, updates: 0 })
+        Ok(Self { task, table, venues, agent, replay, searched, rng, shots: 0, updates: 0 })
     }
 
     /// Shots played so far.
@@ -119,17 +121,26 @@ impl Trainer {
         if self.replay.is_empty() {
             return Ok(Iteration { mean_reward, ..Iteration::default() });
         }
-        let batch = self.replay.sample(self.task.hyperparameters.batch, &mut self.rng);
-        let seen = |transition: &Transition| self.venues.seen(transition.observation, transition.conditions);
-        let seen: Vec<_> = batch.iter().map(seen).collect();
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), &seen)?;
-        let actions: Vec<_> = batch.iter().map(|transition| transition.action).collect();
-        let successes: Vec<_> = batch.iter().map(|transition| transition.success).collect();
-        let losses = self.agent.update(&observed, &actions, &successes, lr_factor)?;
+        let hyper = &self.task.hyperparameters;
+        let (batch, imitated) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
+        let played = self.replay.sample(batch, &mut self.rng);
+        let searched = self.searched.sample(imitated, &mut self.rng);
+        let [played, searched] = [played, searched].map(|shots| self.batch(&shots));
+        let losses = self.agent.update(&played?, Some(&searched?).filter(|shots| !shots.is_empty()), lr_factor)?;
         self.updates += 1;
         // What the actor climbs is the critic's mean value of its actions.
         let q_value = -losses.actor;
         Ok(Iteration { mean_reward, q_value, critic_loss: losses.critic, actor_loss: Some(losses.actor) })
+    }
+
+    /// Shots as the agent learns from them.
+    fn batch(&self, shots: &[Transition]) -> Result<ShotBatch> {
+        let seen: Vec<_> = shots.iter().map(|shot| self.venues.seen(shot.observation, shot.conditions)).collect();
+        Ok(ShotBatch {
+            observed: ObservationBatch::new(self.task.hyperparameters.inputs(), &seen)?,
+            actions: shots.iter().map(|shot| shot.action).collect(),
+            successes: shots.iter().map(|shot| shot.success).collect(),
+        })
     }
 
     /// Part of the first learning rates that is left: half a cosine from 1 at the first shot to 0 at the last.

@@ -99,9 +99,14 @@ impl Venues {
             return Conditions::default();
         }
         let venue = rng.random_range(0..self.0.len()) as u32;
-        let [least, most] = ERRORS.map(f64::ln);
-        let errors = if rng.random_bool(PERFECT) { 0.0 } else { rng.random_range(least..most).exp() as f32 };
+        let errors = if rng.random_bool(PERFECT) { 0.0 } else { Self::errors(rng) };
         Conditions { venue, errors }
+    }
+
+    /// The errors of a player who errs, as a multiple of an expert's.
+    pub fn errors(rng: &mut (impl Rng + ?Sized)) -> f32 {
+        let [least, most] = ERRORS.map(f64::ln);
+        rng.random_range(least..most).exp() as f32
     }
 
     /// The table that is told under these conditions.

@@ -161,7 +161,8 @@ impl Policy {
         .map_err(content)?;
         let one = |outputs| outputs == 1;
         let critic = network("critic", inputs.critic(), &one, "a network with one output").map_err(content)?;
-        Ok(Self { networks: Networks { actor, critic }, origin })
+        let networks = Networks::new(&origin.hyperparameters, actor, critic).map_err(|error| content(error.into()))?;
+        Ok(Self { networks, origin })
     }
 
     /// Writes the policy to a file, whole or not at all.

@@ -1,0 +1,183 @@
+//! The expert of expert iteration (Anthony et al. 2017): from the networks' proposals and strokes here and there, a race on the
+//! simulator finds strokes that the player makes more often than any that was proposed.
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+use super::{
+    action::{ACTIONS, Action, ActionSpace, aim_at, speed_of},
+    observation::{OBSERVATIONS, Observation},
+    replay::Transition,
+    venues::{Conditions, Venues},
+};
+use crate::{game::Reward, statistics::normal_pair, table::Layout};
+
+/// Strokes of its own that the expert tries beside the networks' proposals.
+const TRIED: usize = 96;
+
+/// Attempts at each stroke in the rounds of the race, and how many strokes stay for the next.
+const ROUNDS: [(usize, usize); 3] = [(4, 24), (16, 6), (48, 4)];
+
+/// Strokes beside each that is left, and how far from it they are: standard deviations in halves of an action's range.
+const NEIGHBOURS: usize = 6;
+const STEPS: [f32; 3] = [0.12, 0.06, 0.03];
+
+/// Mean and standard deviation of the offset in diameters and of the logarithm of the speed in m/s: so are the strokes that players
+/// make most often.
+const OFFSET: [f64; 2] = [0.55, 0.3];
+const LOG_SPEED: [f64; 2] = [0.85, 0.5];
+
+/// Lowest place of the tip, as the action has it: hardly any of those strokes is struck lower.
+const LOWEST: f32 = -0.3;
+
+/// Where and by whom strokes are tried.
+#[derive(Clone, Copy, Debug)]
+pub struct Expert<'a> {
+    /// Where runs are played.
+    pub venues: &'a Venues,
+    /// What earns a reward.
+    pub reward: Reward,
+    /// What the actions mean.
+    pub space: ActionSpace,
+    /// The balls.
+    pub layout: &'a Layout,
+    /// Who plays on which table.
+    pub conditions: Conditions,
+}
+
+/// A stroke in the race.
+#[derive(Clone, Copy, Debug)]
+struct Runner {
+    observation: Observation,
+    action: Action,
+    earned: f64,
+    attempts: usize,
+}
+
+impl Runner {
+    fn mean(&self) -> f64 {
+        self.earned / self.attempts.max(1) as f64
+    }
+}
+
+impl Expert<'_> {
+    /// Strokes that went far in the race that began with `proposals`, each with the share of attempts in which it was made; the first
+    /// one won it, and its share is of attempts that did not decide the race. None where no stroke ever earned anything.
+    pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Vec<Transition> {
+        let seed = rng.random();
+        let mut runners: Vec<Runner> =
+            proposals.iter().map(|&(observation, action)| begin(observation, action)).collect();
+        runners.extend((0..TRIED).map(|_| {
+            let observation = Observation::new(self.layout, rng.random_range(0..OBSERVATIONS));
+            begin(observation, self.stroke(rng))
+        }));
+        let mut seen = Vec::new();
+        for (attempts, left) in ROUNDS {
+            self.race(&mut runners, attempts, seed);
+            seen.extend(runners.iter().skip(left).filter(|runner| runner.attempts >= ROUNDS[1].0));
+            runners.truncate(left);
+        }
+        for step in STEPS {
+            let parents = runners.clone();
+            let mut children: Vec<Runner> = parents
+                .iter()
+                .flat_map(|parent| [parent; NEIGHBOURS])
+                .map(|parent| begin(parent.observation, self.beside(parent.action, step, rng)))
+                .collect();
+            self.race(&mut children, ROUNDS[1].0, seed);
+            children.truncate(ROUNDS[1].1);
+            runners.extend(children);
+            self.race(&mut runners, ROUNDS[2].0, seed);
+            seen.extend(runners.iter().skip(ROUNDS[2].1));
+            runners.truncate(ROUNDS[2].1);
+        }
+        let Some(winner) = runners.first().filter(|winner| winner.earned > 0.0) else { return Vec::new() };
+        let mut again = [begin(winner.observation, winner.action)];
+        self.race(&mut again, ROUNDS[2].0, !seed);
+        again.iter().chain(&runners[1..]).chain(&seen).map(|runner| self.transition(runner)).collect()
+    }
+
+    /// Makes attempts at every stroke until each has so many, with the same errors for all, and puts the best first.
+    fn race(&self, runners: &mut [Runner], attempts: usize, seed: u64) {
+        for runner in runners.iter_mut() {
+            for attempt in runner.attempts..attempts {
+                let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(attempt as u64));
+                let shot = (&runner.observation, runner.action);
+                runner.earned += self.venues.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
+            }
+            runner.attempts = runner.attempts.max(attempts);
+        }
+        runners.sort_by(|a, b| b.mean().total_cmp(&a.mean()));
+    }
+
+    /// A stroke as players choose it.
+    fn stroke(&self, rng: &mut (impl Rng + ?Sized)) -> Action {
+        let [aside, faster] = normal_pair(rng);
+        let offset = (OFFSET[0] + OFFSET[1] * aside).clamp(-0.1, 1.0);
+        let speed = (LOG_SPEED[0] + LOG_SPEED[1] * faster).exp();
+        let all = [
+            aim_at(offset),
+            speed_of(speed).clamp(-1.0, 1.0),
+            rng.random_range(-1.0..=1.0),
+            rng.random_range(LOWEST..=1.0),
+            -1.0,
+        ];
+        self.used(all)
+    }
+
+    fn beside(&self, action: Action, step: f32, rng: &mut (impl Rng + ?Sized)) -> Action {
+        let [[a, b], [c, d]] = [normal_pair(rng), normal_pair(rng)];
+        let mut near = action;
+        for (value, normal) in near.iter_mut().zip([a, b, c, d]) {
+            *value = (*value + step * normal as f32).clamp(-1.0, 1.0);
+        }
+        self.used(near)
+    }
+
+    /// The numbers that the space uses, the others nought.
+    fn used(&self, mut action: Action) -> Action {
+        action[self.space.actions()..ACTIONS].fill(0.0);
+        action
+    }
+
+    fn transition(&self, runner: &Runner) -> Transition {
+        let success = (runner.mean() / self.reward.highest()) as f32;
+        Transition { observation: runner.observation, conditions: self.conditions, action: runner.action, success }
+    }
+}
+
+const fn begin(observation: Observation, action: Action) -> Runner {
+    Runner { observation, action, earned: 0.0, attempts: 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{learning::ddpg::context::Inputs, table::Table};
+    use std::sync::Arc;
+
+    #[test]
+    fn what_the_expert_finds_is_made_more_often_than_what_was_proposed() {
+        let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
+        let inputs = Inputs { space: ActionSpace::Full, context: true, closed_form: true };
+        let venues = Venues::new(&table, inputs, 1);
+        let reward = Reward::R3;
+        let [mut proposed, mut found] = [0.0; 2];
+        for _ in 0..12 {
+            let layout = Layout::random(&table, &mut rng);
+            let conditions = Conditions { venue: 0, errors: 3.7 };
+            let expert = Expert { venues: &venues, reward, space: ActionSpace::Full, layout: &layout, conditions };
+            let proposal = begin(Observation::new(&layout, 0), expert.stroke(&mut rng));
+            let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng);
+            let winner = strokes.first().unwrap();
+            let mut again = [proposal, begin(winner.observation, winner.action)];
+            expert.race(&mut again[..1], 100, 7);
+            expert.race(&mut again[1..], 100, 7);
+            proposed += again[0].mean();
+            found += again[1].mean();
+            // What is said of the winner holds.
+            assert!((again[1].mean() - f64::from(winner.success)).abs() < 0.35, "{winner:?} {:?}", again[1]);
+        }
+        assert!(found > 5.0 && found > proposed + 3.0, "{found} found, {proposed} proposed, of 12");
+    }
+}
