@@ -18,6 +18,9 @@ const TRIED: usize = 96;
 /// Attempts at each stroke in the rounds of the race, and how many strokes stay for the next.
 const ROUNDS: [(usize, usize); 3] = [(4, 24), (16, 6), (48, 4)];
 
+/// Attempts by which the strokes that did not win are remembered.
+const AGAIN: usize = 8;
+
 /// Strokes beside each that is left, and how far from it they are: standard deviations in halves of an action's range.
 const NEIGHBOURS: usize = 6;
 const STEPS: [f32; 3] = [0.12, 0.06, 0.03];
@@ -61,8 +64,8 @@ impl Runner {
 }
 
 impl Expert<'_> {
-    /// Strokes that went far in the race that began with `proposals`, each with the share of attempts in which it was made; the first
-    /// one won it, and its share is of attempts that did not decide the race. None where no stroke ever earned anything.
+    /// Strokes that went far in the race that began with `proposals`, the first one won it. Each has the share of attempts in which it
+    /// was made, attempts that did not decide the race: what wins has had luck. None where no stroke ever earned anything.
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Vec<Transition> {
         let seed = rng.random();
         let mut runners: Vec<Runner> =
@@ -92,9 +95,13 @@ impl Expert<'_> {
             runners.truncate(ROUNDS[2].1);
         }
         let Some(winner) = runners.first().filter(|winner| winner.earned > 0.0) else { return Vec::new() };
-        let mut again = [begin(winner.observation, winner.action)];
-        self.race(&mut again, ROUNDS[2].0, !seed);
-        again.iter().chain(&runners[1..]).chain(&seen).map(|runner| self.transition(runner)).collect()
+        let again = |runner: &Runner, attempts| {
+            let mut again = [begin(runner.observation, runner.action)];
+            self.race(&mut again, attempts, !seed);
+            self.transition(&again[0])
+        };
+        let others = runners[1..].iter().chain(&seen).map(|runner| again(runner, AGAIN));
+        std::iter::once(again(winner, ROUNDS[2].0)).chain(others).collect()
     }
 
     /// Makes attempts at every stroke until each has so many, with the same errors for all, and puts the best first.
