@@ -55,12 +55,35 @@ train thesis-three-cushion-third --from "$folder/thesis-three-cushion-second" --
 train thesis-three-cushion --from "$folder/thesis-three-cushion-third" --seed 96 --steps 4000000 $lowest
 # Networks that know the table and the player. They take the critics of those above and begin with actors of their own.
 context() {
-    train "$@" --set context=true --set ranking=0.6 --set critic_chooses=0.15 --set saturation_penalty=0.1 --set attempts=8 --set new_actor=true
+    name=$1
+    shift
+    train "$name" --set context=true --set ranking=0.6 --set critic_chooses=0.15 --set saturation_penalty=0.1 --set attempts=8 --set new_actor=true "$@"
 }
 wide="exploration={ noise = [0.015, 0.05, 0.2], uniform = 0.05 }"
+rate="--set critic_learning_rate=0.0012"
 # Stopped by hand after 1,239,360 shots.
 context context-three-cushion-first --from "$folder/match-three-cushion-fifth" --seed 72 --steps 3500000 --set "$wide"
-context context-three-cushion --from "$folder/context-three-cushion-first" --seed 81 --steps 17000000 --set critic_learning_rate=0.0012
-context context-r3 --from "$folder/match-r3-fifth" --seed 82 --steps 8000000 --set critic_learning_rate=0.0012
+context context-three-cushion-second --from "$folder/context-three-cushion-first" --seed 81 --steps 17000000 $rate
+context context-r3-first --from "$folder/match-r3-fifth" --seed 82 --steps 8000000 $rate
 # Stopped by hand after 4,570,176 shots.
-context context-one-cushion --from "$folder/match-one-cushion-fourth" --seed 83 --steps 5500000 --set critic_learning_rate=0.0012
+context context-one-cushion --from "$folder/match-one-cushion-fourth" --seed 83 --steps 5500000 $rate
+# Heads with speeds of their own; then expert iteration, in which a search shows what players who err make most often; then without a
+# search, so that the critic learns to choose: at three cushions it alone, for there the actor went back to harder strokes.
+heads="$rate --set heads=9 --set actor_batch=64"
+expert="--set ranking=0.4 --set searched=2 --set imitation=0.3"
+choice="--set new_actor=false --set searched=0 --set imitation=0"
+critic="--set ranking=0.7 --set critic_learning_rate=0.0013 --set actor_learning_rate=0.000000001 --set actor_batch=1"
+both="--set ranking=0.6 --set critic_learning_rate=0.0011 --set actor_learning_rate=0.0003"
+# Stopped by hand after 6,573,888 shots.
+context context-three-cushion-third --from "$folder/context-three-cushion-second" --seed 101 --steps 12000000 $heads --set ranking=0.5 \
+    --set "head_speeds=[[1.2, 2.6], [2.2, 4.0], [3.5, 6.0]]"
+context context-r3-second --from "$folder/context-r3-first" --seed 102 --steps 7000000 $heads --set ranking=0.5 \
+    --set "head_speeds=[[0.3, 2.0], [1.4, 3.6], [2.8, 6.0]]"
+# The first 1.7 and 1.8 million shots of the next two were played with a version that remembered a search's strokes by the attempts that
+# decided its race. The first was stopped by hand after 3,395,904 shots.
+speeds="head_speeds=[[0.8, 2.6], [1.8, 4.2], [3.0, 6.0]]"
+context context-three-cushion-fourth --from "$folder/context-three-cushion-third" --seed 111 --steps 8000000 $heads $expert --set "$speeds"
+context context-three-cushion --from "$folder/context-three-cushion-fourth" --seed 141 --steps 4200000 $heads $choice $critic --set "$speeds"
+speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
+context context-r3-third --from "$folder/context-r3-second" --seed 112 --steps 3400000 $heads $expert --set "$speeds"
+context context-r3 --from "$folder/context-r3-third" --seed 132 --steps 3900000 $heads $choice $both --set "$speeds"

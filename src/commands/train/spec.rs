@@ -41,7 +41,12 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
         (None, None) => table_named("match")?,
     };
     // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
-    let known = weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
+    let mut known =
+        weights.as_ref().filter(|weights| weights.start.agent == agent).map(|weights| weights.settings.clone());
+    // That an actor began anew was about that start, not about those that follow.
+    if let Some(Value::Object(settings)) = &mut known {
+        settings.remove("new_actor");
+    }
     let settings = settings(args.config.as_deref(), &args.set, known)?;
     let layouts = args.evaluation_layouts as usize;
     let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);

@@ -76,6 +76,15 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     done(here, "train --config small.toml --reward r1 --steps 64 --evaluation-layouts 20 --table thesis --run none");
     assert!(policy("of-run") != policy("none"));
 
+    let short = "--reward r1 --steps 64 --evaluation-layouts 20";
+    done(here, &format!("train --from one --set new_actor=true {short} --run anew"));
+    done(here, &format!("train --from anew {short} --run on"));
+    let begins_anew = |run| config(run)["settings"]["new_actor"] == true;
+    assert!(
+        begins_anew("anew") && !begins_anew("on"),
+        "an actor that began anew does not do so with every run that follows"
+    );
+
     fs::write(here.join("large.toml"), "critic_layers = [24]").unwrap();
     let large = carom(here, "train --from one --config large.toml --run large");
     assert_eq!(large.code, Some(2));
