@@ -58,6 +58,10 @@ struct Runner {
 }
 
 impl Runner {
+    const fn new(observation: Observation, action: Action) -> Self {
+        Self { observation, action, earned: 0.0, attempts: 0 }
+    }
+
     fn mean(&self) -> f64 {
         self.earned / self.attempts.max(1) as f64
     }
@@ -69,10 +73,10 @@ impl Expert<'_> {
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Vec<Transition> {
         let seed = rng.random();
         let mut runners: Vec<Runner> =
-            proposals.iter().map(|&(observation, action)| begin(observation, action)).collect();
+            proposals.iter().map(|&(observation, action)| Runner::new(observation, action)).collect();
         runners.extend((0..TRIED).map(|_| {
             let observation = Observation::new(self.layout, rng.random_range(0..OBSERVATIONS));
-            begin(observation, self.stroke(rng))
+            Runner::new(observation, self.stroke(rng))
         }));
         let mut seen = Vec::new();
         for (attempts, left) in ROUNDS {
@@ -85,7 +89,7 @@ impl Expert<'_> {
             let mut children: Vec<Runner> = parents
                 .iter()
                 .flat_map(|parent| [parent; NEIGHBOURS])
-                .map(|parent| begin(parent.observation, self.beside(parent.action, step, rng)))
+                .map(|parent| Runner::new(parent.observation, self.beside(parent.action, step, rng)))
                 .collect();
             self.race(&mut children, ROUNDS[1].0, seed);
             children.truncate(ROUNDS[1].1);
@@ -96,7 +100,7 @@ impl Expert<'_> {
         }
         let Some(winner) = runners.first().filter(|winner| winner.earned > 0.0) else { return Vec::new() };
         let again = |runner: &Runner, attempts| {
-            let mut again = [begin(runner.observation, runner.action)];
+            let mut again = [Runner::new(runner.observation, runner.action)];
             self.race(&mut again, attempts, !seed);
             self.transition(&again[0])
         };
@@ -120,11 +124,9 @@ impl Expert<'_> {
     /// A stroke as players choose it.
     fn stroke(&self, rng: &mut (impl Rng + ?Sized)) -> Action {
         let [aside, faster] = normal_pair(rng);
-        let offset = (OFFSET[0] + OFFSET[1] * aside).clamp(-0.1, 1.0);
-        let speed = (LOG_SPEED[0] + LOG_SPEED[1] * faster).exp();
         let all = [
-            aim_at(offset),
-            speed_of(speed).clamp(-1.0, 1.0),
+            aim_at(OFFSET[0] + OFFSET[1] * aside).clamp(-1.0, 1.0),
+            speed_of((LOG_SPEED[0] + LOG_SPEED[1] * faster).exp()).clamp(-1.0, 1.0),
             rng.random_range(-1.0..=1.0),
             rng.random_range(LOWEST..=1.0),
             -1.0,
@@ -153,10 +155,6 @@ impl Expert<'_> {
     }
 }
 
-const fn begin(observation: Observation, action: Action) -> Runner {
-    Runner { observation, action, earned: 0.0, attempts: 0 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -174,10 +172,10 @@ mod tests {
             let layout = Layout::random(&table, &mut rng);
             let conditions = Conditions { venue: 0, errors: 3.7 };
             let expert = Expert { venues: &venues, reward, space: ActionSpace::Full, layout: &layout, conditions };
-            let proposal = begin(Observation::new(&layout, 0), expert.stroke(&mut rng));
+            let proposal = Runner::new(Observation::new(&layout, 0), expert.stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng);
             let winner = strokes.first().unwrap();
-            let mut again = [proposal, begin(winner.observation, winner.action)];
+            let mut again = [proposal, Runner::new(winner.observation, winner.action)];
             expert.race(&mut again[..1], 100, 7);
             expert.race(&mut again[1..], 100, 7);
             proposed += again[0].mean();
